@@ -1,0 +1,14 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 the Stucco authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Configures and builds a preset (dev unless named): scripts/build.sh [PRESET] [TARGET...]
+set -eu
+cd "$(dirname "$0")/.."
+preset=${1:-dev}
+[ $# -eq 0 ] || shift
+launcher=
+if command -v ccache >/dev/null 2>&1; then
+  launcher=-DCMAKE_CXX_COMPILER_LAUNCHER=ccache
+fi
+cmake --preset "$preset" $launcher >&2
+cmake --build --preset "$preset" ${1:+--target "$@"} >&2
