@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/calibration.h"
+
+#include "survey/internal/json.h"
+
+namespace stucco {
+
+template <typename Archive, internal::Is<CalibratedPhoto> T>
+static void Fields(Archive& archive, T& photo) {
+  archive.Required("path", photo.path);
+  archive.Required("reprojection_error_px", photo.reprojection_error_px);
+  archive.Required("observations", photo.observations);
+  archive.Optional("prior_residual_m", photo.prior_residual_m);
+  archive.Optional("prior_outlier", photo.prior_outlier);
+  archive.Optional("coverage", photo.coverage);
+}
+
+template <typename Archive, internal::Is<UnposedPhoto> T>
+static void Fields(Archive& archive, T& photo) {
+  archive.Required("path", photo.path);
+  archive.Required("why", photo.why);
+}
+
+template <typename Archive, internal::Is<CalibratedCamera> T>
+static void Fields(Archive& archive, T& camera) {
+  archive.Required("id", camera.id);
+  archive.Optional("label", camera.label);
+  archive.Required("model", camera.model);
+  archive.Required("names", camera.names);
+  archive.Required("params", camera.params);
+  archive.Optional("sigma", camera.sigma);
+  archive.Optional("held", camera.held);
+}
+
+template <typename Archive, internal::Is<Calibration> T>
+static void Fields(Archive& archive, T& calibration) {
+  archive.Required("photos_total", calibration.photos_total);
+  archive.Required("photos_posed", calibration.photos_posed);
+  archive.Required("reprojection_error_px", calibration.reprojection_error_px);
+  archive.Required("points", calibration.points);
+  archive.Required("mean_track_length", calibration.mean_track_length);
+  archive.Group("prior_rms_m", [&](auto& group) {
+    group.Required("horizontal", calibration.prior_rms_horizontal_m);
+    group.Required("vertical", calibration.prior_rms_vertical_m);
+  });
+  archive.Required("photos", calibration.photos);
+  archive.Required("unposed", calibration.unposed);
+  archive.Required("cameras", calibration.cameras);
+  archive.Optional("findings", calibration.findings);
+}
+
+Calibration ReadCalibration(const std::filesystem::path& path) {
+  return internal::ReadJsonFile<Calibration>(path);
+}
+
+void WriteCalibration(const Calibration& calibration, const std::filesystem::path& path) {
+  internal::WriteJsonFile(calibration, path);
+}
+
+}  // namespace stucco

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace stucco {
+
+// calib/calibration.json: what calibration knows about its own result.
+struct CalibratedPhoto {
+  std::string path;
+  double reprojection_error_px = 0;
+  int observations = 0;
+  double prior_residual_m = -1;  // distance to its GPS position; -1: none
+  bool prior_outlier = false;
+  double coverage = 0;  // share of a 10 x 10 grid over the image with observations
+};
+
+struct UnposedPhoto {
+  std::string path;
+  std::string why;
+};
+
+struct CalibratedCamera {
+  int id = 0;
+  std::string label;
+  std::string model;
+  std::vector<std::string> names;
+  std::vector<double> params;
+  std::vector<double> sigma;  // one standard deviation; 0: held fixed; empty: not computed
+  std::vector<std::string>
+      held;  // parameters that the photos could not determine or that were given
+};
+
+struct Calibration {
+  int photos_total = 0;
+  int photos_posed = 0;
+  double reprojection_error_px = 0;
+  int points = 0;
+  double mean_track_length = 0;
+  double prior_rms_horizontal_m = -1;  // -1: no positions
+  double prior_rms_vertical_m = -1;
+  std::vector<CalibratedPhoto> photos;
+  std::vector<UnposedPhoto> unposed;
+  std::vector<CalibratedCamera> cameras;
+  std::vector<std::string> findings;  // "6 photos were taken from one point (rotation only) ..."
+};
+
+// Throws Error (kBadInput).
+Calibration ReadCalibration(const std::filesystem::path& path);
+void WriteCalibration(const Calibration& calibration, const std::filesystem::path& path);
+
+}  // namespace stucco

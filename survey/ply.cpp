@@ -1,0 +1,411 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/internal/bytes.h"
+#include "survey/internal/output_file.h"
+#include "survey/internal/text.h"
+#include "survey/point_cloud.h"
+
+// PLY, "The Stanford Triangle Format" (Turk 1994).
+namespace stucco {
+namespace {
+
+enum class Scalar { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
+
+struct ScalarName {
+  std::string_view name;
+  Scalar scalar;
+};
+
+constexpr std::array<ScalarName, 16> kScalarNames = {{
+    {"char", Scalar::kInt8},
+    {"int8", Scalar::kInt8},
+    {"uchar", Scalar::kUint8},
+    {"uint8", Scalar::kUint8},
+    {"short", Scalar::kInt16},
+    {"int16", Scalar::kInt16},
+    {"ushort", Scalar::kUint16},
+    {"uint16", Scalar::kUint16},
+    {"int", Scalar::kInt32},
+    {"int32", Scalar::kInt32},
+    {"uint", Scalar::kUint32},
+    {"uint32", Scalar::kUint32},
+    {"float", Scalar::kFloat},
+    {"float32", Scalar::kFloat},
+    {"double", Scalar::kDouble},
+    {"float64", Scalar::kDouble},
+}};
+
+size_t SizeOf(Scalar scalar) {
+  switch (scalar) {
+    case Scalar::kInt8:
+    case Scalar::kUint8:
+      return 1;
+    case Scalar::kInt16:
+    case Scalar::kUint16:
+      return 2;
+    case Scalar::kInt32:
+    case Scalar::kUint32:
+    case Scalar::kFloat:
+      return 4;
+    case Scalar::kDouble:
+      return 8;
+  }
+  return 0;
+}
+
+struct Property {
+  std::string name;
+  Scalar type = Scalar::kFloat;
+  bool is_list = false;
+  Scalar count_type = Scalar::kUint8;
+};
+
+struct Element {
+  std::string name;
+  uint64_t count = 0;
+  std::vector<Property> properties;
+};
+
+enum class Encoding { kAscii, kLittleEndian, kBigEndian };
+
+struct Header {
+  Encoding encoding = Encoding::kAscii;
+  std::vector<Element> elements;
+};
+
+[[noreturn]] void Fail(const std::string& file, const std::string& reason) {
+  throw Error(ErrorKind::kBadInput, fmt::format("{}: damaged PLY: {}", file, reason),
+              "write the file again with the program it came from");
+}
+
+Scalar ParseScalar(std::string_view word, const std::string& file) {
+  const auto found = std::ranges::find(kScalarNames, word, &ScalarName::name);
+  if (found == kScalarNames.end()) Fail(file, fmt::format("unknown type \"{}\"", word));
+  return found->scalar;
+}
+
+Encoding ParseEncoding(std::string_view word, const std::string& file) {
+  if (word == "ascii") return Encoding::kAscii;
+  if (word == "binary_little_endian") return Encoding::kLittleEndian;
+  if (word == "binary_big_endian") return Encoding::kBigEndian;
+  Fail(file, fmt::format("unknown format \"{}\"", word));
+}
+
+Property ParseProperty(std::string_view line, const std::string& file) {
+  Property property;
+  std::string_view word = internal::TakeWord(line);
+  if (word == "list") {
+    property.is_list = true;
+    property.count_type = ParseScalar(internal::TakeWord(line), file);
+    word = internal::TakeWord(line);
+  }
+  property.type = ParseScalar(word, file);
+  property.name = internal::TakeWord(line);
+  return property;
+}
+
+// Takes the header off the front of `bytes`.
+Header TakeHeader(std::string_view& bytes, const std::string& file) {
+  if (internal::TakeLine(bytes) != "ply") Fail(file, "does not begin with \"ply\"");
+  Header header;
+  bool has_format = false;
+  while (auto line = internal::TakeLine(bytes)) {
+    const std::string_view word = internal::TakeWord(*line);
+    if (word == "end_header") {
+      if (!has_format) Fail(file, "has no line \"format\"");
+      return header;
+    }
+    if (word == "format") {
+      header.encoding = ParseEncoding(internal::TakeWord(*line), file);
+      has_format = true;
+    } else if (word == "element") {
+      Element& element = header.elements.emplace_back();
+      element.name = internal::TakeWord(*line);
+      const auto count = internal::ParseNumber<uint64_t>(internal::TakeWord(*line));
+      if (!count) Fail(file, fmt::format("element \"{}\" has no count", element.name));
+      element.count = *count;
+    } else if (word == "property") {
+      if (header.elements.empty()) Fail(file, "a property comes before the first element");
+      header.elements.back().properties.push_back(ParseProperty(*line, file));
+    } else if (word != "comment" && word != "obj_info" && !word.empty()) {
+      Fail(file, fmt::format("unknown line \"{}\" in the header", word));
+    }
+  }
+  Fail(file, "has no line \"end_header\"");
+}
+
+// The values of the body one after another. A double holds every PLY scalar exactly.
+class Body {
+ public:
+  Body(std::string_view bytes, Encoding encoding, const std::string& file)
+      : bytes_(bytes), encoding_(encoding), file_(file) {}
+
+  double Next(Scalar type) {
+    if (encoding_ == Encoding::kAscii) return NextWord();
+    const size_t size = SizeOf(type);
+    if (bytes_.size() < size) Fail(file_, "ends too early");
+    std::array<char, 8> raw{};
+    std::copy_n(bytes_.begin(), size, raw.begin());
+    bytes_.remove_prefix(size);
+    if (encoding_ == Encoding::kBigEndian) std::reverse(raw.begin(), raw.begin() + size);
+    return Convert(type, raw.data());
+  }
+
+  // Length of a list, of which each entry must still be there.
+  size_t NextLength(const Property& list) {
+    const double length = Next(list.count_type);
+    if (!(length >= 0) || length != std::floor(length) ||
+        length > static_cast<double>(bytes_.size() / MinBytes(list.type))) {
+      Fail(file_, fmt::format("list \"{}\" is of length {}", list.name, length));
+    }
+    return static_cast<size_t>(length);
+  }
+
+  // A count in the header is believed only as far as the file has bytes for it.
+  void CheckHolds(const Element& element) const {
+    size_t row = 0;
+    for (const Property& property : element.properties) {
+      row += MinBytes(property.is_list ? property.count_type : property.type);
+    }
+    if (row == 0) {
+      Fail(file_, fmt::format("element \"{}\" has no properties", element.name));
+    }
+    // The last ASCII number needs no blank after it.
+    if (element.count > (bytes_.size() + 1) / row) {
+      Fail(file_, fmt::format("{} bytes cannot hold the {} \"{}\" that the header promises",
+                              bytes_.size(), element.count, element.name));
+    }
+  }
+
+ private:
+  // An ASCII number takes a digit and a blank.
+  size_t MinBytes(Scalar type) const { return encoding_ == Encoding::kAscii ? 2 : SizeOf(type); }
+
+  double NextWord() {
+    const std::string_view word = internal::TakeWord(bytes_);
+    if (word.empty()) Fail(file_, "ends too early");
+    const auto number = internal::ParseNumber<double>(word);
+    if (!number) Fail(file_, fmt::format("\"{}\" is not a number", word));
+    return *number;
+  }
+
+  static double Convert(Scalar type, const char* raw) {
+    switch (type) {
+      case Scalar::kInt8:
+        return internal::LoadLittleEndian<int8_t>(raw);
+      case Scalar::kUint8:
+        return internal::LoadLittleEndian<uint8_t>(raw);
+      case Scalar::kInt16:
+        return internal::LoadLittleEndian<int16_t>(raw);
+      case Scalar::kUint16:
+        return internal::LoadLittleEndian<uint16_t>(raw);
+      case Scalar::kInt32:
+        return internal::LoadLittleEndian<int32_t>(raw);
+      case Scalar::kUint32:
+        return internal::LoadLittleEndian<uint32_t>(raw);
+      case Scalar::kFloat:
+        return internal::LoadLittleEndian<float>(raw);
+      case Scalar::kDouble:
+        return internal::LoadLittleEndian<double>(raw);
+    }
+    return 0;
+  }
+
+  std::string_view bytes_;
+  Encoding encoding_;
+  const std::string& file_;
+};
+
+void SkipElement(Body& body, const Element& element) {
+  if (element.count == 0) return;
+  body.CheckHolds(element);
+  for (uint64_t row = 0; row < element.count; ++row) {
+    for (const Property& property : element.properties) {
+      const size_t values = property.is_list ? body.NextLength(property) : 1;
+      for (size_t i = 0; i < values; ++i) body.Next(property.type);
+    }
+  }
+}
+
+// What a vertex property means to us.
+enum class Meaning { kX, kY, kZ, kNx, kNy, kNz, kRed, kGreen, kBlue, kViews, kOther };
+
+Meaning MeaningOf(const Property& property) {
+  if (property.is_list) {
+    return property.name == "view_indices" ? Meaning::kViews : Meaning::kOther;
+  }
+  constexpr std::array<std::string_view, 9> kNames = {"x",  "y",   "z",     "nx",  "ny",
+                                                      "nz", "red", "green", "blue"};
+  const auto found = std::ranges::find(kNames, property.name);
+  return found == kNames.end() ? Meaning::kOther : static_cast<Meaning>(found - kNames.begin());
+}
+
+uint8_t ColorByte(double value, Scalar type) {
+  // Some programs write colours as floats from 0 to 1.
+  const bool is_share = type == Scalar::kFloat || type == Scalar::kDouble;
+  const double byte = std::round(is_share ? value * 255 : value);
+  return static_cast<uint8_t>(byte >= 0 ? std::min(byte, 255.0) : 0.0);  // NaN becomes 0
+}
+
+uint32_t PhotoNumber(double value, const std::string& file) {
+  if (!(value >= 0 && value <= std::numeric_limits<uint32_t>::max()) ||
+      value != std::floor(value)) {
+    Fail(file, fmt::format("{} in \"view_indices\" is no photo number", value));
+  }
+  return static_cast<uint32_t>(value);
+}
+
+struct Vertex {
+  std::array<double, 6> numbers{};  // x y z nx ny nz
+  std::array<uint8_t, 3> color{};
+  std::vector<uint32_t> views;
+};
+
+Vertex ReadVertex(Body& body, const Element& element, const std::vector<Meaning>& meanings,
+                  const std::string& file) {
+  Vertex vertex;
+  for (size_t i = 0; i < element.properties.size(); ++i) {
+    const Property& property = element.properties[i];
+    const int meaning = static_cast<int>(meanings[i]);
+    if (property.is_list) {
+      const size_t length = body.NextLength(property);
+      for (size_t k = 0; k < length; ++k) {
+        const double value = body.Next(property.type);
+        if (meanings[i] == Meaning::kViews) vertex.views.push_back(PhotoNumber(value, file));
+      }
+      continue;
+    }
+    const double value = body.Next(property.type);
+    if (meanings[i] <= Meaning::kNz) {
+      vertex.numbers[meaning] = value;
+    } else if (meanings[i] <= Meaning::kBlue) {
+      vertex.color[meaning - static_cast<int>(Meaning::kRed)] = ColorByte(value, property.type);
+    }
+  }
+  std::ranges::sort(vertex.views);
+  const auto repeated = std::ranges::unique(vertex.views);
+  vertex.views.erase(repeated.begin(), repeated.end());
+  return vertex;
+}
+
+// Other programs round normals to few digits; ours are left to the last bit.
+Eigen::Vector3f UnitNormal(const std::array<double, 6>& numbers) {
+  const Eigen::Vector3d normal(numbers[3], numbers[4], numbers[5]);
+  constexpr double kFloatRounding = 1e-6;
+  const double length = normal.norm();
+  const bool keep = !(length > 0) || std::abs(length - 1) < kFloatRounding;
+  return (keep ? normal : Eigen::Vector3d(normal / length)).cast<float>();
+}
+
+PointCloud ReadVertices(Body& body, const Element& element, const std::string& file) {
+  std::vector<Meaning> meanings;
+  for (const Property& property : element.properties) meanings.push_back(MeaningOf(property));
+  const auto has = [&](std::initializer_list<Meaning> wanted) {
+    return std::ranges::all_of(wanted, [&](Meaning meaning) {
+      return std::ranges::find(meanings, meaning) != meanings.end();
+    });
+  };
+  if (!has({Meaning::kX, Meaning::kY, Meaning::kZ})) Fail(file, "its points have no x, y and z");
+  const bool has_normals = has({Meaning::kNx, Meaning::kNy, Meaning::kNz});
+  const bool has_colors = has({Meaning::kRed, Meaning::kGreen, Meaning::kBlue});
+  const bool has_views = has({Meaning::kViews});
+
+  body.CheckHolds(element);
+  PointCloud cloud;
+  cloud.positions.reserve(element.count);
+  for (uint64_t row = 0; row < element.count; ++row) {
+    Vertex vertex = ReadVertex(body, element, meanings, file);
+    cloud.positions.emplace_back(vertex.numbers[0], vertex.numbers[1], vertex.numbers[2]);
+    if (has_normals) cloud.normals.push_back(UnitNormal(vertex.numbers));
+    if (has_colors) cloud.colors.push_back(vertex.color);
+    if (has_views) cloud.views.push_back(std::move(vertex.views));
+  }
+  return cloud;
+}
+
+std::string HeaderText(const PointCloud& cloud, bool wide_views) {
+  std::string header = fmt::format(
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
+      "property double x\nproperty double y\nproperty double z\n",
+      cloud.size());
+  if (!cloud.normals.empty()) {
+    header += "property float nx\nproperty float ny\nproperty float nz\n";
+  }
+  if (!cloud.colors.empty()) {
+    header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  }
+  if (!cloud.views.empty()) {
+    header += fmt::format("property list {} uint view_indices\n", wide_views ? "uint" : "uchar");
+  }
+  return header + "end_header\n";
+}
+
+void AppendPoint(const PointCloud& cloud, size_t i, bool wide_views, std::string& out) {
+  for (const double number : cloud.positions[i]) internal::AppendLittleEndian(out, number);
+  if (!cloud.normals.empty()) {
+    for (const float number : cloud.normals[i]) internal::AppendLittleEndian(out, number);
+  }
+  if (!cloud.colors.empty()) {
+    for (const uint8_t byte : cloud.colors[i]) internal::AppendLittleEndian(out, byte);
+  }
+  if (cloud.views.empty()) return;
+  const auto length = static_cast<uint32_t>(cloud.views[i].size());
+  if (wide_views) {
+    internal::AppendLittleEndian(out, length);
+  } else {
+    internal::AppendLittleEndian(out, static_cast<uint8_t>(length));
+  }
+  for (const uint32_t view : cloud.views[i]) internal::AppendLittleEndian(out, view);
+}
+
+}  // namespace
+
+PointCloud ReadPly(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const std::string bytes = ReadFile(path);
+  std::string_view rest = bytes;
+  const Header header = TakeHeader(rest, file);
+  Body body(rest, header.encoding, file);
+  for (const Element& element : header.elements) {
+    if (element.name != "vertex") {
+      SkipElement(body, element);
+      continue;
+    }
+    PointCloud cloud = ReadVertices(body, element, file);
+    if (const auto problem = FindProblem(cloud)) Fail(file, *problem);
+    return cloud;  // faces and the like come after and are not needed
+  }
+  Fail(file, "has no points");
+}
+
+void WritePly(const PointCloud& cloud, const std::filesystem::path& path) {
+  if (const auto problem = FindProblem(cloud)) {
+    throw Error(ErrorKind::kStageFailed,
+                fmt::format("{}: cannot be written: {}", path.string(), *problem));
+  }
+  constexpr size_t kFlushBytes = size_t{1} << 20;
+  const bool wide_views =
+      std::ranges::any_of(cloud.views, [](const auto& views) { return views.size() > 255; });
+  internal::OutputFile file(path);
+  std::string buffer = HeaderText(cloud, wide_views);
+  for (size_t i = 0; i < cloud.size(); ++i) {
+    AppendPoint(cloud, i, wide_views, buffer);
+    if (buffer.size() < kFlushBytes) continue;
+    file.Write(buffer);
+    buffer.clear();
+  }
+  file.Write(buffer);
+  file.Close();
+}
+
+}  // namespace stucco

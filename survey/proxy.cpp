@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/proxy.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "survey/error.h"
+#include "survey/internal/json.h"
+
+namespace stucco {
+namespace {
+
+// World coordinates stay below 10 km, where a double resolves 2e-12 m.
+constexpr double kCoplanarTolerance = 1e-6;
+constexpr double kUnitTolerance = 1e-6;
+
+constexpr std::array kClasses = {FacetClass::kWall, FacetClass::kRoof, FacetClass::kGround,
+                                 FacetClass::kOuterFloor};
+
+std::optional<FacetClass> FacetClassFromName(const std::string& name) {
+  for (const FacetClass facet_class : kClasses) {
+    if (CityGmlName(facet_class) == name) return facet_class;
+  }
+  return std::nullopt;
+}
+
+// Newell's area vector, seen along the normal: positive for counter-clockwise rings. Relative to
+// the first vertex, so that far coordinates cost no digits.
+double SignedArea(const std::vector<Eigen::Vector3d>& ring, const Eigen::Vector3d& normal) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (size_t i = 1; i + 1 < ring.size(); ++i) {
+    sum += (ring[i] - ring[0]).cross(ring[i + 1] - ring[0]);
+  }
+  return 0.5 * sum.dot(normal);
+}
+
+std::optional<std::string> FindRingProblem(const Facet& facet,
+                                           const std::vector<Eigen::Vector3d>& ring, bool is_hole) {
+  const char* name = is_hole ? "hole" : "outer ring";
+  if (ring.size() < 3) return fmt::format("{} has {} vertices", name, ring.size());
+  for (size_t i = 0; i < ring.size(); ++i) {
+    const double distance = std::abs(facet.normal.dot(ring[i]) - facet.offset);
+    if (!(distance <= kCoplanarTolerance)) {
+      return fmt::format("vertex {} of the {} is {} off the plane", i, name, distance);
+    }
+  }
+  const double area = SignedArea(ring, facet.normal);
+  if (!(area != 0)) return fmt::format("{} has no area", name);
+  if ((area < 0) != is_hole) return fmt::format("{} is wound the wrong way", name);
+  return std::nullopt;
+}
+
+std::optional<std::string> FindFacetProblem(const Facet& facet) {
+  if (!facet.normal.allFinite() || !(std::abs(facet.normal.norm() - 1) <= kUnitTolerance)) {
+    return "normal is not of unit length";
+  }
+  if (const auto problem = FindRingProblem(facet, facet.outer, /*is_hole=*/false)) return problem;
+  for (const auto& hole : facet.holes) {
+    if (const auto problem = FindRingProblem(facet, hole, /*is_hole=*/true)) return problem;
+  }
+  for (const double share : {facet.seen, facet.inferred}) {
+    if (!(share >= 0 && share <= 1)) return "seen and inferred must be in [0, 1]";
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string CityGmlName(FacetClass facet_class) {
+  switch (facet_class) {
+    case FacetClass::kWall:
+      return "WallSurface";
+    case FacetClass::kRoof:
+      return "RoofSurface";
+    case FacetClass::kGround:
+      return "GroundSurface";
+    case FacetClass::kOuterFloor:
+      return "OuterFloorSurface";
+  }
+  throw std::logic_error("unknown facet class");
+}
+
+std::optional<std::string> FindProblem(const Proxy& proxy) {
+  if (!(std::abs(proxy.up.norm() - 1) <= kUnitTolerance)) return "up is not of unit length";
+  std::set<std::string> building_ids;
+  std::set<std::string> facet_ids;
+  for (const Building& building : proxy.buildings) {
+    if (building.id.empty()) return "a building has no id";
+    if (!building_ids.insert(building.id).second) {
+      return fmt::format("building {} is there twice", building.id);
+    }
+    for (const Facet& facet : building.facets) {
+      if (facet.id.empty()) return fmt::format("a facet of building {} has no id", building.id);
+      if (!facet_ids.insert(facet.id).second) {
+        return fmt::format("facet {} is there twice", facet.id);
+      }
+      if (const auto problem = FindFacetProblem(facet)) {
+        return fmt::format("facet {}: {}", facet.id, *problem);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+template <typename Archive, internal::Is<Facet> T>
+static void Fields(Archive& archive, T& facet) {
+  archive.Required("id", facet.id);
+  archive.Required("facade", facet.facade);
+  std::string name = CityGmlName(facet.facet_class);
+  archive.Required("class", name);
+  if constexpr (Archive::kReads) {
+    const auto known = FacetClassFromName(name);
+    if (!known) archive.Fail("class", fmt::format("is \"{}\", which is no known class", name));
+    facet.facet_class = *known;
+  }
+  archive.Required("area_m2", facet.area);
+  archive.Required("rms_m", facet.rms);
+  archive.Required("seen", facet.seen);
+  archive.Required("inferred", facet.inferred);
+  archive.Optional("support", facet.support);
+  archive.Optional("source", facet.source);
+  archive.Required("normal", facet.normal);
+  archive.Required("offset", facet.offset);
+  archive.Required("outer", facet.outer);
+  archive.Optional("holes", facet.holes);
+}
+
+template <typename Archive, internal::Is<Building> T>
+static void Fields(Archive& archive, T& building) {
+  archive.Required("id", building.id);
+  archive.Required("watertight", building.watertight);
+  archive.Required("source", building.source);
+  archive.Required("facets", building.facets);
+}
+
+template <typename Archive, internal::Is<Proxy> T>
+static void Fields(Archive& archive, T& proxy) {
+  archive.Required("up", proxy.up);
+  archive.Required("metric", proxy.metric);
+  archive.Required("buildings", proxy.buildings);
+}
+
+Proxy ReadProxy(const std::filesystem::path& path) {
+  Proxy proxy = internal::ReadJsonFile<Proxy>(path);
+  if (const auto problem = FindProblem(proxy)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", path.string(), *problem));
+  }
+  return proxy;
+}
+
+void WriteProxy(const Proxy& proxy, const std::filesystem::path& path) {
+  internal::WriteJsonFile(proxy, path);
+}
+
+}  // namespace stucco

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+namespace stucco {
+
+// Where things are in a survey folder (docs/formats.md).
+inline constexpr char kSettingsFile[] = "survey.toml";
+inline constexpr char kCapturesFile[] = "ingest/captures.json";
+inline constexpr char kSparseFolder[] = "calib/sparse/0";
+inline constexpr char kGeorefFile[] = "calib/georef.json";
+inline constexpr char kCalibrationFile[] = "calib/calibration.json";
+inline constexpr char kCloudFile[] = "dense/cloud.ply";
+inline constexpr char kFacetsFile[] = "proxy/facets.json";
+inline constexpr char kTexturesFile[] = "texture/textures.json";
+inline constexpr char kReportFile[] = "report/report.html";
+inline constexpr char kWorkFolder[] = ".stucco";
+
+}  // namespace stucco
