@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "capture_ingest/photo_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <set>
+
+#include "survey/error.h"
+
+namespace stucco {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 4> kJpegExtensions = {".jpg", ".jpeg", ".jpe", ".jfif"};
+constexpr std::array<std::string_view, 19> kOtherPictures = {
+    ".png", ".tif", ".tiff", ".heic", ".heif", ".avif", ".webp", ".bmp", ".gif", ".dng",
+    ".arw", ".nef", ".cr2",  ".cr3",  ".raf",  ".orf",  ".rw2",  ".pef", ".iiq"};
+
+std::string LowerExtension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+template <size_t N>
+bool IsOneOf(std::string_view extension, const std::array<std::string_view, N>& extensions) {
+  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+// photo_mask.png, photo.mask.png, and photo.jpg.png as OpenSfM names them.
+bool IsMask(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  return stem.ends_with("_mask") || stem.ends_with(".mask") ||
+         IsOneOf(LowerExtension(path.stem()), kJpegExtensions);
+}
+
+bool StartsLikeJpeg(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 3> head = {};
+  return file.read(head.data(), head.size()) && head == std::array<char, 3>{'\xFF', '\xD8', '\xFF'};
+}
+
+class FolderWalk {
+ public:
+  explicit FolderWalk(const fs::path& root) : root_(root) { Visit(root); }
+
+  std::vector<PhotoFile> Files() && {
+    std::sort(files_.begin(), files_.end(),
+              [](const PhotoFile& a, const PhotoFile& b) { return a.path < b.path; });
+    return std::move(files_);
+  }
+
+ private:
+  void Visit(const fs::path& folder) {
+    if (!visited_.insert(fs::canonical(folder)).second) return;
+    std::vector<fs::path> entries;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      if (!entry.path().filename().string().starts_with('.')) entries.push_back(entry.path());
+    }
+    std::sort(entries.begin(), entries.end());  // which way into a linked folder comes first
+    for (const fs::path& entry : entries) {
+      std::error_code ignored;  // a dangling link is neither
+      if (fs::is_directory(entry, ignored)) {
+        Visit(entry);
+      } else if (fs::is_regular_file(entry, ignored)) {
+        Consider(entry, entries);
+      }
+    }
+  }
+
+  void Consider(const fs::path& path, const std::vector<fs::path>& siblings) {
+    const std::string extension = LowerExtension(path);
+    if (IsOneOf(extension, kJpegExtensions)) {
+      Add(path, "");
+    } else if (IsOneOf(extension, kOtherPictures)) {
+      if (IsMask(path) || HasJpeg(path, siblings)) return;
+      Add(path,
+          fmt::format("{} pictures are not read; convert the photo to JPEG", extension.substr(1)));
+    } else if (StartsLikeJpeg(path)) {
+      Add(path, "");
+    }
+  }
+
+  // A camera's raw file lies beside the JPEG that is used.
+  static bool HasJpeg(const fs::path& path, const std::vector<fs::path>& siblings) {
+    return std::any_of(siblings.begin(), siblings.end(), [&](const fs::path& other) {
+      return other.stem() == path.stem() && IsOneOf(LowerExtension(other), kJpegExtensions);
+    });
+  }
+
+  void Add(const fs::path& path, std::string problem) {
+    std::string name = path.lexically_relative(root_).generic_string();
+    if (!IsPrintableUtf8(name)) {
+      for (char& c : name) {
+        if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e) c = '?';
+      }
+      problem = "the file's name is not valid UTF-8 or has control characters; rename the file";
+    }
+    files_.push_back({std::move(name), std::move(problem)});
+  }
+
+  fs::path root_;
+  std::set<fs::path> visited_;
+  std::vector<PhotoFile> files_;
+};
+
+// Length of the well-formed sequence at the front (Unicode 15, table 3-7), or 0.
+size_t SequenceLength(std::string_view text) {
+  const auto byte = [&](size_t i) -> unsigned { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  const size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || text.size() < length) return 0;
+  for (size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  }
+  if ((first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F) ||
+      (first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) > 0x8F)) {
+    return 0;
+  }
+  return length;
+}
+
+}  // namespace
+
+std::vector<PhotoFile> FindPhotoFiles(const fs::path& folder) {
+  std::error_code failure;
+  if (!fs::exists(folder, failure)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: no such folder", folder.string()),
+                "give the folder that holds the photos");
+  }
+  if (!fs::is_directory(folder, failure)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: not a folder", folder.string()),
+                "give the folder that holds the photos, not one of its files");
+  }
+  try {
+    return FolderWalk(folder).Files();
+  } catch (const fs::filesystem_error& error) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: {}", error.path1().string(), error.code().message()),
+                "make the folder readable for the user who runs this program");
+  }
+}
+
+bool IsPrintableUtf8(std::string_view text) {
+  while (!text.empty()) {
+    const unsigned first = static_cast<unsigned char>(text[0]);
+    const size_t length = SequenceLength(text);
+    if (length == 0 || first < 0x20 || first == 0x7f) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+}  // namespace stucco

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "capture_ingest/photo_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "survey/error.h"
+#include "tests/capture_ingest/photo_maker.h"
+
+namespace stucco {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::vector<std::string> Paths(const std::vector<PhotoFile>& files) {
+  std::vector<std::string> paths;
+  for (const PhotoFile& file : files) paths.push_back(file.path);
+  return paths;
+}
+
+TEST(FindPhotoFiles, WalksSortedWithSlashes) {
+  const TempFolder folder;
+  for (const char* name : {"b.jpg", "a.JPG", "flight 2/x.jpeg", "flight 2/deep/y.jpg", "B.jpg"}) {
+    folder.Write(name, "x");
+  }
+  EXPECT_THAT(Paths(FindPhotoFiles(folder.path())),
+              ElementsAre("B.jpg", "a.JPG", "b.jpg", "flight 2/deep/y.jpg", "flight 2/x.jpeg"));
+}
+
+TEST(FindPhotoFiles, SkipsWhatIsNoPhoto) {
+  const TempFolder folder;
+  for (const char* name : {".hidden.jpg", ".trash/a.jpg", "._a.jpg", "K.txt", "flight.MRK", "a.xml",
+                           "a_mask.png", "a.mask.png", "a.jpg.png", "a.dng", "no_extension"}) {
+    folder.Write(name, "x");
+  }
+  folder.Write("a.jpg", "x");
+  EXPECT_THAT(Paths(FindPhotoFiles(folder.path())), ElementsAre("a.jpg"));
+}
+
+TEST(FindPhotoFiles, FindsAJpegByItsContent) {
+  const TempFolder folder;
+  folder.Write("IMG_0001", MakeJpeg(1));
+  folder.Write("photo.bin", MakeJpeg(2));
+  EXPECT_THAT(Paths(FindPhotoFiles(folder.path())), ElementsAre("IMG_0001", "photo.bin"));
+}
+
+TEST(FindPhotoFiles, ListsPicturesOfOtherKindsWithWhatToDo) {
+  const TempFolder folder;
+  folder.Write("a.heic", "x");
+  folder.Write("b.TIF", "x");
+  const auto files = FindPhotoFiles(folder.path());
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_THAT(files[0].problem, HasSubstr("heic"));
+  EXPECT_THAT(files[0].problem, HasSubstr("convert"));
+}
+
+TEST(FindPhotoFiles, FollowsLinksButNoLoops) {
+  const TempFolder folder;
+  const TempFolder elsewhere;
+  folder.Write("a.jpg", "x");
+  elsewhere.Write("b.jpg", "x");
+  std::filesystem::create_directory_symlink(folder.path(), folder.path() / "loop");
+  std::filesystem::create_directory_symlink(elsewhere.path(), folder.path() / "linked");
+  std::filesystem::create_symlink("nowhere.jpg", folder.path() / "dangling.jpg");
+  EXPECT_THAT(Paths(FindPhotoFiles(folder.path())), ElementsAre("a.jpg", "linked/b.jpg"));
+}
+
+TEST(FindPhotoFiles, NamesThatCannotBeWrittenDownAreListedSafely) {
+  const TempFolder folder;
+  folder.Write("bad\xff.jpg", "x");
+  folder.Write("line\nbreak.jpg", "x");
+  folder.Write("straße 😀.jpg", "x");
+  const auto files = FindPhotoFiles(folder.path());
+  ASSERT_EQ(files.size(), 3U);
+  EXPECT_EQ(files[0].path, "bad?.jpg");
+  EXPECT_THAT(files[0].problem, HasSubstr("rename"));
+  EXPECT_EQ(files[1].path, "line?break.jpg");
+  EXPECT_EQ(files[2].path, "straße 😀.jpg");
+  EXPECT_THAT(files[2].problem, IsEmpty());
+}
+
+TEST(FindPhotoFiles, MissingFolderAndFileInItsPlaceAreErrors) {
+  const TempFolder folder;
+  folder.Write("a.jpg", "x");
+  for (const auto& path : {folder.path() / "missing", folder.path() / "a.jpg"}) {
+    try {
+      FindPhotoFiles(path);
+      FAIL() << path;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+      EXPECT_THAT(error.what(), HasSubstr(path.string()));
+      EXPECT_NE(error.remedy(), "");
+    }
+  }
+}
+
+TEST(IsPrintableUtf8, KnowsWellFormedSequences) {
+  EXPECT_TRUE(IsPrintableUtf8(""));
+  EXPECT_TRUE(IsPrintableUtf8("plain"));
+  EXPECT_TRUE(IsPrintableUtf8("é ש 漢 😀"));
+  for (const char* bad : {"\x80", "\xc0\xaf", "\xe0\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80",
+                          "\xe6\xbc", "a\tb", "\x7f"}) {
+    EXPECT_FALSE(IsPrintableUtf8(bad)) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace stucco
