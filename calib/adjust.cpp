@@ -1,0 +1,274 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/adjust.h"
+
+#include <ceres/loss_function.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "calib/internal/costs.h"
+#include "survey/error.h"
+
+namespace stucco {
+namespace {
+
+// Weak knowledge about lenses, in standard deviations.
+constexpr double kPrincipalPointSigma = 0.02;  // of the longer side
+constexpr double kRadialSigma = 0.5;
+constexpr double kTangentialSigma = 0.01;
+constexpr double kRationalSigma = 0.2;
+
+struct PoseBlocks {
+  Eigen::Quaterniond rotation;
+  Eigen::Vector3d translation;
+};
+
+class Adjustment {
+ public:
+  Adjustment(const AdjustOptions& options, Scene& scene)
+      : options_(options), scene_(scene), problem_(ProblemOptions()) {
+    if (options.variable_photos.empty()) {
+      for (size_t i = 0; i < scene.photos.size(); ++i) {
+        if (scene.photos[i].pose) variable_.insert(static_cast<int>(i));
+      }
+    } else {
+      variable_.insert(options.variable_photos.begin(), options.variable_photos.end());
+    }
+  }
+
+  AdjustReport Solve() {
+    AdjustReport report;
+    for (SceneTrack& track : scene_.tracks) AddTrack(track, report);
+    if (report.num_observations == 0) return report;
+    HoldWhatIsGiven();
+    AddPriors();
+    ceres::Solver::Summary summary;
+    ceres::Solve(SolverOptions(), &problem_, &summary);
+    report.usable = summary.IsSolutionUsable();
+    report.num_iterations = summary.num_successful_steps;
+    const double scale = 2.0 / (2.0 * report.num_observations);
+    report.rms_before = std::sqrt(summary.initial_cost * scale);
+    report.rms_after = std::sqrt(summary.final_cost * scale);
+    if (report.usable) WriteBack();
+    return report;
+  }
+
+ private:
+  static ceres::Problem::Options ProblemOptions() {
+    ceres::Problem::Options options;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    return options;
+  }
+
+  ceres::Solver::Options SolverOptions() const {
+    ceres::Solver::Options options;
+    options.max_num_iterations = options_.max_iterations;
+    options.num_threads = options_.threads;
+    options.function_tolerance = options_.tolerance;
+    options.parameter_tolerance = 1e-9;
+    options.logging_type = ceres::SILENT;
+    const size_t photos = poses_.size();
+    options.linear_solver_type = photos <= 60    ? ceres::DENSE_SCHUR
+                                 : photos <= 800 ? ceres::SPARSE_SCHUR
+                                                 : ceres::ITERATIVE_SCHUR;
+    options.preconditioner_type = ceres::SCHUR_JACOBI;
+    return options;
+  }
+
+  bool IsVariable(int photo) const { return variable_.contains(photo); }
+
+  void AddTrack(SceneTrack& track, AdjustReport& report) {
+    if (!track.position) return;
+    bool concerned = false;
+    for (const SceneElement& e : track.elements) concerned |= e.used && IsVariable(e.photo);
+    if (!concerned) return;
+    for (const SceneElement& element : track.elements) {
+      if (!element.used) continue;
+      AddObservation(element, *track.position);
+      ++report.num_observations;
+    }
+  }
+
+  void AddObservation(const SceneElement& element, Eigen::Vector3d& point) {
+    ScenePhoto& photo = scene_.photos[element.photo];
+    Camera& camera = scene_.cameras[photo.camera].intrinsics;
+    const auto [it, is_new] = poses_.try_emplace(element.photo);
+    PoseBlocks& pose = it->second;
+    if (is_new) pose = {photo.pose->rotation, photo.pose->translation};
+    used_cameras_.insert(photo.camera);
+    const Eigen::Vector2d& keypoint = photo.keypoints[element.keypoint];
+    const double sigma = photo.keypoint_sigma_px[element.keypoint];
+    problem_.AddResidualBlock(CreateCost(camera, keypoint, sigma), &loss_, camera.params.data(),
+                              pose.rotation.coeffs().data(), pose.translation.data(), point.data());
+    if (!is_new) return;
+    problem_.SetManifold(pose.rotation.coeffs().data(), &quaternion_);
+    if (!IsVariable(element.photo)) {
+      problem_.SetParameterBlockConstant(pose.rotation.coeffs().data());
+      problem_.SetParameterBlockConstant(pose.translation.data());
+    }
+  }
+
+  static ceres::CostFunction* CreateCost(const Camera& camera, const Eigen::Vector2d& keypoint,
+                                         double sigma) {
+    switch (camera.model) {
+      case CameraModel::kPinhole:
+        return new ReprojectionCost<4>(keypoint, sigma);
+      case CameraModel::kOpenCv:
+        return new ReprojectionCost<8>(keypoint, sigma);
+      case CameraModel::kFullOpenCv:
+        return new ReprojectionCost<12>(keypoint, sigma);
+      default:
+        throw Error(ErrorKind::kStageFailed,
+                    fmt::format("bundle adjustment does not work with camera model {}",
+                                Name(camera.model)));
+    }
+  }
+
+  void HoldWhatIsGiven() {
+    for (const int index : used_cameras_) {
+      SceneCamera& camera = scene_.cameras[index];
+      std::vector<double>& params = camera.intrinsics.params;
+      if (camera.focal_sigma_ratio == 0 || options_.refine == RefineIntrinsics::kNone) {
+        problem_.SetParameterBlockConstant(params.data());
+        continue;
+      }
+      std::vector<int> held;
+      if (options_.refine < RefineIntrinsics::kPrincipalPoint) held = {2, 3};
+      const int num_params = static_cast<int>(params.size());
+      for (int i = 4; i < num_params; ++i) {
+        const bool tangential = i == 6 || i == 7;
+        if (options_.refine < RefineIntrinsics::kDistortion ||
+            (tangential && options_.refine < RefineIntrinsics::kPrincipalPoint)) {
+          held.push_back(i);
+        }
+      }
+      if (!held.empty()) {
+        subsets_.push_back(std::make_unique<ceres::SubsetManifold>(num_params, held));
+        problem_.SetManifold(params.data(), subsets_.back().get());
+      }
+      AddIntrinsicsPrior(camera);
+    }
+  }
+
+  template <int kNumParams>
+  void AddIntrinsicsPriorOfSize(SceneCamera& camera) {
+    auto* cost = new IntrinsicsPriorCost<kNumParams>;
+    for (int i = 0; i < kNumParams; ++i) {
+      const double sigma = PriorSigma(camera, i);
+      cost->expected[i] = camera.prior.params[i];
+      cost->inverse_sigma[i] = sigma > 0 ? 1 / sigma : 0;
+    }
+    cost->aspect = camera.prior.FocalY() / camera.prior.FocalX();
+    cost->inverse_aspect_sigma = 1 / kFocalRatioSigma;
+    problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<IntrinsicsPriorCost<kNumParams>,
+                                                              kNumParams + 1, kNumParams>(cost),
+                              nullptr, camera.intrinsics.params.data());
+  }
+
+  void AddIntrinsicsPrior(SceneCamera& camera) {
+    switch (camera.intrinsics.params.size()) {
+      case 4:
+        return AddIntrinsicsPriorOfSize<4>(camera);
+      case 8:
+        return AddIntrinsicsPriorOfSize<8>(camera);
+      default:
+        return AddIntrinsicsPriorOfSize<12>(camera);
+    }
+  }
+
+  void AddPriors() {
+    bool has_priors = false;
+    for (auto& [index, pose] : poses_) {
+      const auto& prior = scene_.photos[index].prior;
+      if (!options_.use_priors || !prior || !IsVariable(index)) continue;
+      has_priors = true;
+      const Eigen::Vector3d sigma(prior->sigma_horizontal_m, prior->sigma_horizontal_m,
+                                  prior->sigma_vertical_m);
+      problem_.AddResidualBlock(PositionCost::Create(prior->position, sigma), &loss_,
+                                pose.rotation.coeffs().data(), pose.translation.data());
+    }
+    if (!has_priors) HoldFrame();
+  }
+
+  // Two photos that do not move hold the frame. Without any, the first one is held; with one, the
+  // scale is still free and one coordinate of the photo farthest from it holds that.
+  void HoldFrame() {
+    std::vector<PoseBlocks*> fixed;
+    for (auto& [index, pose] : poses_) {
+      if (!IsVariable(index)) fixed.push_back(&pose);
+    }
+    if (fixed.size() >= 2) return;
+    PoseBlocks& first = fixed.empty() ? poses_.begin()->second : *fixed[0];
+    problem_.SetParameterBlockConstant(first.rotation.coeffs().data());
+    problem_.SetParameterBlockConstant(first.translation.data());
+    const Eigen::Vector3d origin = -(first.rotation.conjugate() * first.translation);
+    PoseBlocks* farthest = nullptr;
+    Eigen::Vector3d baseline = Eigen::Vector3d::Zero();
+    for (auto& [index, pose] : poses_) {
+      const Eigen::Vector3d to_origin = pose.rotation * origin + pose.translation;
+      if (to_origin.norm() <= baseline.norm()) continue;
+      farthest = &pose;
+      baseline = to_origin;
+    }
+    if (farthest == nullptr) return;
+    int axis = 0;
+    baseline.cwiseAbs().maxCoeff(&axis);
+    subsets_.push_back(std::make_unique<ceres::SubsetManifold>(3, std::vector<int>{axis}));
+    problem_.SetManifold(farthest->translation.data(), subsets_.back().get());
+  }
+
+  void WriteBack() {
+    for (const auto& [index, pose] : poses_) {
+      if (IsVariable(index)) {
+        scene_.photos[index].pose = Pose{pose.rotation.normalized(), pose.translation};
+      }
+    }
+  }
+
+  const AdjustOptions& options_;
+  Scene& scene_;
+  std::set<int> variable_;
+  std::map<int, PoseBlocks> poses_;
+  std::set<int> used_cameras_;
+  ceres::EigenQuaternionManifold quaternion_;
+  std::vector<std::unique_ptr<ceres::SubsetManifold>> subsets_;
+  ceres::CauchyLoss loss_{options_.loss_scale};
+  ceres::Problem problem_;  // last: refers to the members above
+};
+
+}  // namespace
+
+double PriorSigma(const SceneCamera& camera, int i) {
+  switch (i) {
+    case 0:
+    case 1:
+      return camera.focal_sigma_ratio * camera.prior.params[i];
+    case 2:
+    case 3:
+      return kPrincipalPointSigma * std::max(camera.prior.width_px, camera.prior.height_px);
+    case 6:
+    case 7:
+      return kTangentialSigma;
+    default:
+      return i < 6 ? kRadialSigma : kRationalSigma;
+  }
+}
+
+AdjustReport Adjust(const AdjustOptions& options, Scene& scene) {
+  return Adjustment(options, scene).Solve();
+}
+
+std::string Brief(const AdjustReport& report) {
+  return fmt::format("{} observations, {:.3f} -> {:.3f} standard deviations in {} steps{}",
+                     report.num_observations, report.rms_before, report.rms_after,
+                     report.num_iterations, report.usable ? "" : ", not usable");
+}
+
+}  // namespace stucco

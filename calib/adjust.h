@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/scene.h"
+
+namespace stucco {
+
+// Which intrinsics an adjustment may change. Each level includes those before it.
+enum class RefineIntrinsics { kNone, kFocal, kDistortion, kPrincipalPoint };
+
+struct AdjustOptions {
+  // Photos whose poses may change, by index; empty: all posed ones. The others hold the frame.
+  std::vector<int> variable_photos;
+  RefineIntrinsics refine = RefineIntrinsics::kDistortion;
+  // Residuals beyond this many standard deviations lose weight (Cauchy loss).
+  double loss_scale = 2;
+  bool use_priors = false;  // position priors of the photos; the scene must be in their frame
+  int threads = 1;          // more than one is faster but not reproducible
+  int max_iterations = 50;
+  double tolerance = 1e-4;  // relative change of the cost that ends the iteration
+};
+
+struct AdjustReport {
+  bool usable = false;
+  int num_observations = 0;
+  int num_iterations = 0;
+  double rms_before = -1;  // standard deviations, robust cost included
+  double rms_after = -1;
+};
+
+std::string Brief(const AdjustReport& report);
+
+// Bundle adjustment (Triggs et al. 2000) of poses, points and shared intrinsics with Ceres.
+// Intrinsics are held near their priors by weak Gaussian terms, so that what the photos do not
+// determine stays where it was: focal length by SceneCamera::focal_sigma_ratio, principal point
+// within a few per cent of the image, square pixels, small tangential distortion.
+AdjustReport Adjust(const AdjustOptions& options, Scene& scene);
+
+// Standard deviation of the plausibility term of parameter `i`, or 0 when there is none. In the
+// parameter's own unit.
+double PriorSigma(const SceneCamera& camera, int i);
+
+// Standard deviation of the ratio of the two focal lengths against the prior's.
+inline constexpr double kFocalRatioSigma = 0.002;
+
+}  // namespace stucco

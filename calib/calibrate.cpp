@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/calibrate.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "calib/adjust.h"
+#include "calib/correspond.h"
+#include "calib/focal.h"
+#include "calib/georeference.h"
+#include "calib/mapper.h"
+#include "calib/panorama.h"
+#include "calib/summarize.h"
+#include "calib/tracks.h"
+#include "survey/calibration.h"
+#include "survey/colmap_io.h"
+#include "survey/error.h"
+#include "survey/survey_folder.h"
+
+namespace stucco {
+namespace {
+
+constexpr double kRadians = M_PI / 180;
+
+struct Photos {
+  Captures captures;
+  std::vector<const CapturedPhoto*> usable;
+  std::vector<int> capture_of_photo;
+};
+
+Photos ReadPhotos(const StageContext& context) {
+  Photos photos;
+  photos.captures = ReadCaptures(context.survey / kCapturesFile);
+  for (size_t i = 0; i < photos.captures.photos.size(); ++i) {
+    if (!photos.captures.photos[i].usable) continue;
+    photos.usable.push_back(&photos.captures.photos[i]);
+    photos.capture_of_photo.push_back(static_cast<int>(i));
+  }
+  if (photos.usable.size() < 2) {
+    throw Error(
+        ErrorKind::kBadInput,
+        fmt::format("{} usable photo(s): poses need at least two that overlap",
+                    photos.usable.size()),
+        "add photos to the photo folder; ingest/captures.json says why others were refused");
+  }
+  return photos;
+}
+
+// The wished model with what the metadata know; parameters the metadata's model lacks start at
+// zero.
+Camera AsModel(const Camera& camera, CameraModel model) {
+  Camera result = camera;
+  result.model = model;
+  result.params.assign(ParameterNames(model).size(), 0.0);
+  result.params[0] = camera.FocalX();
+  result.params[1] = camera.FocalY();
+  result.params[2] = camera.PrincipalPoint().x();
+  result.params[3] = camera.PrincipalPoint().y();
+  if (model == CameraModel::kPinhole) return result;
+  const bool with_pairs =
+      camera.model == CameraModel::kOpenCv || camera.model == CameraModel::kFullOpenCv;
+  for (size_t i = 4; with_pairs && i < std::min(result.params.size(), camera.params.size()); ++i) {
+    result.params[i] = camera.params[i];
+  }
+  if (camera.model == CameraModel::kSimpleRadial || camera.model == CameraModel::kRadial) {
+    for (size_t i = 3; i < camera.params.size(); ++i) result.params[i + 1] = camera.params[i];
+  }
+  return result;
+}
+
+double FocalSigmaRatio(const CapturedCamera& camera) {
+  if (camera.fixed) return 0;
+  if (camera.focal_source == "option" || camera.focal_source == "dewarp") return 0.02;
+  return camera.focal_source == "default" ? 0.5 : 0.1;
+}
+
+Scene MakeScene(const CalibOptions& options, const Photos& photos,
+                const std::vector<Features>& features, const std::vector<VerifiedPair>& pairs) {
+  Scene scene;
+  for (const CapturedCamera& captured : photos.captures.cameras) {
+    // What was given as the truth keeps its own model; the rest is calibrated with the wished one.
+    CameraModel model = *CameraModelFromName(options.camera_model);
+    if (captured.fixed && captured.intrinsics.params.size() > ParameterNames(model).size()) {
+      model = captured.intrinsics.model;
+    }
+    const Camera camera = AsModel(captured.intrinsics, model);
+    scene.cameras.push_back({camera, camera, FocalSigmaRatio(captured)});
+  }
+  std::vector<size_t> num_keypoints;
+  for (size_t i = 0; i < photos.usable.size(); ++i) {
+    ScenePhoto photo;
+    photo.name = photos.usable[i]->path;
+    photo.camera = photos.usable[i]->camera;
+    const float scale = static_cast<float>(DetectionScale(options, *photos.usable[i]));
+    for (const Keypoint& k : features[i].keypoints) {
+      photo.keypoints.emplace_back(k.x, k.y);
+      photo.keypoint_sigma_px.push_back(scale);
+    }
+    photo.colors = features[i].colors;
+    num_keypoints.push_back(features[i].size());
+    scene.photos.push_back(std::move(photo));
+  }
+  std::vector<PhotoPair> matches;
+  for (const VerifiedPair& pair : pairs) matches.push_back(pair.pair);
+  scene.tracks = BuildTracks(num_keypoints, std::move(matches));
+  IndexTracks(scene);
+  return scene;
+}
+
+// Cameras whose metadata say nothing get a focal length from the epipolar geometries of their
+// photos.
+void GuessFocalLengths(const Photos& photos, const std::vector<VerifiedPair>& pairs,
+                       const StageContext& context, Scene& scene) {
+  for (size_t c = 0; c < scene.cameras.size(); ++c) {
+    if (photos.captures.cameras[c].focal_source != "default") continue;
+    std::vector<FocalEvidence> evidence;
+    for (const VerifiedPair& pair : pairs) {
+      const bool of_this_camera = scene.photos[pair.pair.first].camera == static_cast<int>(c) &&
+                                  scene.photos[pair.pair.second].camera == static_cast<int>(c);
+      const bool is_plane = pair.geometry.num_homography > 0.7 * pair.geometry.num_fundamental;
+      if (!of_this_camera || is_plane || pair.geometry.num_fundamental < 50) continue;
+      evidence.push_back({pair.geometry.fundamental, pair.geometry.num_fundamental});
+    }
+    SceneCamera& camera = scene.cameras[c];
+    const auto focal =
+        FocalFromFundamentals(evidence, camera.prior.width_px, camera.prior.height_px);
+    if (!focal) continue;
+    context.progress->Note(
+        fmt::format("{}: no focal length in the metadata; {} pairs of photos say {:.0f} px",
+                    photos.captures.cameras[c].label, evidence.size(), *focal));
+    for (Camera* each : {&camera.prior, &camera.intrinsics})
+      each->params[0] = each->params[1] = *focal;
+  }
+}
+
+[[noreturn]] void ThrowNothingPosed(const std::vector<VerifiedPair>& pairs,
+                                    const std::vector<std::string>& findings) {
+  if (pairs.empty()) {
+    throw Error(
+        ErrorKind::kStageFailed,
+        "no two photos overlap: no pair has enough matches that agree with one geometry",
+        "photograph every part of a wall from at least two, better three, positions that share "
+        "more than half of the picture");
+  }
+  if (!findings.empty()) {
+    throw Error(
+        ErrorKind::kStageFailed, fmt::format("{}", fmt::join(findings, "; ")),
+        "move between photos: depth comes from different positions, not from turning the camera");
+  }
+  throw Error(
+      ErrorKind::kStageFailed,
+      fmt::format("{} pairs of photos match, but none gives a start: too few matches, or seen "
+                  "under too small an angle",
+                  pairs.size()),
+      "add photos between the existing ones, taken from clearly different positions");
+}
+
+struct GeoreferenceResult {
+  Georef georef;
+  std::vector<int> prior_outliers;
+  PriorResiduals residuals;
+};
+
+GeoreferenceResult Georeference(const CalibOptions& options, const MapperOptions& mapper,
+                                const Photos& photos, const StageContext& context, Scene& scene) {
+  GeoreferenceResult result;
+  result.georef.source = "none";
+  const auto frame =
+      options.use_positions ? FrameFromPositions(photos.usable, scene) : std::optional<Georef>();
+  const auto fit = frame ? FitToPriors(scene) : std::optional<PriorFit>();
+  if (fit) {
+    Transform(fit->enu_from_scene, scene);
+    for (const int photo : fit->outliers) {
+      context.progress->Warn(
+          fmt::format("{}: its recorded position contradicts the other photos and "
+                      "is not used",
+                      scene.photos[photo].name));
+    }
+    const auto all_priors = [&] {
+      std::vector<std::optional<PositionPrior>> priors;
+      for (const ScenePhoto& photo : scene.photos) priors.push_back(photo.prior);
+      return priors;
+    }();
+    for (const int photo : fit->outliers) scene.photos[photo].prior.reset();
+    RefineAll(mapper, true, context, scene);
+    for (size_t i = 0; i < all_priors.size(); ++i) scene.photos[i].prior = all_priors[i];
+    result.georef = *frame;
+    result.prior_outliers = fit->outliers;
+    result.residuals = MeasurePriors(scene, fit->outliers);
+    return result;
+  }
+  if (frame) {
+    context.progress->Warn(
+        "the photos' positions are too close together, on one line or contradict each other: the "
+        "model keeps an arbitrary scale and direction");
+  }
+  for (ScenePhoto& photo : scene.photos) photo.prior.reset();
+  result.residuals = MeasurePriors(scene, {});
+  result.georef.up = UpFromGimbal(photos.usable, scene);
+  if (result.georef.up) result.georef.source = "gimbal";
+  return result;
+}
+
+void Write(const Photos& photos, const Scene& scene, const MapReport& map,
+           const GeoreferenceResult& georeference, const std::vector<std::string>& findings,
+           const StageContext& context) {
+  std::vector<uint32_t> ids;
+  for (const int capture : photos.capture_of_photo)
+    ids.push_back(static_cast<uint32_t>(capture) + 1);
+  const Reconstruction reconstruction = ToReconstruction(scene, ids);
+  const std::filesystem::path sparse = context.out / "sparse" / "0";
+  WriteColmapBinary(reconstruction, sparse);
+  WriteColmapText(reconstruction, sparse);
+  WriteGeoref(georeference.georef, context.out / "georef.json");
+  Calibration calibration = Summarize({photos.captures, photos.capture_of_photo, scene, map,
+                                       georeference.residuals, georeference.prior_outliers});
+  calibration.findings = findings;
+  for (const CalibratedCamera& camera : calibration.cameras) {
+    if (!camera.held.empty() && camera.held.size() < camera.names.size()) {
+      calibration.findings.push_back(
+          fmt::format("{}: the photos do not determine {}; kept near the expected value",
+                      camera.label, fmt::join(camera.held, ", ")));
+    }
+  }
+  WriteCalibration(calibration, context.out / "calibration.json");
+  context.progress->Note(
+      fmt::format("{} of {} photos placed, {} points, mean reprojection error {:.2f} px",
+                  calibration.photos_posed, calibration.photos_total, calibration.points,
+                  calibration.reprojection_error_px));
+  if (calibration.prior_rms_horizontal_m >= 0) {
+    context.progress->Note(
+        fmt::format("residual to recorded positions: {:.3f} m horizontal, {:.3f} m "
+                    "vertical (root mean square)",
+                    calibration.prior_rms_horizontal_m, calibration.prior_rms_vertical_m));
+  }
+}
+
+}  // namespace
+
+void Describe(OptionTable& table, CalibOptions& options) {
+  table.Add(
+      "max_image_px", options.max_image_px, 400, 20000,
+      "Photos are reduced to this many pixels on the longer side before features are detected.");
+  table.Add("max_features", options.max_features, 200, 100000, "Features kept per photo.");
+  table.Add("match_ratio", options.match_ratio, 0.3, 0.99,
+            "A match's descriptor angle must be below this share of the second best one's.");
+  table.Add("exhaustive_below", options.exhaustive_below, 2, 100000,
+            "Up to this many photos every pair is matched.");
+  table.Add("neighbours", options.neighbours, 2, 1000,
+            "In larger sets: photos matched with each by position, and as many by appearance.");
+  table.Add("camera_model", options.camera_model, {"PINHOLE", "OPENCV", "FULL_OPENCV"},
+            "COLMAP's name of the lens model that is calibrated.");
+  table.Add("refine_principal_point", options.refine_principal_point,
+            "Calibrate the principal point and tangential distortion too.");
+  table.Add("use_positions", options.use_positions,
+            "Use the positions in the photos (GPS, RTK) for scale, direction and adjustment.");
+  table.Add("min_angle_deg", options.min_angle_deg, 0.1, 30,
+            "Points seen under a smaller angle are dropped, degrees.");
+  table.Add(
+      "fast_adjustment", options.fast_adjustment,
+      "Adjust on all threads: faster, but results differ in the last digits from run to run.");
+}
+
+void RunCalib(const CalibOptions& options, StageContext& context) {
+  const Photos photos = ReadPhotos(context);
+  const std::vector<Features> features = DetectAll(options, photos.usable, context);
+  std::vector<VerifiedPair> pairs = MatchAll(options, photos.usable, features, context);
+
+  Scene scene = MakeScene(options, photos, features, pairs);
+  GuessFocalLengths(photos, pairs, context, scene);
+  MapperOptions mapper;
+  for (const CapturedPhoto* photo : photos.usable) {
+    mapper.max_error_px = std::max(mapper.max_error_px, 4 * DetectionScale(options, *photo));
+  }
+  mapper.min_angle_rad = options.min_angle_deg * kRadians;
+  mapper.refine_principal_point = options.refine_principal_point;
+  mapper.threads = options.fast_adjustment ? context.threads : 1;
+
+  for (VerifiedPair& pair : pairs) ClassifyMotion(scene, mapper.max_error_px, pair);
+  const MapReport map = Reconstruct(mapper, pairs, context, scene);
+  const std::vector<std::string> findings = DescribePanoramas(scene, pairs, photos.usable);
+  for (const std::string& finding : findings) context.progress->Warn(finding);
+  if (map.num_posed < 2) ThrowNothingPosed(pairs, findings);
+  for (const auto& [photo, why] : map.unposed) {
+    context.progress->Warn(fmt::format("{}: not placed: {}", scene.photos[photo].name, why));
+  }
+  const GeoreferenceResult georeference = Georeference(options, mapper, photos, context, scene);
+  Write(photos, scene, map, georeference, findings, context);
+}
+
+}  // namespace stucco

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/georeference.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+namespace stucco {
+namespace {
+
+constexpr int kRounds = 500;
+// Heights of some drones are wrong by tens of metres together (datum), which the common origin
+// absorbs, but single positions this many standard deviations off are wrong.
+constexpr double kOutlierSigmas = 4;
+
+std::vector<int> PhotosWithBoth(const Scene& scene) {
+  std::vector<int> photos;
+  for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
+    if (scene.photos[i].pose && scene.photos[i].prior) photos.push_back(i);
+  }
+  return photos;
+}
+
+Similarity Align(const Scene& scene, const std::vector<int>& photos) {
+  Eigen::Matrix3Xd source(3, photos.size());
+  Eigen::Matrix3Xd target(3, photos.size());
+  for (size_t i = 0; i < photos.size(); ++i) {
+    source.col(i) = scene.photos[photos[i]].pose->Center();
+    target.col(i) = scene.photos[photos[i]].prior->position;
+  }
+  return AlignPoints(source, target);
+}
+
+// Residual in standard deviations; systematic errors of scale and attitude are allowed half a
+// metre.
+double Sigmas(const Scene& scene, int photo, const Similarity& enu_from_scene) {
+  const PositionPrior& prior = *scene.photos[photo].prior;
+  const Eigen::Vector3d error =
+      enu_from_scene * scene.photos[photo].pose->Center() - prior.position;
+  const double horizontal = error.head<2>().norm() / std::max(0.5, prior.sigma_horizontal_m);
+  const double vertical = std::abs(error.z()) / std::max(0.5, prior.sigma_vertical_m);
+  return std::max(horizontal, vertical);
+}
+
+// Square root of the second largest variance of the positions: 0 when they are on a line.
+double SpreadAcross(const Scene& scene, const std::vector<int>& photos) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const int i : photos) mean += scene.photos[i].prior->position / photos.size();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const int i : photos) {
+    const Eigen::Vector3d d = scene.photos[i].prior->position - mean;
+    covariance += d * d.transpose() / photos.size();
+  }
+  const Eigen::Vector3d values =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues();
+  return std::sqrt(std::max(0.0, values[1]));
+}
+
+}  // namespace
+
+std::optional<Georef> FrameFromPositions(const std::vector<const CapturedPhoto*>& captures,
+                                         Scene& scene) {
+  Georef georef;
+  georef.frame = "enu";
+  georef.metric = true;
+  georef.up = Eigen::Vector3d::UnitZ();
+  int count = 0;
+  int fixed = 0;
+  for (const CapturedPhoto* capture : captures) {
+    if (!capture->position || !capture->position->has_height) continue;
+    ++count;
+    fixed += capture->position->rtk_fixed;
+    georef.origin_latitude_deg += capture->position->latitude_deg;
+    georef.origin_longitude_deg += capture->position->longitude_deg;
+    georef.origin_height_m += capture->position->height_m;
+  }
+  if (count < 3) return std::nullopt;
+  georef.origin_latitude_deg /= count;
+  georef.origin_longitude_deg /= count;
+  georef.origin_height_m /= count;
+  georef.source = 2 * fixed > count ? "rtk" : "gps";
+  for (size_t i = 0; i < captures.size(); ++i) {
+    const auto& position = captures[i]->position;
+    if (!position || !position->has_height) continue;
+    scene.photos[i].prior =
+        PositionPrior{EnuFromGeodetic(georef, position->latitude_deg, position->longitude_deg,
+                                      position->height_m),
+                      position->sigma_horizontal_m, position->sigma_vertical_m};
+  }
+  return georef;
+}
+
+std::optional<PriorFit> FitToPriors(const Scene& scene) {
+  const std::vector<int> photos = PhotosWithBoth(scene);
+  if (photos.size() < 3) return std::nullopt;
+  std::vector<double> sigmas;
+  for (const int i : photos) sigmas.push_back(scene.photos[i].prior->sigma_horizontal_m);
+  std::nth_element(sigmas.begin(), sigmas.begin() + sigmas.size() / 2, sigmas.end());
+  PriorFit fit;
+  fit.spread_m = SpreadAcross(scene, photos);
+  // Averaging many positions helps; below this the directions of the frame are noise.
+  if (fit.spread_m < sigmas[sigmas.size() / 2] / std::sqrt(static_cast<double>(photos.size()))) {
+    return std::nullopt;
+  }
+  std::mt19937 random(1);
+  std::vector<int> best;
+  for (int round = 0; round < kRounds; ++round) {
+    std::set<int> sample;
+    while (sample.size() < 3) sample.insert(photos[random() % photos.size()]);
+    const Similarity candidate = Align(scene, {sample.begin(), sample.end()});
+    if (!std::isfinite(candidate.scale) || candidate.scale <= 0) continue;
+    std::vector<int> inliers;
+    for (const int i : photos) {
+      if (Sigmas(scene, i, candidate) < kOutlierSigmas) inliers.push_back(i);
+    }
+    if (inliers.size() > best.size()) best = std::move(inliers);
+  }
+  if (best.size() < 3 || 2 * best.size() < photos.size()) return std::nullopt;
+  fit.enu_from_scene = Align(scene, best);
+  for (const int i : photos) {
+    if (Sigmas(scene, i, fit.enu_from_scene) >= kOutlierSigmas) fit.outliers.push_back(i);
+  }
+  return fit;
+}
+
+void Transform(const Similarity& new_from_old, Scene& scene) {
+  for (ScenePhoto& photo : scene.photos) {
+    if (photo.pose) photo.pose = Transformed(*photo.pose, new_from_old);
+  }
+  for (SceneTrack& track : scene.tracks) {
+    if (track.position) track.position = new_from_old * *track.position;
+  }
+}
+
+std::optional<Eigen::Vector3d> UpFromGimbal(const std::vector<const CapturedPhoto*>& captures,
+                                            const Scene& scene) {
+  constexpr double kRadians = M_PI / 180;
+  std::vector<Eigen::Vector3d> ups;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (size_t i = 0; i < captures.size(); ++i) {
+    const auto& gimbal = captures[i]->gimbal;
+    if (!gimbal || !scene.photos[i].pose) continue;
+    const double pitch = gimbal->pitch_deg * kRadians;
+    // A level camera has "up" at -y, one that looks straight down at -z; roll turns it about z.
+    const Eigen::Vector3d up_level(0, -std::cos(pitch), std::sin(pitch));
+    const Eigen::Vector3d up_in_cam =
+        Eigen::AngleAxisd(-gimbal->roll_deg * kRadians, Eigen::Vector3d::UnitZ()) * up_level;
+    ups.push_back(scene.photos[i].pose->rotation.conjugate() * up_in_cam);
+    sum += ups.back();
+  }
+  if (ups.size() < 2 || sum.norm() < 1e-9) return std::nullopt;
+  const Eigen::Vector3d up = sum.normalized();
+  std::vector<double> angles;
+  for (const Eigen::Vector3d& each : ups) {
+    angles.push_back(std::atan2(each.cross(up).norm(), each.dot(up)));
+  }
+  std::nth_element(angles.begin(), angles.begin() + angles.size() / 2, angles.end());
+  if (angles[angles.size() / 2] > 15 * kRadians) return std::nullopt;
+  return up;
+}
+
+PriorResiduals MeasurePriors(const Scene& scene, const std::vector<int>& outliers) {
+  PriorResiduals residuals;
+  residuals.distance_m.assign(scene.photos.size(), -1);
+  double horizontal = 0;
+  double vertical = 0;
+  int count = 0;
+  for (const int i : PhotosWithBoth(scene)) {
+    const Eigen::Vector3d error = scene.photos[i].pose->Center() - scene.photos[i].prior->position;
+    residuals.distance_m[i] = error.norm();
+    if (std::find(outliers.begin(), outliers.end(), i) != outliers.end()) continue;
+    horizontal += error.head<2>().squaredNorm();
+    vertical += error.z() * error.z();
+    ++count;
+  }
+  if (count > 0) {
+    residuals.rms_horizontal_m = std::sqrt(horizontal / count);
+    residuals.rms_vertical_m = std::sqrt(vertical / count);
+  }
+  return residuals;
+}
+
+}  // namespace stucco

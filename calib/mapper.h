@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "calib/scene.h"
+#include "calib/seed.h"
+#include "survey/stage.h"
+
+namespace stucco {
+
+struct MapperOptions {
+  double max_error_px = 4;  // full-resolution pixels
+  double min_angle_rad = 0.026;
+  int min_inliers = 15;
+  int max_seeds = 8;
+  bool refine_principal_point = true;
+  int threads = 1;  // of the bundle adjustment
+};
+
+struct MapReport {
+  int num_posed = 0;
+  int num_seeds_tried = 0;
+  std::map<int, std::string> unposed;  // photo -> why
+};
+
+// Incremental structure from motion (Schoenberger & Frahm 2016): grows a reconstruction from the
+// best seed by resection, triangulation and bundle adjustment; when it stays small the next seed is
+// tried and the largest result kept. Leaves poses, points and intrinsics in the scene, in an
+// arbitrary frame.
+MapReport Reconstruct(const MapperOptions& options, const std::vector<VerifiedPair>& pairs,
+                      const StageContext& context, Scene& scene);
+
+// Rounds of bundle adjustment of everything, filtering and triangulating anew, until nothing
+// changes. With `use_priors` the scene must be in the frame of its position priors. Returns the
+// last adjustment's report.
+struct AdjustReport RefineAll(const MapperOptions& options, bool use_priors,
+                              const StageContext& context, Scene& scene);
+
+// Drops observations beyond `max_error_px`, points left with fewer than two or seen under less than
+// the angle, and poses left with fewer than `min_inliers` observations. Returns the number of
+// observations dropped.
+int FilterScene(const MapperOptions& options, double max_error_px, Scene& scene);
+
+}  // namespace stucco

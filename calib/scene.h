@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "survey/camera.h"
+#include "survey/pose.h"
+
+namespace stucco {
+
+// The working state of structure from motion. Photos, cameras and tracks are addressed by index.
+
+struct SceneCamera {
+  Camera intrinsics;  // model OPENCV or FULL_OPENCV or PINHOLE; changes while calibrating
+  Camera prior;       // what the metadata said
+  // One standard deviation of the prior focal length relative to it; 0 keeps all intrinsics fixed.
+  double focal_sigma_ratio = 0.1;
+};
+
+struct PositionPrior {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // ENU, metres
+  double sigma_horizontal_m = 5;
+  double sigma_vertical_m = 10;
+};
+
+struct ScenePhoto {
+  std::string name;
+  int camera = 0;
+  std::vector<Eigen::Vector2d> keypoints;  // full-resolution pixels
+  std::vector<float> keypoint_sigma_px;  // standard deviation of a keypoint, full-resolution pixels
+  std::vector<std::array<uint8_t, 3>> colors;
+  std::optional<Pose> pose;  // cam_from_world once it is known
+  std::optional<PositionPrior> prior;
+};
+
+struct SceneElement {
+  int photo = 0;
+  int keypoint = 0;
+  bool used = false;  // agrees with the point's position
+};
+
+// Keypoints of different photos that show the same point.
+struct SceneTrack {
+  std::vector<SceneElement> elements;  // at most one per photo
+  std::optional<Eigen::Vector3d> position;
+};
+
+struct Scene {
+  std::vector<SceneCamera> cameras;
+  std::vector<ScenePhoto> photos;
+  std::vector<SceneTrack> tracks;
+  std::vector<std::vector<int>> tracks_of_photo;  // per photo: track of each keypoint, -1 for none
+
+  const Camera& CameraOf(int photo) const { return cameras[photos[photo].camera].intrinsics; }
+};
+
+// Distance in pixels between an element's keypoint and the projection of a point; infinite where
+// the photo has no pose or the point is not in front of it.
+double ReprojectionError(const Scene& scene, const SceneElement& element,
+                         const Eigen::Vector3d& point);
+
+int NumPosed(const Scene& scene);
+
+// Elements in posed photos that agree with their track's point.
+int NumUsedObservations(const Scene& scene, int photo);
+
+// Largest angle between the rays of the used elements, in radians.
+double LargestRayAngle(const Scene& scene, const SceneTrack& track);
+
+}  // namespace stucco

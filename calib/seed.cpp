@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/seed.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace stucco {
+namespace {
+
+// A pair is a rotation when this share of its epipolar inliers turns with one rotation.
+constexpr double kRotationShare = 0.85;
+constexpr double kGoodAngle = 12 * M_PI / 180;
+constexpr double kLeastAngle = 2 * M_PI / 180;
+constexpr double kClearParallax = 0.5 * M_PI / 180;
+constexpr int kLeastInliers = 30;
+constexpr size_t kPairsTried = 40;
+
+struct RayPairs {
+  std::vector<Eigen::Vector2d> first;
+  std::vector<Eigen::Vector2d> second;
+  double max_error = 0;  // in units of the rays
+};
+
+RayPairs RaysOf(const Scene& scene, const PhotoPair& pair, double max_error_px) {
+  RayPairs rays;
+  const Camera& camera_a = scene.CameraOf(pair.first);
+  const Camera& camera_b = scene.CameraOf(pair.second);
+  for (const Match& match : pair.matches) {
+    const auto a = camera_a.Unproject(scene.photos[pair.first].keypoints[match.first]);
+    const auto b = camera_b.Unproject(scene.photos[pair.second].keypoints[match.second]);
+    if (!a || !b) continue;
+    rays.first.push_back(*a);
+    rays.second.push_back(*b);
+  }
+  rays.max_error = max_error_px * 2 / (camera_a.FocalX() + camera_b.FocalX());
+  return rays;
+}
+
+// True when both photos have poses and the rays of their common points meet at a clear angle.
+bool HasParallax(const Scene& scene, const PhotoPair& pair) {
+  const auto& first = scene.photos[pair.first].pose;
+  const auto& second = scene.photos[pair.second].pose;
+  if (!first || !second) return false;
+  std::vector<double> angles;
+  for (const Match& match : pair.matches) {
+    const int track = scene.tracks_of_photo[pair.first][match.first];
+    if (track < 0 || !scene.tracks[track].position) continue;
+    const Eigen::Vector3d a = *scene.tracks[track].position - first->Center();
+    const Eigen::Vector3d b = *scene.tracks[track].position - second->Center();
+    angles.push_back(std::atan2(a.cross(b).norm(), a.dot(b)));
+  }
+  if (angles.size() < kLeastInliers) return false;
+  std::nth_element(angles.begin(), angles.begin() + angles.size() / 2, angles.end());
+  return angles[angles.size() / 2] > kClearParallax;
+}
+
+}  // namespace
+
+void ClassifyMotion(const Scene& scene, double max_error_px, VerifiedPair& pair) {
+  pair.rotation_only = false;
+  // A rotation is a homography: without one that most matches agree with there is nothing to look
+  // for.
+  const int count = static_cast<int>(pair.pair.matches.size());
+  if (pair.geometry.num_homography < 0.6 * count) return;
+  const RayPairs rays = RaysOf(scene, pair.pair, max_error_px);
+  // Twice the tolerance: the focal length may still be a guess, which bends a rotation by some
+  // pixels.
+  const int by_rotation = CountRotationInliers(rays.first, rays.second, 2 * rays.max_error,
+                                               pair.pair.first * 65536 + pair.pair.second);
+  pair.rotation_only = by_rotation >= kRotationShare * count;
+}
+
+std::vector<std::vector<int>> RotationGroups(const Scene& scene,
+                                             const std::vector<VerifiedPair>& pairs) {
+  const int num_photos = static_cast<int>(scene.photos.size());
+  std::vector<int> group(num_photos);
+  std::iota(group.begin(), group.end(), 0);
+  const auto root = [&](int photo) {
+    while (group[photo] != photo) photo = group[photo];
+    return photo;
+  };
+  for (const VerifiedPair& pair : pairs) {
+    if (!pair.rotation_only || HasParallax(scene, pair.pair)) continue;
+    const int a = root(pair.pair.first);
+    const int b = root(pair.pair.second);
+    group[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<std::vector<int>> members(num_photos);
+  for (int photo = 0; photo < num_photos; ++photo) members[root(photo)].push_back(photo);
+  std::erase_if(members, [](const std::vector<int>& m) { return m.size() < 3; });
+  return members;
+}
+
+std::vector<Seed> FindSeeds(const Scene& scene, const std::vector<VerifiedPair>& pairs,
+                            double max_error_px, int max_seeds) {
+  std::vector<const VerifiedPair*> candidates;
+  for (const VerifiedPair& pair : pairs) {
+    if (!pair.rotation_only && pair.pair.matches.size() >= kLeastInliers)
+      candidates.push_back(&pair);
+  }
+  // Pairs that a single homography explains come last: a plane fits two relative poses.
+  const auto worth = [](const VerifiedPair* p) {
+    return static_cast<double>(p->pair.matches.size()) -
+           (p->geometry.num_homography > 0.8 * p->pair.matches.size() ? 1e6 : 0);
+  };
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [&](const auto* a, const auto* b) { return worth(a) > worth(b); });
+  if (candidates.size() > kPairsTried) candidates.resize(kPairsTried);
+
+  std::vector<std::pair<double, Seed>> scored;
+  for (const VerifiedPair* candidate : candidates) {
+    const RayPairs rays = RaysOf(scene, candidate->pair, max_error_px);
+    const auto relative = EstimateRelativePose(rays.first, rays.second, rays.max_error);
+    if (!relative || relative->num_inliers < kLeastInliers) continue;
+    if (relative->median_angle_rad < kLeastAngle) continue;
+    const double angle = std::min(1.0, relative->median_angle_rad / kGoodAngle);
+    scored.push_back({relative->num_inliers * angle,
+                      {candidate->pair.first, candidate->pair.second, *relative}});
+  }
+  std::stable_sort(scored.begin(), scored.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Seed> seeds;
+  for (const auto& [score, seed] : scored) {
+    if (static_cast<int>(seeds.size()) < max_seeds) seeds.push_back(seed);
+  }
+  return seeds;
+}
+
+}  // namespace stucco

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/summarize.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "calib/adjust.h"
+#include "calib/covariance.h"
+
+namespace stucco {
+namespace {
+
+// A parameter whose uncertainty is still most of what was assumed beforehand is not measured.
+constexpr double kUndetermined = 0.7;
+constexpr int kCoverageCells = 10;
+
+double Coverage(const Camera& camera, const PosedPhoto& photo) {
+  std::set<int> filled;
+  for (const Observation& o : photo.observations) {
+    const int column = static_cast<int>(o.pixel.x() / camera.width_px * kCoverageCells);
+    const int row = static_cast<int>(o.pixel.y() / camera.height_px * kCoverageCells);
+    filled.insert(row * kCoverageCells + column);
+  }
+  return static_cast<double>(filled.size()) / (kCoverageCells * kCoverageCells);
+}
+
+CalibratedPhoto SummarizePhoto(const SummaryInput& input, const Reconstruction& reconstruction,
+                               const PosedPhoto& posed, int index) {
+  CalibratedPhoto photo;
+  photo.path = posed.name;
+  const Camera& camera = reconstruction.cameras.at(posed.camera);
+  double sum = 0;
+  for (const Observation& o : posed.observations) {
+    const auto pixel =
+        camera.Project(posed.cam_from_world * reconstruction.points.at(o.point).position);
+    if (pixel) sum += (*pixel - o.pixel).norm();
+  }
+  photo.observations = static_cast<int>(posed.observations.size());
+  photo.reprojection_error_px = photo.observations > 0 ? sum / photo.observations : 0;
+  photo.prior_residual_m = input.priors.distance_m[index];
+  photo.prior_outlier = std::find(input.prior_outliers.begin(), input.prior_outliers.end(),
+                                  index) != input.prior_outliers.end();
+  photo.coverage = Coverage(camera, posed);
+  return photo;
+}
+
+CalibratedCamera SummarizeCamera(const CapturedCamera& captured, const SceneCamera& camera,
+                                 const Eigen::VectorXd* sigma) {
+  CalibratedCamera result;
+  result.id = static_cast<int>(camera.intrinsics.id.value);
+  result.label = captured.label;
+  result.model = std::string(Name(camera.intrinsics.model));
+  result.params = camera.intrinsics.params;
+  for (const auto name : ParameterNames(camera.intrinsics.model)) result.names.emplace_back(name);
+  if (camera.focal_sigma_ratio == 0) result.held = result.names;
+  if (sigma == nullptr) return result;
+  result.sigma.assign(sigma->begin(), sigma->end());
+  for (size_t i = 0; i < result.names.size() && camera.focal_sigma_ratio > 0; ++i) {
+    if (result.sigma[i] > kUndetermined * PriorSigma(camera, static_cast<int>(i))) {
+      result.held.push_back(result.names[i]);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Reconstruction ToReconstruction(const Scene& scene, const std::vector<uint32_t>& photo_ids) {
+  Reconstruction result;
+  for (size_t i = 0; i < scene.photos.size(); ++i) {
+    const ScenePhoto& photo = scene.photos[i];
+    if (!photo.pose) continue;
+    const Camera& camera = scene.CameraOf(static_cast<int>(i));
+    result.cameras[camera.id] = camera;
+    PosedPhoto& posed = result.photos[PhotoId{photo_ids[i]}];
+    posed.id = PhotoId{photo_ids[i]};
+    posed.camera = camera.id;
+    posed.name = photo.name;
+    posed.cam_from_world = *photo.pose;
+  }
+  uint64_t next = 1;
+  for (const SceneTrack& track : scene.tracks) {
+    // The last filtering may have taken a pose, and with it all but one view of a point.
+    const auto used = std::count_if(track.elements.begin(), track.elements.end(),
+                                    [](const SceneElement& e) { return e.used; });
+    if (!track.position || used < 2) continue;
+    TrackPoint point;
+    point.id = PointId{next++};
+    point.position = *track.position;
+    double error = 0;
+    for (const SceneElement& element : track.elements) {
+      if (!element.used) continue;
+      const ScenePhoto& photo = scene.photos[element.photo];
+      PosedPhoto& posed = result.photos.at(PhotoId{photo_ids[element.photo]});
+      if (point.track.empty()) point.rgb = photo.colors[element.keypoint];
+      point.track.push_back({posed.id, static_cast<uint32_t>(posed.observations.size())});
+      posed.observations.push_back({photo.keypoints[element.keypoint], point.id});
+      error += ReprojectionError(scene, element, point.position);
+    }
+    point.error_px = error / static_cast<double>(point.track.size());
+    result.points[point.id] = std::move(point);
+  }
+  return result;
+}
+
+Calibration Summarize(const SummaryInput& input) {
+  std::vector<uint32_t> ids;
+  for (const int capture : input.capture_of_photo)
+    ids.push_back(static_cast<uint32_t>(capture) + 1);
+  const Reconstruction reconstruction = ToReconstruction(input.scene, ids);
+  Calibration result;
+  result.photos_total = static_cast<int>(input.captures.photos.size());
+  result.photos_posed = static_cast<int>(reconstruction.photos.size());
+  result.reprojection_error_px = MeanReprojectionError(reconstruction);
+  result.points = static_cast<int>(reconstruction.points.size());
+  result.mean_track_length = MeanTrackLength(reconstruction);
+  result.prior_rms_horizontal_m = input.priors.rms_horizontal_m;
+  result.prior_rms_vertical_m = input.priors.rms_vertical_m;
+  for (size_t i = 0; i < input.scene.photos.size(); ++i) {
+    const auto posed = reconstruction.photos.find(PhotoId{ids[i]});
+    if (posed == reconstruction.photos.end()) continue;
+    result.photos.push_back(
+        SummarizePhoto(input, reconstruction, posed->second, static_cast<int>(i)));
+  }
+  for (const auto& [photo, why] : input.map.unposed) {
+    result.unposed.push_back({input.scene.photos[photo].name, why});
+  }
+  for (const CapturedPhoto& photo : input.captures.photos) {
+    if (!photo.usable) result.unposed.push_back({photo.path, photo.why});
+  }
+  std::sort(result.unposed.begin(), result.unposed.end(),
+            [](const UnposedPhoto& a, const UnposedPhoto& b) { return a.path < b.path; });
+  const auto sigmas = IntrinsicsSigma(input.scene);
+  for (size_t c = 0; c < input.scene.cameras.size(); ++c) {
+    if (!reconstruction.cameras.contains(input.scene.cameras[c].intrinsics.id)) continue;
+    result.cameras.push_back(SummarizeCamera(input.captures.cameras[c], input.scene.cameras[c],
+                                             sigmas.empty() ? nullptr : &sigmas[c]));
+  }
+  return result;
+}
+
+}  // namespace stucco

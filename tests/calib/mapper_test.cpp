@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/mapper.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "calib/adjust.h"
+#include "survey/error.h"
+#include "tests/calib/made_scene.h"
+
+namespace stucco::test {
+namespace {
+
+class Mapper : public testing::Test {
+ protected:
+  Mapper() {
+    context_.progress = &SilentProgress();
+    context_.units = &NoUnits();
+  }
+
+  // What calibration does after matching, from a guessed camera.
+  MapReport Run(const Scene& truth, const std::vector<PhotoPair>& matches) {
+    scene_ = Blank(truth);
+    for (Camera* camera : {&scene_.cameras[0].intrinsics, &scene_.cameras[0].prior}) {
+      camera->params = {1020, 1020, 600, 450, 0, 0, 0, 0};
+    }
+    pairs_ = Verified(scene_, matches);
+    SetTracks(pairs_, scene_);
+    return Reconstruct({}, pairs_, context_, scene_);
+  }
+
+  StageContext context_;
+  Scene scene_;
+  std::vector<VerifiedPair> pairs_;
+};
+
+void ExpectConsistent(const Scene& scene) {
+  for (const SceneTrack& track : scene.tracks) {
+    const auto used = std::count_if(track.elements.begin(), track.elements.end(),
+                                    [](const SceneElement& e) { return e.used; });
+    if (track.position) {
+      EXPECT_GE(used, 2);
+    } else {
+      EXPECT_EQ(used, 0);
+    }
+    for (const SceneElement& e : track.elements) {
+      if (e.used) {
+        EXPECT_TRUE(scene.photos[e.photo].pose);
+      }
+    }
+  }
+}
+
+TEST_F(Mapper, PlacesEveryPhoto) {
+  const Scene truth = MakeScene({.num_photos = 10, .num_points = 350, .noise_px = 0.5});
+  const MapReport report = Run(truth, MatchesOf(truth, 0.15, 1));
+  EXPECT_EQ(report.num_posed, 10);
+  EXPECT_TRUE(report.unposed.empty());
+  EXPECT_GE(report.num_seeds_tried, 1);
+  const PoseErrors errors = ComparePoses(scene_, truth);
+  EXPECT_LT(errors.position_m, 0.05);  // 20 m away, half a pixel is 1 cm
+  EXPECT_LT(errors.rotation_rad, 0.003);
+  EXPECT_NEAR(scene_.cameras[0].intrinsics.params[0], 1000, 5);
+  ExpectConsistent(scene_);
+}
+
+TEST_F(Mapper, IsNearlyExactOnCleanMatches) {
+  const Scene truth = MakeScene({.num_photos = 6, .num_points = 200});
+  const MapReport report = Run(truth, MatchesOf(truth, 0, 1));
+  EXPECT_EQ(report.num_posed, 6);
+  EXPECT_LT(ComparePoses(scene_, truth).position_m, 2e-3);
+}
+
+TEST_F(Mapper, IsRepeatable) {
+  const Scene truth = MakeScene({.num_photos = 5, .num_points = 150, .noise_px = 0.5});
+  Run(truth, MatchesOf(truth, 0.1, 1));
+  const Scene first = scene_;
+  Run(truth, MatchesOf(truth, 0.1, 1));
+  for (size_t i = 0; i < first.photos.size(); ++i) {
+    ASSERT_TRUE(first.photos[i].pose && scene_.photos[i].pose);
+    EXPECT_EQ(first.photos[i].pose->translation, scene_.photos[i].pose->translation);
+  }
+  EXPECT_EQ(first.cameras[0].intrinsics.params, scene_.cameras[0].intrinsics.params);
+}
+
+TEST_F(Mapper, KeepsTheLargerOfTwoGroups) {
+  const Scene truth = MakeScene({.num_photos = 9, .num_points = 300, .noise_px = 0.3});
+  auto matches = MatchesOf(truth, 0, 1);
+  std::erase_if(matches, [](const PhotoPair& p) { return (p.first < 3) != (p.second < 3); });
+  const MapReport report = Run(truth, matches);
+  EXPECT_EQ(report.num_posed, 6);
+  EXPECT_EQ(report.unposed.size(), 3u);
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_EQ(scene_.photos[i].pose.has_value(), i >= 3);
+    EXPECT_EQ(report.unposed.contains(i), i < 3);
+  }
+  EXPECT_NE(report.unposed.at(0).find("only 0 of its keypoints"), std::string::npos);
+  EXPECT_LT(ComparePoses(scene_, truth).position_m, 0.05);
+  ExpectConsistent(scene_);
+}
+
+TEST_F(Mapper, SaysWhichPhotosOverlapWithNothing) {
+  const Scene truth = MakeScene({.num_photos = 6, .num_points = 250, .noise_px = 0.3});
+  auto matches = MatchesOf(truth, 0, 1);
+  std::erase_if(matches, [](const PhotoPair& p) { return p.first == 4 || p.second == 4; });
+  const MapReport report = Run(truth, matches);
+  EXPECT_EQ(report.num_posed, 5);
+  ASSERT_TRUE(report.unposed.contains(4));
+  EXPECT_NE(report.unposed.at(4).find("overlaps with no other photo"), std::string::npos);
+}
+
+TEST_F(Mapper, PlacesNothingWhenNothingMatches) {
+  const Scene truth = MakeScene({.num_photos = 4, .num_points = 100});
+  const MapReport report = Run(truth, {});
+  EXPECT_EQ(report.num_posed, 0);
+  EXPECT_EQ(report.unposed.size(), 4u);
+  EXPECT_EQ(report.num_seeds_tried, 0);
+}
+
+TEST_F(Mapper, InventsNoDepthFromOnePlace) {
+  const Scene truth = MakeScene({.num_photos = 6, .arc_rad = 0, .noise_px = 0.5});
+  const MapReport report = Run(truth, MatchesOf(truth, 0, 1));
+  EXPECT_EQ(report.num_posed, 0);
+  ASSERT_EQ(report.unposed.size(), 6u);
+  EXPECT_NE(report.unposed.at(2).find("rotation only"), std::string::npos);
+}
+
+TEST_F(Mapper, WorksWithTwoPhotos) {
+  const Scene truth = MakeScene({.num_photos = 2, .arc_rad = 0.4, .noise_px = 0.3});
+  EXPECT_EQ(Run(truth, MatchesOf(truth, 0, 1)).num_posed, 2);
+  ExpectConsistent(scene_);
+}
+
+TEST_F(Mapper, RefineAllUsesPositions) {
+  Scene scene = MakeScene({.num_photos = 8, .num_points = 250, .noise_px = 0.3});
+  const Scene truth = scene;
+  Random random(3);
+  for (ScenePhoto& photo : scene.photos) {
+    photo.prior = PositionPrior{photo.pose->Center(), 0.02, 0.02};
+    photo.pose = Disturbed(*photo.pose, 0.0005, 0.02, random);
+  }
+  EXPECT_TRUE(RefineAll({}, true, context_, scene).usable);
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_LT((scene.photos[i].pose->Center() - truth.photos[i].pose->Center()).norm(), 0.03);
+  }
+}
+
+TEST_F(Mapper, StopsWhenAsked) {
+  struct Stopped : Progress {
+    void Begin(std::string_view, size_t) override {}
+    void Advance(size_t) override {}
+    void Warn(std::string_view) override {}
+    void Note(std::string_view) override {}
+    bool Cancelled() const override { return true; }
+  } stopped;
+  context_.progress = &stopped;
+  const Scene truth = MakeScene({.num_photos = 4, .num_points = 150});
+  try {
+    Run(truth, MatchesOf(truth, 0, 1));
+    FAIL() << "it went on";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInterrupted);
+  }
+}
+
+TEST(FilterScene, DropsWhatDoesNotFit) {
+  Scene scene = MakeScene({.num_photos = 5, .num_points = 120, .seen_share = 1});
+  EXPECT_EQ(FilterScene({}, 4, scene), 0);
+  const auto track = std::find_if(scene.tracks.begin(), scene.tracks.end(),
+                                  [](const SceneTrack& t) { return t.elements.size() == 5; });
+  ASSERT_NE(track, scene.tracks.end());
+  const SceneElement& e = track->elements[2];
+  scene.photos[e.photo].keypoints[e.keypoint].x() += 9;
+  EXPECT_EQ(FilterScene({}, 4, scene), 1);
+  EXPECT_FALSE(track->elements[2].used);
+  EXPECT_TRUE(track->position);
+  // All but one gone: the point goes too.
+  for (const int i : {0, 1, 3}) {
+    scene.photos[track->elements[i].photo].keypoints[track->elements[i].keypoint].y() -= 50;
+  }
+  EXPECT_EQ(FilterScene({}, 4, scene), 4);
+  EXPECT_FALSE(track->position);
+}
+
+TEST(FilterScene, DropsPosesThatLittleHolds) {
+  Scene scene = MakeScene({.num_photos = 5, .num_points = 120, .seen_share = 1});
+  for (size_t k = 12; k < scene.photos[2].keypoints.size(); ++k) {
+    scene.photos[2].keypoints[k].x() += 30;
+  }
+  FilterScene({}, 4, scene);
+  EXPECT_FALSE(scene.photos[2].pose);
+  EXPECT_EQ(NumPosed(scene), 4);
+  ExpectConsistent(scene);
+}
+
+TEST(FilterScene, DropsPointsUnderSmallAngles) {
+  Scene scene = MakeScene({.num_photos = 4, .num_points = 60});
+  FilterScene({.min_angle_rad = 3}, 4, scene);
+  for (const SceneTrack& track : scene.tracks) EXPECT_FALSE(track.position);
+}
+
+}  // namespace
+}  // namespace stucco::test

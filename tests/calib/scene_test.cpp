@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/calib/made_scene.h"
+
+namespace stucco::test {
+namespace {
+
+TEST(Scene, MeasuresReprojectionErrors) {
+  Scene scene = MakeScene({.num_photos = 3, .num_points = 40});
+  const SceneTrack& track = scene.tracks[0];
+  const SceneElement& e = track.elements[0];
+  EXPECT_LT(ReprojectionError(scene, e, *track.position), 1e-9);
+  scene.photos[e.photo].keypoints[e.keypoint] += Eigen::Vector2d(3, -4);
+  EXPECT_NEAR(ReprojectionError(scene, e, *track.position), 5, 1e-9);
+  const Eigen::Vector3d behind =
+      scene.photos[e.photo].pose->Center() -
+      scene.photos[e.photo].pose->rotation.conjugate() * Eigen::Vector3d(0, 0, 1);
+  EXPECT_TRUE(std::isinf(ReprojectionError(scene, e, behind)));
+  scene.photos[e.photo].pose.reset();
+  EXPECT_TRUE(std::isinf(ReprojectionError(scene, e, *track.position)));
+}
+
+TEST(Scene, CountsPosesAndObservations) {
+  Scene scene = MakeScene({.num_photos = 4, .num_points = 40});
+  EXPECT_EQ(NumPosed(scene), 4);
+  const int all = static_cast<int>(scene.photos[1].keypoints.size());
+  EXPECT_EQ(NumUsedObservations(scene, 1), all);
+  const int track = scene.tracks_of_photo[1][0];
+  scene.tracks[track].position.reset();
+  EXPECT_EQ(NumUsedObservations(scene, 1), all - 1);
+  for (SceneElement& e : scene.tracks[scene.tracks_of_photo[1][1]].elements) e.used = false;
+  EXPECT_EQ(NumUsedObservations(scene, 1), all - 2);
+  scene.tracks_of_photo[1][2] = -1;
+  EXPECT_EQ(NumUsedObservations(scene, 1), all - 3);
+  scene.photos[0].pose.reset();
+  EXPECT_EQ(NumPosed(scene), 3);
+}
+
+TEST(Scene, FindsTheLargestAngleOfUsedRays) {
+  Scene scene;
+  const Camera camera = MadeCamera(CameraModel::kPinhole);
+  scene.cameras = {{camera, camera, 0.1}};
+  const Eigen::Vector3d point(0, 0, 0);
+  SceneTrack track;
+  track.position = point;
+  for (const double angle : {0.0, 0.1, 0.4}) {
+    ScenePhoto photo;
+    photo.pose = LookAt(10 * Eigen::Vector3d(std::sin(angle), -std::cos(angle), 0), point);
+    track.elements.push_back({static_cast<int>(scene.photos.size()), 0, true});
+    scene.photos.push_back(photo);
+  }
+  EXPECT_NEAR(LargestRayAngle(scene, track), 0.4, 1e-9);
+  track.elements[2].used = false;
+  EXPECT_NEAR(LargestRayAngle(scene, track), 0.1, 1e-9);
+  track.elements[1].used = false;
+  EXPECT_NEAR(LargestRayAngle(scene, track), 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace stucco::test
