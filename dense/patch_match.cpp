@@ -1,0 +1,359 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dense/patch_match.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dense/internal/source_geometry.h"
+#include "dense/patch.h"
+
+namespace stucco {
+namespace {
+
+constexpr int kMaxSources = 16;
+constexpr float kGeometricWeight = 0.15f;  // per pixel of disagreement
+constexpr float kGeometricLimit = 3;       // pixels
+constexpr float kLeastOwnVariance = 5;     // grey levels squared, within two pixels
+constexpr float kSteepest = 0.1f;          // cosine between a plane's normal and the ray, at least
+
+// Candidates are taken from where a red pixel has black neighbours: offsets with an odd sum.
+constexpr std::array<std::array<int, 2>, 4> kNear[4] = {
+    {{{0, -1}, {-1, -2}, {1, -2}, {0, -3}}},
+    {{{0, 1}, {-1, 2}, {1, 2}, {0, 3}}},
+    {{{-1, 0}, {-2, -1}, {-2, 1}, {-3, 0}}},
+    {{{1, 0}, {2, -1}, {2, 1}, {3, 0}}},
+};
+constexpr std::array<std::array<int, 2>, 4> kFar[4] = {
+    {{{0, -5}, {0, -9}, {0, -15}, {0, -21}}},
+    {{{0, 5}, {0, 9}, {0, 15}, {0, 21}}},
+    {{{-5, 0}, {-9, 0}, {-15, 0}, {-21, 0}}},
+    {{{5, 0}, {9, 0}, {15, 0}, {21, 0}}},
+};
+
+// PCG hash (Jarzynski & Olano 2020).
+class Random {
+ public:
+  Random(uint32_t seed, uint32_t pixel, uint32_t round) : state_(seed * 747796405u + pixel) {
+    state_ = Next() + round * 2891336453u;
+    Next();
+  }
+  uint32_t Next() {
+    state_ = state_ * 747796405u + 2891336453u;
+    const uint32_t word = ((state_ >> ((state_ >> 28u) + 4u)) ^ state_) * 277803737u;
+    return (word >> 22u) ^ word;
+  }
+  float Uniform(float low, float high) {
+    return low + (high - low) * static_cast<float>(Next() >> 8) * 0x1p-24f;
+  }
+
+ private:
+  uint32_t state_;
+};
+
+struct Plane {
+  float depth = 0;
+  Eigen::Vector3f normal = -Eigen::Vector3f::UnitZ();
+};
+
+class LevelMatcher {
+ public:
+  LevelMatcher(const PatchMatchInput& input, const PatchMatchOptions& options, int level)
+      : input_(input),
+        options_(options),
+        level_(level),
+        view_(input.reference->views[level]),
+        image_(input.reference->images[level]) {
+    for (const auto& source : input.sources) geometry_.emplace_back(view_, source->views[level]);
+    planes_.resize(image_.gray.size());
+    costs_.assign(image_.gray.size(), kNoMatch);
+    for (size_t s = 0; s < input.source_maps.size(); ++s) {
+      back_.emplace_back(input.sources[s]->views[level], view_);
+    }
+  }
+
+  void StartFromSeeds() {
+    for (size_t i = 0; i < planes_.size(); ++i) {
+      Random random(options_.seed, static_cast<uint32_t>(i), 0);
+      planes_[i] =
+          RandomPlane(random, static_cast<int>(i % view_.width), static_cast<int>(i / view_.width));
+    }
+    // Every seed colours a disc; later and nearer seeds do not matter, propagation sorts them out.
+    const float scale = static_cast<float>(view_.width) / input_.reference->views[0].width;
+    constexpr int kRadius = 6;
+    for (const DepthSeed& seed : input_.seeds) {
+      const int x0 = static_cast<int>(seed.x * scale);
+      const int y0 = static_cast<int>(seed.y * scale);
+      for (int y = std::max(0, y0 - kRadius); y <= std::min(view_.height - 1, y0 + kRadius); ++y) {
+        for (int x = std::max(0, x0 - kRadius); x <= std::min(view_.width - 1, x0 + kRadius); ++x) {
+          if ((x + y) % 3 == 0) continue;  // keep some random ones in between
+          Plane& plane = planes_[Index(x, y)];
+          plane.depth = seed.depth;
+        }
+      }
+    }
+  }
+
+  void StartFrom(const LevelMatcher& coarser) {
+    const float scale_x = static_cast<float>(coarser.view_.width) / view_.width;
+    const float scale_y = static_cast<float>(coarser.view_.height) / view_.height;
+    for (int y = 0; y < view_.height; ++y) {
+      for (int x = 0; x < view_.width; ++x) {
+        const int cx = std::min(static_cast<int>((x + 0.5f) * scale_x), coarser.view_.width - 1);
+        const int cy = std::min(static_cast<int>((y + 0.5f) * scale_y), coarser.view_.height - 1);
+        const Plane& plane = coarser.planes_[coarser.Index(cx, cy)];
+        const Eigen::Vector3f point =
+            coarser.view_.Ray(static_cast<float>(cx), static_cast<float>(cy)) * plane.depth;
+        planes_[Index(x, y)] = {DepthOfPlane(plane.normal, point, x, y), plane.normal};
+      }
+    }
+  }
+
+  void StartFrom(const DepthMap& map) {
+    for (size_t i = 0; i < planes_.size(); ++i) {
+      planes_[i] = {map.depths[i], map.Normal(i)};
+    }
+  }
+
+  void Run(int iterations, bool far) {
+    for (int iteration = 0; iteration < iterations; ++iteration) {
+      for (int color = 0; color < 2; ++color) {
+        for (int y = 0; y < view_.height; ++y) {
+          if (y % 64 == 0) input_.check_cancelled();
+          for (int x = (y + color) % 2; x < view_.width; x += 2) Improve(x, y, iteration, far);
+        }
+      }
+    }
+  }
+
+  DepthMap Result() const {
+    DepthMap map = EmptyDepthMap(view_.width, view_.height);
+    for (size_t i = 0; i < planes_.size(); ++i) {
+      if (costs_[i] >= kNoMatch || !HasOwnTexture(i)) continue;
+      map.depths[i] = planes_[i].depth;
+      for (int k = 0; k < 3; ++k) {
+        map.normals[i][k] = static_cast<int8_t>(std::lround(planes_[i].normal[k] * 127));
+      }
+      map.costs[i] = static_cast<uint8_t>(std::min(254.0f, costs_[i] * 127));
+    }
+    return map;
+  }
+
+ private:
+  size_t Index(int x, int y) const { return static_cast<size_t>(y) * view_.width + x; }
+
+  Eigen::Vector3f Ray(int x, int y) const {
+    return view_.Ray(static_cast<float>(x), static_cast<float>(y));
+  }
+
+  // Depth at a pixel of the plane through `point`.
+  float DepthOfPlane(const Eigen::Vector3f& normal, const Eigen::Vector3f& point, int x,
+                     int y) const {
+    const float along = normal.dot(Ray(x, y));
+    const float depth = along < -1e-6f ? normal.dot(point) / along : point.z();
+    return std::clamp(depth, options_.min_depth, options_.max_depth);
+  }
+
+  // Whether the pixel's near surroundings vary. Where only the rim of the window does, the match
+  // says where that rim lies, not the pixel: sky next to a roof would be glued to the roof.
+  bool HasOwnTexture(size_t index) const {
+    const int x = static_cast<int>(index % view_.width);
+    const int y = static_cast<int>(index / view_.width);
+    constexpr int kRadius = 2;
+    float sum = 0;
+    float squares = 0;
+    for (int dy = -kRadius; dy <= kRadius; ++dy) {
+      for (int dx = -kRadius; dx <= kRadius; ++dx) {
+        const int px = std::clamp(x + dx, 0, view_.width - 1);
+        const int py = std::clamp(y + dy, 0, view_.height - 1);
+        const float value = image_.gray[Index(px, py)];
+        sum += value;
+        squares += value * value;
+      }
+    }
+    constexpr float kCount = (2 * kRadius + 1) * (2 * kRadius + 1);
+    return squares / kCount - (sum / kCount) * (sum / kCount) > kLeastOwnVariance;
+  }
+
+  // Turns a normal towards the camera and away from grazing planes.
+  Eigen::Vector3f Facing(Eigen::Vector3f normal, int x, int y) const {
+    const Eigen::Vector3f ray = Ray(x, y).normalized();
+    normal.normalize();
+    if (normal.dot(ray) > 0) normal = -normal;
+    if (normal.dot(ray) > -kSteepest)
+      normal = (normal - (normal.dot(ray) + kSteepest) * ray).normalized();
+    return normal;
+  }
+
+  Plane RandomPlane(Random& random, int x, int y) const {
+    Plane plane;
+    // Uniform in inverse depth: as many planes per pixel of disparity everywhere.
+    plane.depth =
+        1 / random.Uniform(1 / options_.max_depth, 1 / std::max(options_.min_depth, 1e-9f));
+    plane.normal =
+        Facing({random.Uniform(-1, 1), random.Uniform(-1, 1), -random.Uniform(0.4f, 1.6f)}, x, y);
+    return plane;
+  }
+
+  float ViewCost(const ReferencePatch& patch, const Plane& plane, int x, int y, int source) const {
+    const Eigen::Vector3f point = Ray(x, y) * plane.depth;
+    float h[9];
+    geometry_[source].Homography(view_, point, plane.normal, h);
+    const float cost = PatchCost(patch, input_.sources[source]->images[level_], h,
+                                 static_cast<float>(x), static_cast<float>(y));
+    if (input_.source_maps.empty() || cost >= kNoMatch) return cost;
+    return cost + kGeometricWeight * Disagreement(point, x, y, source);
+  }
+
+  // Forward-backward reprojection error in pixels against the source's own depth, limited.
+  float Disagreement(const Eigen::Vector3f& point, int x, int y, int source) const {
+    const SourceGeometry& to_source = geometry_[source];
+    const PinholeView& other = input_.sources[source]->views[level_];
+    const Eigen::Vector3f p = to_source.source_from_reference * point + to_source.translation;
+    if (p.z() <= 0) return kGeometricLimit;
+    const int u = static_cast<int>(std::lround(other.fx * p.x() / p.z() + other.cx));
+    const int v = static_cast<int>(std::lround(other.fy * p.y() / p.z() + other.cy));
+    if (u < 0 || v < 0 || u >= other.width || v >= other.height) return kGeometricLimit;
+    const DepthMap& map = *input_.source_maps[source];
+    const float depth = map.depths[map.Index(u, v)];
+    if (depth <= 0) return kGeometricLimit;
+    // The source's surface at that pixel, carried along its ray to where this point projects.
+    const Eigen::Vector3f there = p * (depth / p.z());
+    const SourceGeometry& back = back_[source];
+    const Eigen::Vector3f q = back.source_from_reference * there + back.translation;
+    if (q.z() <= 0) return kGeometricLimit;
+    const float dx = view_.fx * q.x() / q.z() + view_.cx - static_cast<float>(x);
+    const float dy = view_.fy * q.y() / q.z() + view_.cy - static_cast<float>(y);
+    return std::min(kGeometricLimit, std::sqrt(dx * dx + dy * dy));
+  }
+
+  // The sources that see this pixel best under its present plane; others are hidden or too oblique.
+  struct Selection {
+    std::array<int, kMaxSources> sources{};
+    int count = 0;
+    float cost = kNoMatch;
+  };
+
+  Selection SelectViews(const ReferencePatch& patch, const Plane& plane, int x, int y) const {
+    std::array<std::pair<float, int>, kMaxSources> costs;
+    const int total = static_cast<int>(geometry_.size());
+    for (int s = 0; s < total; ++s) costs[s] = {ViewCost(patch, plane, x, y, s), s};
+    Selection selection;
+    selection.count = std::min(options_.views_per_pixel, total);
+    std::partial_sort(costs.begin(), costs.begin() + selection.count, costs.begin() + total);
+    float sum = 0;
+    for (int i = 0; i < selection.count; ++i) {
+      selection.sources[i] = costs[i].second;
+      sum += std::min(costs[i].first, kNoMatch);
+    }
+    selection.cost = sum / static_cast<float>(selection.count);
+    return selection;
+  }
+
+  float Cost(const ReferencePatch& patch, const Plane& plane, int x, int y,
+             const Selection& selection, float limit) const {
+    float sum = 0;
+    const float stop = limit * static_cast<float>(selection.count);
+    for (int i = 0; i < selection.count && sum < stop; ++i) {
+      sum += std::min(ViewCost(patch, plane, x, y, selection.sources[i]), kNoMatch);
+    }
+    return sum / static_cast<float>(selection.count);
+  }
+
+  void Improve(int x, int y, int iteration, bool far) {
+    const ReferencePatch patch = MakeReferencePatch(image_, x, y);
+    const size_t index = Index(x, y);
+    Plane best = planes_[index];
+    const Selection selection = SelectViews(patch, best, x, y);
+    float best_cost = selection.cost;
+    const auto offer = [&](const Plane& plane) {
+      const float cost = Cost(patch, plane, x, y, selection, best_cost);
+      if (cost >= best_cost) return;
+      best_cost = cost;
+      best = plane;
+    };
+    for (const auto& arm : kNear) OfferBestOf(arm, x, y, offer);
+    for (const auto& arm : kFar) {
+      if (far) OfferBestOf(arm, x, y, offer);
+    }
+    Refine(x, y, iteration, far, best, offer);
+    planes_[index] = best;
+    costs_[index] = best_cost;
+  }
+
+  template <typename Arm, typename Offer>
+  void OfferBestOf(const Arm& arm, int x, int y, const Offer& offer) const {
+    size_t best = planes_.size();
+    int bx = 0;
+    int by = 0;
+    for (const auto& [dx, dy] : arm) {
+      if (x + dx < 0 || y + dy < 0 || x + dx >= view_.width || y + dy >= view_.height) continue;
+      const size_t other = Index(x + dx, y + dy);
+      if (best != planes_.size() && costs_[other] >= costs_[best]) continue;
+      best = other;
+      bx = x + dx;
+      by = y + dy;
+    }
+    if (best == planes_.size()) return;
+    const Plane& plane = planes_[best];
+    offer(Plane{DepthOfPlane(plane.normal, Ray(bx, by) * plane.depth, x, y), plane.normal});
+  }
+
+  // Small random changes of depth and normal, halving from one iteration to the next; at the coarse
+  // levels also a new plane altogether. `best` is the plane as improved so far.
+  template <typename Offer>
+  void Refine(int x, int y, int iteration, bool anew, const Plane& best, const Offer& offer) const {
+    Random random(options_.seed, static_cast<uint32_t>(Index(x, y)),
+                  static_cast<uint32_t>(1 + iteration + 100 * level_ + (input_.start ? 1000 : 0)));
+    const float size = std::ldexp(1.0f, -iteration) * (anew ? 1.0f : 0.25f);
+    const float depth = best.depth * (1 + random.Uniform(-0.02f, 0.02f) * size);
+    const Eigen::Vector3f turn(random.Uniform(-0.5f, 0.5f), random.Uniform(-0.5f, 0.5f),
+                               random.Uniform(-0.5f, 0.5f));
+    const Eigen::Vector3f normal = Facing(best.normal + turn * size, x, y);
+    const float moved = std::clamp(depth, options_.min_depth, options_.max_depth);
+    offer(Plane{moved, best.normal});
+    offer(Plane{best.depth, normal});
+    if (!anew) return;
+    offer(Plane{moved, normal});
+    offer(RandomPlane(random, x, y));
+  }
+
+  const PatchMatchInput& input_;
+  const PatchMatchOptions& options_;
+  int level_;
+  const PinholeView& view_;
+  const PackedImage& image_;
+  std::vector<SourceGeometry> geometry_;
+  std::vector<SourceGeometry> back_;  // reference from source, in the second pass
+  std::vector<Plane> planes_;
+  std::vector<float> costs_;
+};
+
+}  // namespace
+
+DepthMap MatchDepths(const PatchMatchInput& input, const PatchMatchOptions& options) {
+  if (input.start != nullptr) {
+    LevelMatcher matcher(input, options, 0);
+    matcher.StartFrom(*input.start);
+    matcher.Run(options.iterations, false);
+    return matcher.Result();
+  }
+  const int levels = static_cast<int>(input.reference->views.size());
+  std::unique_ptr<LevelMatcher> matcher;
+  for (int level = levels - 1; level >= 0; --level) {
+    auto finer = std::make_unique<LevelMatcher>(input, options, level);
+    const bool coarsest = level == levels - 1;
+    if (coarsest) {
+      finer->StartFromSeeds();
+    } else {
+      finer->StartFrom(*matcher);
+    }
+    finer->Run(coarsest ? 6 : options.iterations + (level > 0 ? 1 : 0), level > 0 || coarsest);
+    matcher = std::move(finer);
+  }
+  return matcher->Result();
+}
+
+}  // namespace stucco

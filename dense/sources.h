@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "dense/patch_match.h"
+#include "survey/reconstruction.h"
+
+namespace stucco {
+
+// What the sparse points tell about one photo.
+struct SourceChoice {
+  std::vector<PhotoId> sources;  // best first
+  float min_depth = 0;
+  float max_depth = 0;
+  std::vector<DepthSeed> seeds;  // pixels of the undistorted photo at `max_image_px`
+};
+
+// For every posed photo the photos to match it with: a point seen by both counts by the angle
+// between its rays (best at 5 to 30 degrees, nothing below 1) and by how alike the photos' scales
+// are (after Goesele et al. 2007). Depth bounds are those of the photo's points with a margin.
+// Photos without a usable neighbour have no entry.
+std::map<PhotoId, SourceChoice> ChooseSources(const Reconstruction& reconstruction, int max_sources,
+                                              int max_image_px);
+
+}  // namespace stucco
