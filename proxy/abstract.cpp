@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/abstract.h"
+
+#include <fmt/format.h>
+
+#include "proxy/export_cityjson.h"
+#include "proxy/export_obj.h"
+#include "proxy/facets.h"
+#include "proxy/plane_view.h"
+#include "proxy/scene.h"
+#include "proxy/solid.h"
+#include "survey/colmap_io.h"
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/parallel.h"
+#include "survey/survey_folder.h"
+
+namespace stucco {
+namespace {
+
+// All planes of a scene in one row: the buildings' first, then the ground's.
+struct PlaneTable {
+  std::vector<Plane> planes;
+  std::vector<int> building;  // -1: ground
+};
+
+PlaneTable TableOf(const Scene& scene) {
+  PlaneTable table;
+  for (size_t b = 0; b < scene.buildings.size(); ++b) {
+    for (const Plane& plane : scene.buildings[b]) {
+      table.planes.push_back(plane);
+      table.building.push_back(static_cast<int>(b));
+    }
+  }
+  for (const Plane& plane : scene.ground) {
+    table.planes.push_back(plane);
+    table.building.push_back(-1);
+  }
+  return table;
+}
+
+// The open facets of each plane, cut along the planes of its own building and the ground.
+std::vector<std::vector<Facet>> OpenFacets(const Scene& scene, const PlaneTable& table,
+                                           const std::vector<PlaneView>& views, int threads) {
+  std::vector<std::vector<Facet>> facets(views.size());
+  ParallelFor(views.size(), threads, [&](size_t p) {
+    const bool ground = table.building[p] < 0;
+    std::vector<const PlaneView*> others;
+    for (size_t q = 0; q < views.size(); ++q) {
+      const bool other_ground = table.building[q] < 0;
+      if (ground ? !other_ground : other_ground || table.building[q] == table.building[p]) {
+        others.push_back(&views[q]);
+      }
+    }
+    const auto creases =
+        Creases(views[p], others, scene.tolerances.fill_gap, 3 * scene.tolerances.level_of_detail);
+    facets[p] = OutlineFacets(scene.samples, views[p], creases, scene.tolerances, ground);
+  });
+  return facets;
+}
+
+// Closes each building where its planes and points allow it; empty solids otherwise.
+std::vector<Solid> CloseBuildings(const Scene& scene, const Stations& stations,
+                                  const PlaneTable& table, const std::vector<PlaneView>& views,
+                                  const ProxyOptions& options, int threads) {
+  const SolidScene solid_scene{.samples = scene.samples,
+                               .stations = stations,
+                               .tolerances = scene.tolerances,
+                               .witnesses = scene.witnesses,
+                               .up = scene.up,
+                               .main_direction = scene.main_direction};
+  std::vector<Solid> solids(scene.buildings.size());
+  ParallelFor(solids.size(), threads, [&](size_t b) {
+    std::vector<const PlaneView*> own;
+    for (size_t p = 0; p < views.size(); ++p) {
+      if (table.building[p] == static_cast<int>(b)) own.push_back(&views[p]);
+    }
+    solids[b] =
+        CloseBuilding(solid_scene, own, scene.ground.empty() ? nullptr : &scene.ground.front(),
+                      {.max_planes = options.max_planes, .least_support = options.solid_support});
+  });
+  return solids;
+}
+
+}  // namespace
+
+Proxy AbstractCloud(const PointCloud& cloud, const Stations& stations, const Georef& georef,
+                    const ProxyOptions& options, int threads, ProxyFindings& findings) {
+  const Scene scene = UnderstandCloud(cloud, stations, georef, options, threads, findings);
+  const PlaneTable table = TableOf(scene);
+  const auto views = ViewPlanes(scene.samples, stations, table.planes, scene.witnesses, scene.up,
+                                scene.main_direction, scene.tolerances,
+                                table.planes.size() - scene.ground.size(), threads);
+  auto facets = OpenFacets(scene, table, views, threads);
+  Proxy proxy;
+  proxy.up = scene.up;
+  proxy.metric = georef.metric;
+  Building ground{.id = "G0", .watertight = false, .source = "cloud", .facets = {}};
+  for (size_t b = 0; b < scene.buildings.size(); ++b) {
+    proxy.buildings.push_back(
+        {.id = fmt::format("B{:04}", b + 1), .watertight = false, .source = "cloud", .facets = {}});
+  }
+  for (size_t p = 0; p < facets.size(); ++p) {
+    Building& building = table.building[p] < 0 ? ground : proxy.buildings[table.building[p]];
+    for (Facet& facet : facets[p]) building.facets.push_back(std::move(facet));
+  }
+  proxy.buildings.push_back(std::move(ground));
+  if (options.solids) {
+    auto solids = CloseBuildings(scene, stations, table, views, options, threads);
+    for (size_t b = 0; b < solids.size(); ++b) {
+      Building& building = proxy.buildings[b];
+      building.watertight = !solids[b].facets.empty();
+      if (building.watertight) {
+        building.facets = std::move(solids[b].facets);
+        findings.notes.push_back(fmt::format("{}: closed, points cover {:.0f} % of it", building.id,
+                                             100 * solids[b].support));
+      } else {
+        findings.notes.push_back(building.id + ": open facets, because as a solid " +
+                                 solids[b].why_not);
+      }
+    }
+  }
+  std::erase_if(proxy.buildings, [](const Building& building) { return building.facets.empty(); });
+  if (proxy.buildings.empty()) {
+    throw Error(ErrorKind::kStageFailed,
+                "the planes in the dense cloud are too small or too thin for a single facet",
+                "Lower proxy.level_of_detail or proxy.min_area, or look at dense/cloud.ply.");
+  }
+  for (Building& building : proxy.buildings) AssignIds(building);
+  return proxy;
+}
+
+void RunProxy(const ProxyOptions& options, StageContext& context) {
+  Progress& progress = *context.progress;
+  progress.Begin("abstracting the cloud to planes", 3);
+  const PointCloud cloud = ReadPly(context.survey / kCloudFile);
+  const Stations stations = StationsOf(ReadColmapModel(context.survey / kSparseFolder));
+  const Georef georef = ReadGeoref(context.survey / kGeorefFile);
+  context.ThrowIfCancelled();
+  progress.Advance();
+  ProxyFindings findings;
+  const Proxy proxy = AbstractCloud(cloud, stations, georef, options, context.threads, findings);
+  for (const auto& note : findings.notes) progress.Note(note);
+  for (const auto& warning : findings.warnings) progress.Warn(warning);
+  context.ThrowIfCancelled();
+  progress.Advance();
+  if (const auto problem = FindProblem(proxy)) {
+    throw Error(ErrorKind::kStageFailed, "the planar model is not sound: " + *problem,
+                "Please report this with the survey; proxy.solids = false may avoid it.");
+  }
+  WriteProxy(proxy, context.out / "facets.json");
+  WriteFile(context.out / "proxy.obj", ObjText(proxy));
+  WriteFile(context.out / "proxy.city.json", CityJsonText(proxy));
+  progress.Advance();
+}
+
+}  // namespace stucco

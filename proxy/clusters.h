@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "proxy/plane.h"
+#include "proxy/samples.h"
+#include "proxy/scale.h"
+
+namespace stucco {
+
+struct Clusters {
+  // Each building's planes with only the points that are its own; the one with most area first.
+  std::vector<std::vector<Plane>> buildings;
+  int dropped = 0;  // clusters too small or too low for a building: cars, benches, hedges
+};
+
+// Splits planes into buildings: what stands together in the ground plan, seen from above on a grid
+// of `fill_gap`. Used where there is no map. `ground` may be null; with it a lone roof counts as
+// high as it lies above the ground.
+Clusters SplitIntoBuildings(const Samples& samples, const Tolerances& tolerances,
+                            const Eigen::Vector3d& up, const Plane* ground,
+                            const std::vector<Plane>& planes);
+
+}  // namespace stucco

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "proxy/stations.h"
+#include "survey/point_cloud.h"
+
+namespace stucco {
+
+// The cloud thinned to at most one point per grid cell: what every later step works on.
+struct Samples {
+  std::vector<Eigen::Vector3d> positions;  // mean of the cell's points
+  std::vector<Eigen::Vector3d> normals;    // unit, towards the cameras; zero where not known
+  std::vector<int> weights;                // cloud points a sample stands for
+  std::vector<int> stations;  // index into Stations::all of a photo that sees it, or -1
+  double cell = 0;            // side of the grid's cells; 0: nothing was thinned
+  size_t dropped = 0;         // points not finite or far away from all others
+
+  size_t size() const { return positions.size(); }
+};
+
+// Thins to at most `max_points`, with cells of at least `min_cell`. Points that are not finite, or
+// three times the size of the box of the middle 98 % away from it, are dropped.
+Samples ThinCloud(const PointCloud& cloud, const Stations& stations, int max_points,
+                  double min_cell);
+
+}  // namespace stucco

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "proxy/abstract.h"
+#include "proxy/samples.h"
+#include "proxy/stations.h"
+
+namespace stucco {
+
+// Sizes of a cloud, in world units.
+struct CloudScale {
+  double spacing = 0;           // median distance to the nearest other sample
+  double noise = 0;             // median distance of samples from the plane of their neighbours
+  double viewing_distance = 0;  // median distance to a camera that sees the sample; 0: not known
+  double extent = 0;            // diagonal of the box of the middle 90 %
+};
+
+// Requires at least 4 samples. All zero when most of them are at one place.
+CloudScale MeasureScale(const Samples& samples, const Stations& stations);
+
+// What every step after this works with, in world units.
+struct Tolerances {
+  double level_of_detail = 0;
+  double epsilon = 0;
+  double min_area = 0;
+  double fill_gap = 0;
+  double spacing = 0;
+  double radius = 0;  // neighbours for growing and smoothing
+};
+
+Tolerances DeriveTolerances(const CloudScale& scale, bool metric, const ProxyOptions& options);
+
+}  // namespace stucco

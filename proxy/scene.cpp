@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "proxy/clusters.h"
+#include "proxy/consolidate.h"
+#include "proxy/detect.h"
+#include "proxy/grid_index.h"
+#include "proxy/ground.h"
+#include "proxy/normals.h"
+#include "proxy/regularise.h"
+#include "proxy/upright.h"
+#include "survey/error.h"
+
+namespace stucco {
+namespace {
+
+constexpr char kCloudRemedy[] =
+    "Look at dense/cloud.ply: the dense stage found too little surface. More overlapping photos, "
+    "or "
+    "a finer dense quality, give more points.";
+
+// Thins the cloud, measures it, and thins again when the tolerances need fewer points.
+CloudScale PrepareSamples(const PointCloud& cloud, const Stations& stations, bool metric,
+                          const ProxyOptions& options, Scene& scene) {
+  constexpr double kSamplesPerDetail = 4;
+  scene.samples = ThinCloud(cloud, stations, options.max_points, 0);
+  const auto fewest = static_cast<size_t>(std::max(8, options.min_points));
+  if (scene.samples.size() < fewest) {
+    throw Error(ErrorKind::kStageFailed,
+                fmt::format("the dense cloud has {} usable points ({} of {} are not finite or far "
+                            "away); planes need at least {}",
+                            scene.samples.size(), scene.samples.dropped, cloud.size(), fewest),
+                kCloudRemedy);
+  }
+  CloudScale scale = MeasureScale(scene.samples, stations);
+  if (!(scale.spacing > 0)) {
+    throw Error(ErrorKind::kStageFailed, "all points of the dense cloud are at one place",
+                kCloudRemedy);
+  }
+  scene.tolerances = DeriveTolerances(scale, metric, options);
+  const double coarse = scene.tolerances.level_of_detail / kSamplesPerDetail;
+  if (coarse > 1.3 * scale.spacing) {
+    scene.samples = ThinCloud(cloud, stations, options.max_points, coarse);
+    const CloudScale thinned = MeasureScale(scene.samples, stations);
+    scene.tolerances.spacing = std::max(thinned.spacing, scene.samples.cell * 0.8);
+    scene.tolerances.radius = 3 * scene.tolerances.spacing;
+  }
+  return scale;
+}
+
+std::vector<Plane> FindPlanes(const Stations& stations, const ProxyOptions& options, int threads,
+                              Scene& scene) {
+  Samples& samples = scene.samples;
+  const Tolerances& tolerances = scene.tolerances;
+  const GridIndex index(samples.positions, tolerances.radius);
+  const auto agreement = SmoothNormals(samples, index, tolerances.radius, stations, threads);
+  auto planes = DetectPlanes(samples, index, agreement,
+                             {.radius = tolerances.radius,
+                              .epsilon = tolerances.epsilon,
+                              .normal_angle_deg = options.normal_angle_deg,
+                              .min_points = options.min_points});
+  MergeCoplanar(samples, tolerances, options.normal_angle_deg, planes);
+  AdoptNeighbours(samples, index, tolerances, options.normal_angle_deg, planes);
+  MergeCoplanar(samples, tolerances, options.normal_angle_deg, planes);
+  DropClutter(samples, tolerances, options.normal_angle_deg, planes);
+  return planes;
+}
+
+void FindUp(const std::vector<Plane>& planes, const Stations& stations, const Georef& georef,
+            const ProxyOptions& options, Scene& scene, ProxyFindings& findings) {
+  if (options.up.size() == 3) {
+    const Eigen::Vector3d up(options.up[0], options.up[1], options.up[2]);
+    if (!(up.norm() > 0)) {
+      throw Error(ErrorKind::kUsage, "proxy.up must not be [0, 0, 0]");
+    }
+    scene.up = up.normalized();
+    findings.notes.push_back("up: from the settings");
+    return;
+  }
+  if (!options.up.empty()) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("proxy.up has {} numbers; it needs 3", options.up.size()));
+  }
+  if (georef.up && georef.up->allFinite() && georef.up->norm() > 0) {
+    // Sensors are good to about a degree; walls are better, but only near what sensors say.
+    constexpr double kSensor_deg = 3;
+    const Eigen::Vector3d given = georef.up->normalized();
+    scene.up = georef.frame == "enu" ? given : RefineUp(planes, given, kSensor_deg);
+    findings.notes.push_back("up: from calibration (" + georef.source + ")");
+    return;
+  }
+  const UpEstimate estimate = EstimateUp(planes, stations);
+  scene.up = estimate.up;
+  findings.notes.push_back(fmt::format(
+      "up: from {}; {:.0f} % of the planes' area is upright or level, walls moved it by {:.1f} deg",
+      estimate.source, 100 * estimate.explained, estimate.from_first_guess_deg));
+  if (estimate.explained < 0.3) {
+    findings.warnings.push_back(
+        "up is uncertain: few planes are upright or level. Set proxy.up, or give photos with "
+        "gimbal "
+        "angles or GPS.");
+  }
+}
+
+}  // namespace
+
+Scene UnderstandCloud(const PointCloud& cloud, const Stations& stations, const Georef& georef,
+                      const ProxyOptions& options, int threads, ProxyFindings& findings) {
+  Scene scene;
+  const CloudScale scale = PrepareSamples(cloud, stations, georef.metric, options, scene);
+  findings.notes.push_back(
+      fmt::format("{} points thinned to {}, {} dropped; noise {:.4g}, level of detail {:.4g} {}",
+                  cloud.size(), scene.samples.size(), scene.samples.dropped, scale.noise,
+                  scene.tolerances.level_of_detail, georef.metric ? "m" : "units"));
+  auto planes = FindPlanes(stations, options, threads, scene);
+  if (planes.empty()) {
+    throw Error(ErrorKind::kStageFailed,
+                fmt::format("the dense cloud shows no plane of at least {:.3g} {}",
+                            scene.tolerances.min_area, georef.metric ? "m2" : "square units"),
+                kCloudRemedy);
+  }
+  FindUp(planes, stations, georef, options, scene, findings);
+  scene.main_direction = Regularise(scene.samples, scene.tolerances, scene.up,
+                                    {.vertical_tolerance_deg = options.vertical_tolerance_deg,
+                                     .align_tolerance_deg = options.align_tolerance_deg},
+                                    planes);
+  for (const Plane& plane : planes) {
+    scene.witnesses.insert(scene.witnesses.end(), plane.points.begin(), plane.points.end());
+  }
+  std::sort(scene.witnesses.begin(), scene.witnesses.end());
+  std::vector<bool> is_ground(planes.size(), false);
+  for (const int g : FindGround(scene.samples, scene.tolerances, scene.up, planes)) {
+    scene.ground.push_back(planes[g]);
+    is_ground[g] = true;
+  }
+  if (scene.ground.empty()) {
+    if (auto floor = FitFloor(scene.samples, scene.tolerances, scene.up)) {
+      scene.ground.push_back(std::move(*floor));
+      findings.notes.push_back("the ground is seen in patches only: fitted as one plane");
+    }
+  }
+  std::vector<Plane> above;
+  for (size_t p = 0; p < planes.size(); ++p) {
+    if (!is_ground[p]) above.push_back(std::move(planes[p]));
+  }
+  Clusters clusters =
+      SplitIntoBuildings(scene.samples, scene.tolerances, scene.up,
+                         scene.ground.empty() ? nullptr : &scene.ground.front(), above);
+  scene.buildings = std::move(clusters.buildings);
+  findings.notes.push_back(
+      fmt::format("{} planes: {} ground, {} buildings; {} small objects left out", is_ground.size(),
+                  scene.ground.size(), scene.buildings.size(), clusters.dropped));
+  if (scene.ground.empty()) findings.warnings.push_back("the cloud shows no ground");
+  return scene;
+}
+
+}  // namespace stucco

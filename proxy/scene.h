@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "proxy/abstract.h"
+#include "proxy/plane.h"
+#include "proxy/samples.h"
+#include "proxy/scale.h"
+#include "proxy/stations.h"
+
+namespace stucco {
+
+// The cloud understood: samples, up, and the regularised planes told apart.
+struct Scene {
+  Samples samples;
+  Tolerances tolerances;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d main_direction = Eigen::Vector3d::UnitX();
+  std::vector<Plane> ground;                  // the main one first
+  std::vector<std::vector<Plane>> buildings;  // largest first
+  std::vector<int> witnesses;                 // samples on any plane, ascending
+};
+
+// Steps 1 to 6 of the README: thinning, planes, up, regularisation, ground, buildings. Throws Error
+// (kStageFailed) when there are too few points or no planes.
+Scene UnderstandCloud(const PointCloud& cloud, const Stations& stations, const Georef& georef,
+                      const ProxyOptions& options, int threads, ProxyFindings& findings);
+
+}  // namespace stucco

@@ -1,0 +1,310 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/abstract.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "proxy/closed_check.h"
+#include "survey/error.h"
+#include "tests/proxy/scene.h"
+
+namespace stucco {
+namespace {
+
+using Eigen::Vector3d;
+using testing::Capture;
+using testing::Captured;
+using testing::CaptureOptions;
+
+Georef Metric() {
+  Georef georef;
+  georef.frame = "enu";
+  georef.metric = true;
+  georef.up = Vector3d::UnitZ();
+  return georef;
+}
+
+Proxy Abstract(const Captured& captured, const Georef& georef = Metric(),
+               const ProxyOptions& options = {}, int threads = 1) {
+  ProxyFindings findings;
+  const Proxy proxy =
+      AbstractCloud(captured.cloud, captured.stations, georef, options, threads, findings);
+  EXPECT_EQ(FindProblem(proxy), std::nullopt);
+  return proxy;
+}
+
+const Building* Find(const Proxy& proxy, const std::string& id) {
+  for (const Building& building : proxy.buildings) {
+    if (building.id == id) return &building;
+  }
+  return nullptr;
+}
+
+int Count(const Building& building, FacetClass facet_class) {
+  return static_cast<int>(
+      std::count_if(building.facets.begin(), building.facets.end(),
+                    [&](const Facet& facet) { return facet.facet_class == facet_class; }));
+}
+
+double AngleDeg(const Vector3d& a, const Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+}
+
+// Every true polygon has one facet on its plane, with its area.
+void ExpectTruth(const testing::House& house, const Building& building, double angle_deg,
+                 double offset, double area_share) {
+  for (const auto& polygon : house.polygons) {
+    const Eigen::Vector4d truth = testing::PlaneOf(polygon);
+    double area = 0;
+    for (size_t i = 1; i + 1 < polygon.ring.size(); ++i) {
+      area += (polygon.ring[i] - polygon.ring[0])
+                  .cross(polygon.ring[i + 1] - polygon.ring[0])
+                  .dot(truth.head<3>()) /
+              2;
+    }
+    const auto fits = [&](const Facet& facet) {
+      const double middle = truth.head<3>().dot((facet.outer[0] + facet.outer[1]) / 2) - truth[3];
+      return AngleDeg(facet.normal, truth.head<3>()) < angle_deg && std::abs(middle) < offset &&
+             std::abs(facet.area - area) < area_share * area;
+    };
+    EXPECT_EQ(std::count_if(building.facets.begin(), building.facets.end(), fits), 1)
+        << polygon.name;
+  }
+}
+
+TEST(AbstractCloud, AGableHouseIsClosedAndExact) {
+  const auto house = testing::GableHouse();
+  const Proxy proxy = Abstract(Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.01}));
+  ASSERT_EQ(proxy.buildings.size(), 2u);
+  const Building& building = proxy.buildings[0];
+  EXPECT_EQ(building.id, "B0001");
+  EXPECT_TRUE(building.watertight);
+  ASSERT_EQ(building.facets.size(), 7u);
+  EXPECT_EQ(Count(building, FacetClass::kWall), 4);
+  EXPECT_EQ(Count(building, FacetClass::kRoof), 2);
+  EXPECT_EQ(Count(building, FacetClass::kGround), 1);
+  EXPECT_EQ(building.facets[0].id, "B0001/W00");
+  EXPECT_EQ(FindOpening(building.facets), std::nullopt);
+  ExpectTruth(house, building, 0.2, 0.01, 0.01);
+  const Building& ground = proxy.buildings[1];
+  EXPECT_EQ(ground.id, "G0");
+  ASSERT_EQ(ground.facets.size(), 1u);
+  EXPECT_EQ(ground.facets[0].facet_class, FacetClass::kGround);
+  EXPECT_NEAR(ground.facets[0].outer[0].z(), 0, 0.02);
+}
+
+TEST(AbstractCloud, AnLShapeIsClosed) {
+  const auto house = testing::LShapedHouse();
+  const Proxy proxy = Abstract(Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.02}));
+  const Building& building = proxy.buildings[0];
+  EXPECT_TRUE(building.watertight);
+  EXPECT_EQ(building.facets.size(), 8u);
+  ExpectTruth(house, building, 0.2, 0.02, 0.01);
+}
+
+TEST(AbstractCloud, BearsNoiseStraysAndTrees) {
+  const auto house = testing::GableHouse();
+  for (const double noise : {0.03, 0.08}) {
+    Captured captured =
+        Capture({house}, {testing::GroundSquare(20)}, {.noise = noise, .outliers = 0.1});
+    testing::AddTree({11, -6, 3}, 2, 6000, 4, captured);
+    const Proxy proxy = Abstract(captured);
+    const Building* building = Find(proxy, "B0001");
+    ASSERT_NE(building, nullptr);
+    EXPECT_TRUE(building->watertight) << noise;
+    EXPECT_EQ(building->facets.size(), 7u) << noise;
+    ExpectTruth(house, *building, 0.5, 0.05, 0.03);
+  }
+}
+
+TEST(AbstractCloud, ASideNobodySawIsMarkedInferred) {
+  const auto house = testing::BoxHouse(12, 8, 6);
+  const Proxy proxy =
+      Abstract(Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.02, .hide = {"north"}}));
+  const Building& building = proxy.buildings[0];
+  EXPECT_TRUE(building.watertight);
+  double inferred_walls = 0;
+  for (const Facet& facet : building.facets) {
+    if (facet.facet_class != FacetClass::kWall || facet.inferred < 0.99) continue;
+    inferred_walls += facet.area;
+    EXPECT_EQ(facet.source, "extruded");
+    EXPECT_EQ(facet.support, 0);
+  }
+  EXPECT_NEAR(inferred_walls, 72, 12);
+}
+
+TEST(AbstractCloud, AFrontAloneStaysOpenFacets) {
+  const auto house = testing::GableHouse();
+  CaptureOptions options{.noise = 0.02, .front_only = true, .hide = {"east", "west"}};
+  const Proxy proxy = Abstract(Capture({house}, {testing::GroundSquare(20)}, options));
+  const Building* building = Find(proxy, "B0001");
+  ASSERT_NE(building, nullptr);
+  EXPECT_FALSE(building->watertight);
+  ASSERT_EQ(building->facets.size(), 2u);
+  const Facet& front = building->facets[0];
+  EXPECT_EQ(front.facet_class, FacetClass::kWall);
+  EXPECT_NEAR(front.area, 72, 1.5);
+  EXPECT_EQ(front.outer.size(), 4u);
+  EXPECT_GT(front.seen, 0.95);
+  // Towards the cameras, which stand in the south.
+  EXPECT_LT(AngleDeg(front.normal, -Vector3d::UnitY()), 0.5);
+}
+
+TEST(AbstractCloud, FindsUpAndScaleInAnArbitraryFrame) {
+  const auto house = testing::GableHouse();
+  Captured captured =
+      Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.02, .front_only = true});
+  const Eigen::Matrix3d rotation =
+      Eigen::AngleAxisd(2.1, Vector3d(1, -2, 0.7).normalized()).toRotationMatrix();
+  testing::MoveTo(rotation, 0.137, {3, -1, 8}, captured);
+  const Proxy proxy = Abstract(captured, Georef{});
+  EXPECT_LT(AngleDeg(proxy.up, rotation.col(2)), 0.5);
+  EXPECT_FALSE(proxy.metric);
+  const Building* building = Find(proxy, "B0001");
+  ASSERT_NE(building, nullptr);
+  EXPECT_LE(building->facets.size(), 7u);
+  EXPECT_NE(Find(proxy, "G0"), nullptr);
+  bool front_found = false;
+  for (const Facet& facet : building->facets) {
+    if (facet.facet_class == FacetClass::kWall) {
+      EXPECT_NEAR(facet.normal.dot(proxy.up), 0, 1e-9);
+    }
+    front_found |= AngleDeg(facet.normal, -rotation.col(1)) < 0.5 &&
+                   std::abs(facet.area - 72 * 0.137 * 0.137) < 0.05 * 72 * 0.137 * 0.137;
+  }
+  EXPECT_TRUE(front_found);
+}
+
+TEST(AbstractCloud, AWrongUpFromSensorsIsRefinedByWalls) {
+  const auto house = testing::GableHouse();
+  const Captured captured = Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.02});
+  Georef georef = Metric();
+  georef.frame = "arbitrary";
+  georef.up = Vector3d(0.03, -0.02, 1).normalized();  // two degrees off
+  EXPECT_LT(AngleDeg(Abstract(captured, georef).up, Vector3d::UnitZ()), 0.2);
+}
+
+TEST(AbstractCloud, TwoHousesAreTwoBuildings) {
+  const Proxy proxy = Abstract(
+      Capture({testing::BoxHouse(8, 6, 5, {-9, 0, 0}), testing::BoxHouse(6, 6, 7, {9, 0, 0})},
+              {testing::GroundSquare(20)}, {.noise = 0.02}));
+  ASSERT_EQ(proxy.buildings.size(), 3u);
+  for (const char* id : {"B0001", "B0002"}) {
+    EXPECT_TRUE(Find(proxy, id)->watertight);
+    EXPECT_EQ(Find(proxy, id)->facets.size(), 6u);
+  }
+}
+
+TEST(AbstractCloud, AHouseWithoutGroundClosesAtItsFoot) {
+  const auto house = testing::BoxHouse(10, 8, 6);
+  const Proxy proxy = Abstract(Capture({house}, {}, {.noise = 0.02}));
+  ASSERT_EQ(proxy.buildings.size(), 1u);
+  EXPECT_TRUE(proxy.buildings[0].watertight);
+  EXPECT_EQ(proxy.buildings[0].facets.size(), 6u);
+}
+
+TEST(AbstractCloud, SolidsCanBeSwitchedOff) {
+  const auto house = testing::BoxHouse(10, 8, 6);
+  const Proxy proxy = Abstract(Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.02}),
+                               Metric(), {.solids = false});
+  EXPECT_FALSE(proxy.buildings[0].watertight);
+  EXPECT_EQ(proxy.buildings[0].facets.size(), 5u);
+}
+
+TEST(AbstractCloud, IsTheSameOnAnyNumberOfThreads) {
+  const Captured captured = Capture({testing::GableHouse()}, {testing::GroundSquare(20)},
+                                    {.noise = 0.05, .outliers = 0.1});
+  const Proxy one = Abstract(captured, Metric(), {}, 1), four = Abstract(captured, Metric(), {}, 4);
+  ASSERT_EQ(one.buildings.size(), four.buildings.size());
+  for (size_t b = 0; b < one.buildings.size(); ++b) {
+    ASSERT_EQ(one.buildings[b].facets.size(), four.buildings[b].facets.size());
+    for (size_t f = 0; f < one.buildings[b].facets.size(); ++f) {
+      EXPECT_EQ(one.buildings[b].facets[f].outer, four.buildings[b].facets[f].outer);
+      EXPECT_EQ(one.buildings[b].facets[f].rms, four.buildings[b].facets[f].rms);
+    }
+  }
+}
+
+// Clouds that show no planes.
+
+void ExpectRefusal(const PointCloud& cloud, const std::string& word) {
+  ProxyFindings findings;
+  try {
+    AbstractCloud(cloud, {}, Metric(), {}, 1, findings);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kStageFailed);
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(word));
+    EXPECT_FALSE(error.remedy().empty());
+  }
+}
+
+TEST(AbstractCloud, RefusesCloudsWithoutPoints) {
+  PointCloud cloud;
+  ExpectRefusal(cloud, "0 usable points");
+  cloud.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  ExpectRefusal(cloud, "3 usable points");
+  cloud.positions.assign(5000, Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  ExpectRefusal(cloud, "0 usable points");
+  cloud.positions.assign(5000, Vector3d(1, 2, 3));
+  ExpectRefusal(cloud, "at one place");
+}
+
+TEST(AbstractCloud, RefusesATree) {
+  Captured captured;
+  testing::AddTree({0, 0, 5}, 4, 20000, 9, captured);
+  ExpectRefusal(captured.cloud, "no plane");
+}
+
+TEST(AbstractCloud, RefusesALine) {
+  PointCloud cloud;
+  for (int i = 0; i < 3000; ++i) cloud.positions.emplace_back(0.01 * i, 0, 0);
+  ExpectRefusal(cloud, "plane");
+}
+
+TEST(AbstractCloud, OnePlaneOfGroundIsGroundAlone) {
+  const Proxy proxy = Abstract(Capture({}, {testing::GroundSquare(15)}, {.noise = 0.02}));
+  ASSERT_EQ(proxy.buildings.size(), 1u);
+  EXPECT_EQ(proxy.buildings[0].id, "G0");
+}
+
+TEST(AbstractCloud, ASphereIsAtMostOpenFacets) {
+  PointCloud cloud;
+  for (int i = 0; i < 40000; ++i) {
+    const double z = 1 - 2 * (i + 0.5) / 40000, r = std::sqrt(1 - z * z), a = 2.399963 * i;
+    const Vector3d n(r * std::cos(a), r * std::sin(a), z);
+    cloud.positions.push_back(6 * n);
+    cloud.normals.push_back(n.cast<float>());
+  }
+  ProxyFindings findings;
+  try {
+    const Proxy proxy = AbstractCloud(cloud, {}, Metric(), {}, 1, findings);
+    EXPECT_EQ(FindProblem(proxy), std::nullopt);
+    for (const Building& building : proxy.buildings) {
+      if (building.watertight) {
+        EXPECT_EQ(FindOpening(building.facets), std::nullopt);
+      }
+    }
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kStageFailed);
+  }
+}
+
+TEST(AbstractCloud, RefusesABadUp) {
+  ProxyFindings findings;
+  const Captured captured = Capture({testing::BoxHouse(8, 6, 5)}, {}, {.spacing = 0.2});
+  for (const std::vector<double>& up : {std::vector<double>{0, 0, 0}, {1, 2}}) {
+    EXPECT_THROW(
+        AbstractCloud(captured.cloud, captured.stations, Metric(), {.up = up}, 1, findings), Error);
+  }
+}
+
+}  // namespace
+}  // namespace stucco

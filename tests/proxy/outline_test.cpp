@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/outline.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "proxy/facets.h"
+#include "proxy/plane_view.h"
+
+namespace stucco {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kStep = 0.1;
+
+// A wall in the plane y = 0 facing south, seen where `seen` says so, 12 x 8 m.
+struct Wall {
+  Samples samples;
+  Plane plane;
+  std::vector<PlaneView> views;
+  Tolerances tolerances{.level_of_detail = 0.3,
+                        .epsilon = 0.15,
+                        .min_area = 2.25,
+                        .fill_gap = 1.5,
+                        .spacing = kStep,
+                        .radius = 0.3};
+
+  explicit Wall(const std::function<bool(double, double)>& seen,
+                const std::function<bool(double, double)>& behind = nullptr) {
+    Stations stations;
+    stations.all.push_back({.center = {6, -30, 2}});
+    std::vector<int> witnesses;
+    for (double x = kStep / 2; x < 12; x += kStep) {
+      for (double z = kStep / 2; z < 8; z += kStep) {
+        if (seen(x, z)) {
+          plane.points.push_back(static_cast<int>(samples.size()));
+          Add({x, 0, z});
+        }
+        if (behind && behind(x, z)) {
+          witnesses.push_back(static_cast<int>(samples.size()));
+          Add(Vector3d(6, -30, 2) + 1.2 * (Vector3d(x, 0, z) - Vector3d(6, -30, 2)));
+        }
+      }
+    }
+    plane.normal = -Vector3d::UnitY();
+    plane.role = PlaneRole::kWall;
+    views = ViewPlanes(samples, stations, {&plane, 1}, witnesses, Vector3d::UnitZ(),
+                       Vector3d::UnitX(), tolerances, 99, 1);
+  }
+  void Add(const Vector3d& p) {
+    samples.positions.push_back(p);
+    samples.normals.push_back(-Vector3d::UnitY());
+    samples.weights.push_back(1);
+    samples.stations.push_back(0);
+  }
+  std::vector<Facet> Facets(const std::vector<CutLine>& creases = {}) const {
+    return OutlineFacets(samples, views[0], creases, tolerances, /*ground=*/false);
+  }
+};
+
+bool InBox(double x, double z, double x0, double x1, double z0, double z1) {
+  return x > x0 && x < x1 && z > z0 && z < z1;
+}
+
+TEST(OutlineFacets, ARectangleIsARectangle) {
+  const auto facets = Wall([](double x, double z) { return InBox(x, z, 2, 10, 1, 6); }).Facets();
+  ASSERT_EQ(facets.size(), 1u);
+  EXPECT_EQ(facets[0].outer.size(), 4u);
+  EXPECT_TRUE(facets[0].holes.empty());
+  EXPECT_NEAR(facets[0].area, 40, 2.0);
+  EXPECT_GT(facets[0].seen, 0.95);
+  EXPECT_EQ(facets[0].support, 80 * 50);
+  for (const auto& p : facets[0].outer) {
+    EXPECT_NEAR(p.y(), 0, 1e-9);
+    EXPECT_NEAR(std::min(std::abs(p.x() - 2), std::abs(p.x() - 10)), 0, 0.15);
+    EXPECT_NEAR(std::min(std::abs(p.z() - 1), std::abs(p.z() - 6)), 0, 0.15);
+  }
+}
+
+TEST(OutlineFacets, ClosesWindowsAndRaggedBorders) {
+  const auto facets = Wall([](double x, double z) {
+                        const bool window = std::fmod(x, 2) < 1 && z > 2.5 && z < 4.3;
+                        const bool ragged = z > 5.8 + 0.15 * std::sin(9 * x);
+                        return InBox(x, z, 2, 10, 1, 7) && !window && !ragged;
+                      }).Facets();
+  ASSERT_EQ(facets.size(), 1u);
+  EXPECT_EQ(facets[0].outer.size(), 4u);
+  EXPECT_TRUE(facets[0].holes.empty());
+  EXPECT_NEAR(facets[0].area, 38.4, 2.5);
+  EXPECT_LT(facets[0].seen, 0.9);
+  EXPECT_NEAR(facets[0].seen + facets[0].inferred, 1, 1e-12);
+}
+
+TEST(OutlineFacets, KeepsAPassageThatRaysGoThrough) {
+  const auto passage = [](double x, double z) { return InBox(x, z, 4, 7, 1, 4); };
+  const auto wall = [&](double x, double z) { return InBox(x, z, 1, 11, 1, 7) && !passage(x, z); };
+  const auto open = Wall(wall, passage).Facets();
+  ASSERT_EQ(open.size(), 1u);
+  EXPECT_NEAR(open[0].area, 51, 3);
+}
+
+TEST(OutlineFacets, EndsAtACreaseEvenAcrossALostStrip) {
+  // The roof meets the wall at z = 6; matching lost the last 0.5 m.
+  const CutLine crease{
+      .point = {0, 6}, .direction = Vector2d::UnitX(), .crease = true, .from = -100, .to = 100};
+  Wall wall([](double x, double z) { return InBox(x, z, 2, 10, 1, 5.5); });
+  CutLine in_frame = crease;
+  in_frame.point = wall.views[0].raster.frame.ToPlane({0, 0, 6});
+  const auto facets = wall.Facets({in_frame});
+  ASSERT_EQ(facets.size(), 1u);
+  double top = -1;
+  for (const auto& p : facets[0].outer) top = std::max(top, p.z());
+  EXPECT_NEAR(top, 6, 1e-9);
+}
+
+TEST(OutlineFacets, AWallEndsAtItsFoot) {
+  // A car hides the wall up to 1.5 m; a mirror of the wet street adds points below the ground.
+  Wall wall(
+      [](double x, double z) { return InBox(x, z, 2, 10, 2.5, 7) || InBox(x, z, 2, 4, 0.2, 7); });
+  CutLine foot{.point = wall.views[0].raster.frame.ToPlane({0, 0, 1}),
+               .direction = Vector2d::UnitX(),
+               .crease = true,
+               .foot = true,
+               .from = -100,
+               .to = 100};
+  const auto facets = wall.Facets({foot});
+  ASSERT_EQ(facets.size(), 1u);
+  EXPECT_EQ(facets[0].outer.size(), 4u);
+  double bottom = 99;
+  for (const auto& p : facets[0].outer) bottom = std::min(bottom, p.z());
+  EXPECT_NEAR(bottom, 1, 1e-9);
+}
+
+TEST(OutlineFacets, ClosesGapsThatCross) {
+  // Only window frames have texture: plain stripes between them, both ways.
+  const auto facets =
+      Wall([](double x, double z) {
+        return InBox(x, z, 1, 11, 1, 7.5) && std::fmod(x, 4.5) < 2.9 && std::fmod(z, 4.5) < 2.9;
+      }).Facets();
+  ASSERT_EQ(facets.size(), 1u);
+  EXPECT_TRUE(facets[0].holes.empty());
+  EXPECT_EQ(facets[0].outer.size(), 4u);
+}
+
+TEST(OutlineFacets, TheSkyBetweenTwoGablesStaysOpen) {
+  const auto facets =
+      Wall([](double x, double z) {
+        return InBox(x, z, 1, 11, 1, 4) || InBox(x, z, 1, 4, 1, 7.5) || InBox(x, z, 8, 11, 1, 7.5);
+      }).Facets();
+  ASSERT_EQ(facets.size(), 1u);
+  EXPECT_NEAR(facets[0].area, 51, 3);
+}
+
+TEST(OutlineFacets, DropsIslandsAndSplitsParts) {
+  const auto facets = Wall([](double x, double z) {
+                        return InBox(x, z, 0.5, 4, 1, 7) || InBox(x, z, 8, 11.5, 1, 7) ||
+                               InBox(x, z, 5.8, 6.3, 3, 3.5);
+                      }).Facets();
+  ASSERT_EQ(facets.size(), 2u);
+  for (const auto& facet : facets) EXPECT_NEAR(facet.area, 21, 2);
+}
+
+TEST(OutlineFacets, AGableKeepsItsSlopes) {
+  const auto facets = Wall([](double x, double z) {
+                        return InBox(x, z, 1, 11, 0.5, 7.5 - 0.8 * std::abs(x - 6));
+                      }).Facets();
+  ASSERT_EQ(facets.size(), 1u);
+  EXPECT_EQ(facets[0].outer.size(), 5u);
+  EXPECT_NEAR(facets[0].area, 50, 2.5);
+}
+
+TEST(OutlineFacets, AFewPointsAreNoFacet) {
+  EXPECT_TRUE(
+      Wall([](double x, double z) { return InBox(x, z, 3, 3.5, 3, 3.5); }).Facets().empty());
+}
+
+TEST(Creases, FindsTheLineWhereWallsMeet) {
+  Samples samples;
+  std::vector<Plane> planes(3);
+  const auto add = [&](Plane& plane, const Vector3d& p) {
+    plane.points.push_back(static_cast<int>(samples.size()));
+    samples.positions.push_back(p);
+    samples.normals.push_back(plane.normal);
+    samples.weights.push_back(1);
+    samples.stations.push_back(-1);
+  };
+  planes[0].normal = -Vector3d::UnitY();
+  planes[1].normal = Vector3d::UnitX();
+  planes[1].offset = 5;
+  planes[2].normal = Vector3d::UnitX();  // far from the others' points
+  planes[2].offset = 60;
+  for (auto& plane : planes) plane.role = PlaneRole::kWall;
+  for (double a = 0.05; a < 5; a += 0.1) {
+    for (double z = 0.05; z < 4; z += 0.1) {
+      add(planes[0], {a, 0, z});
+      add(planes[1], {5, a, z});
+      add(planes[2], {60, a, z});
+    }
+  }
+  const Tolerances tolerances{.level_of_detail = 0.3,
+                              .epsilon = 0.15,
+                              .min_area = 2.25,
+                              .fill_gap = 1.5,
+                              .spacing = 0.1,
+                              .radius = 0.3};
+  const auto views =
+      ViewPlanes(samples, {}, planes, {}, Vector3d::UnitZ(), Vector3d::UnitX(), tolerances, 99, 1);
+  const std::vector<const PlaneView*> others = {&views[0], &views[1], &views[2]};
+  const auto creases = Creases(views[0], others, 1.5, 0.9);
+  ASSERT_EQ(creases.size(), 1u);
+  const Vector3d p = views[0].raster.frame.ToWorld(creases[0].point);
+  EXPECT_NEAR(p.x(), 5, 1e-9);
+  EXPECT_NEAR(std::abs(creases[0].direction.y()), 1, 1e-9);
+  EXPECT_LT(creases[0].from, creases[0].to);
+}
+
+}  // namespace
+}  // namespace stucco

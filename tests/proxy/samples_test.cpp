@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/samples.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "proxy/grid_index.h"
+#include "proxy/scale.h"
+
+namespace stucco {
+namespace {
+
+PointCloud Grid(int side, double step) {
+  PointCloud cloud;
+  for (int x = 0; x < side; ++x) {
+    for (int y = 0; y < side; ++y) {
+      cloud.positions.emplace_back(x * step, y * step, 1.0);
+      cloud.normals.emplace_back(0.F, 0.F, 1.F);
+      cloud.views.push_back({7});
+    }
+  }
+  return cloud;
+}
+
+Stations OneStation() {
+  Stations stations;
+  stations.all.push_back({.center = {0, 0, 11}});
+  stations.index_of_photo[7] = 0;
+  return stations;
+}
+
+TEST(ThinCloud, KeepsSmallCloudsAsTheyAre) {
+  const PointCloud cloud = Grid(20, 0.1);
+  const Samples samples = ThinCloud(cloud, OneStation(), 1000, 0);
+  ASSERT_EQ(samples.size(), 400u);
+  EXPECT_EQ(samples.cell, 0);
+  EXPECT_EQ(samples.positions[21], cloud.positions[21]);
+  EXPECT_EQ(samples.stations[0], 0);
+  EXPECT_EQ(samples.weights[0], 1);
+}
+
+TEST(ThinCloud, StaysBelowTheLimitAndKeepsEveryPointsWeight) {
+  const Samples samples = ThinCloud(Grid(200, 0.05), OneStation(), 3000, 0);
+  EXPECT_LE(samples.size(), 3000u);
+  EXPECT_GE(samples.size(), 1500u);
+  int weight = 0;
+  for (const int w : samples.weights) weight += w;
+  EXPECT_EQ(weight, 40000);
+  for (const auto& p : samples.positions) EXPECT_NEAR(p.z(), 1, 1e-12);
+}
+
+TEST(ThinCloud, DropsPointsThatAreNotFiniteOrFarAway) {
+  PointCloud cloud = Grid(20, 0.1);
+  cloud.positions[3].x() = std::numeric_limits<double>::quiet_NaN();
+  cloud.positions[4].y() = std::numeric_limits<double>::infinity();
+  cloud.positions[5] = {1e7, 0, 0};
+  const Samples samples = ThinCloud(cloud, OneStation(), 1000, 0);
+  EXPECT_EQ(samples.size(), 397u);
+  EXPECT_EQ(samples.dropped, 3u);
+}
+
+TEST(ThinCloud, TakesCloudsWithoutNormalsViewsOrPoints) {
+  PointCloud cloud;
+  EXPECT_EQ(ThinCloud(cloud, OneStation(), 1000, 0).size(), 0u);
+  cloud.positions = {{0, 0, 0}, {1, 0, 0}};
+  const Samples samples = ThinCloud(cloud, OneStation(), 1000, 0);
+  ASSERT_EQ(samples.size(), 2u);
+  EXPECT_EQ(samples.stations[0], -1);
+  EXPECT_EQ(samples.normals[0].norm(), 0);
+}
+
+TEST(MeasureScale, FindsSpacingNoiseAndViewingDistance) {
+  PointCloud cloud = Grid(60, 0.1);
+  for (size_t i = 0; i < cloud.size(); ++i) cloud.positions[i].z() += i % 2 == 0 ? 0.02 : -0.02;
+  const Samples samples = ThinCloud(cloud, OneStation(), 100000, 0);
+  const CloudScale scale = MeasureScale(samples, OneStation());
+  EXPECT_NEAR(scale.spacing, 0.1, 0.015);
+  EXPECT_NEAR(scale.noise, 0.02, 0.004);
+  EXPECT_GT(scale.viewing_distance, 10);
+  EXPECT_LT(scale.viewing_distance, 13);
+}
+
+TEST(DeriveTolerances, FollowScaleMetricAndOptions) {
+  const CloudScale scale{.spacing = 0.01, .noise = 0.002, .viewing_distance = 5, .extent = 10};
+  EXPECT_DOUBLE_EQ(DeriveTolerances(scale, true, {}).level_of_detail, 0.3);
+  EXPECT_DOUBLE_EQ(DeriveTolerances(scale, false, {}).level_of_detail, 0.04);
+  EXPECT_DOUBLE_EQ(DeriveTolerances(scale, false, {.level_of_detail = 0.5}).epsilon, 0.25);
+  const CloudScale noisy{.spacing = 0.01, .noise = 0.2, .viewing_distance = 5, .extent = 10};
+  EXPECT_DOUBLE_EQ(DeriveTolerances(noisy, true, {}).level_of_detail, 0.6);
+}
+
+TEST(GridIndex, FindsExactlyThePointsWithinTheRadius) {
+  const PointCloud cloud = Grid(30, 0.1);
+  const GridIndex index(cloud.positions, 0.37);
+  const Eigen::Vector3d center(1.23, 0.51, 1.1);
+  for (const double radius : {0.0, 0.15, 0.4, 5.0}) {
+    size_t found = 0, expected = 0;
+    index.ForEachNear(center, radius, [&](int) { ++found; });
+    for (const auto& p : cloud.positions) expected += (p - center).norm() <= radius;
+    EXPECT_EQ(found, expected) << radius;
+  }
+}
+
+}  // namespace
+}  // namespace stucco

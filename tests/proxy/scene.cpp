@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/proxy/scene.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace stucco::testing {
+namespace {
+
+using Eigen::Vector3d;
+
+// The generator's distributions differ between libraries; these do not.
+class Dice {
+ public:
+  explicit Dice(uint64_t seed) : engine_(seed) {}
+  double Uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+  }
+  double Normal() {
+    const double u = 1 - Uniform(0, 1);
+    return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * Uniform(0, 1));
+  }
+  Vector3d Direction() { return Vector3d(Normal(), Normal(), Normal()).normalized(); }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+struct Frame {
+  Vector3d origin, u, v, normal;
+  std::vector<Eigen::Vector2d> ring;
+};
+
+Frame FrameOfPolygon(const TruePolygon& polygon) {
+  Frame frame;
+  Vector3d normal = Vector3d::Zero();
+  for (size_t i = 1; i + 1 < polygon.ring.size(); ++i) {
+    normal += (polygon.ring[i] - polygon.ring[0]).cross(polygon.ring[i + 1] - polygon.ring[0]);
+  }
+  frame.normal = normal.normalized();
+  frame.origin = polygon.ring[0];
+  frame.u = (polygon.ring[1] - polygon.ring[0]).normalized();
+  frame.v = frame.normal.cross(frame.u);
+  for (const auto& p : polygon.ring) {
+    frame.ring.emplace_back(frame.u.dot(p - frame.origin), frame.v.dot(p - frame.origin));
+  }
+  return frame;
+}
+
+bool Inside(const std::vector<Eigen::Vector2d>& ring, const Eigen::Vector2d& p) {
+  bool inside = false;
+  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const auto& a = ring[i];
+    const auto& b = ring[j];
+    if ((a.y() > p.y()) != (b.y() > p.y()) &&
+        p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) {
+      inside = !inside;
+    }
+  }
+  return inside;
+}
+
+bool Blocks(const Frame& frame, const Vector3d& eye, const Vector3d& point) {
+  const double de = frame.normal.dot(eye - frame.origin);
+  const double dp = frame.normal.dot(point - frame.origin);
+  if (de * dp >= 0 || std::abs(dp) < 1e-6) return false;
+  const Vector3d hit = eye + de / (de - dp) * (point - eye);
+  return Inside(frame.ring, {frame.u.dot(hit - frame.origin), frame.v.dot(hit - frame.origin)});
+}
+
+Station LookAt(const Vector3d& center, const Vector3d& target) {
+  Station station;
+  station.center = center;
+  const Vector3d forward = (target - center).normalized();
+  station.right = forward.cross(Vector3d::UnitZ()).normalized();
+  station.upwards = station.right.cross(forward);
+  station.backwards = -forward;
+  return station;
+}
+
+Stations PlaceStations(bool front_only) {
+  Stations stations;
+  const auto add = [&](const Station& station) {
+    stations.index_of_photo[static_cast<uint32_t>(stations.all.size() + 1)] =
+        static_cast<int>(stations.all.size());
+    stations.all.push_back(station);
+  };
+  if (front_only) {
+    for (int i = 0; i < 9; ++i) {
+      const double x = -16 + 4.0 * i;
+      add(LookAt({x, -22 + 0.05 * x * x, 1.7}, {0.3 * x, 0, 4.5}));
+    }
+    return stations;
+  }
+  for (const double height : {6.0, 22.0}) {
+    for (int i = 0; i < 12; ++i) {
+      const double angle = 2 * std::numbers::pi * i / 12;
+      add(LookAt({30 * std::cos(angle), 30 * std::sin(angle), height}, {0, 0, 3}));
+    }
+  }
+  return stations;
+}
+
+TruePolygon Polygon(std::string name, std::vector<Vector3d> ring) {
+  return {std::move(name), std::move(ring)};
+}
+
+void AddPoint(const Vector3d& position, const Vector3d& normal, std::vector<uint32_t> views,
+              PointCloud& cloud) {
+  cloud.positions.push_back(position);
+  cloud.normals.push_back(normal.cast<float>());
+  cloud.colors.push_back({128, 128, 128});
+  cloud.views.push_back(std::move(views));
+}
+
+void SamplePolygon(const std::vector<Frame>& blockers, const Frame& frame,
+                   const CaptureOptions& options, Dice& dice, Captured& captured) {
+  constexpr double kNormalNoise = 0.17;  // radians, 10 degrees
+  Eigen::AlignedBox2d box;
+  for (const auto& p : frame.ring) box.extend(p);
+  for (double x = box.min().x() + options.spacing / 2; x < box.max().x(); x += options.spacing) {
+    for (double y = box.min().y() + options.spacing / 2; y < box.max().y(); y += options.spacing) {
+      const Eigen::Vector2d at(x + dice.Uniform(-0.5, 0.5) * options.spacing,
+                               y + dice.Uniform(-0.5, 0.5) * options.spacing);
+      const double push = options.noise * dice.Normal();
+      const Vector3d tilt = kNormalNoise * dice.Normal() * dice.Direction();
+      if (!Inside(frame.ring, at)) continue;
+      const Vector3d exact = frame.origin + at.x() * frame.u + at.y() * frame.v;
+      std::vector<uint32_t> views;
+      for (const auto& [photo, index] : captured.stations.index_of_photo) {
+        const Vector3d& eye = captured.stations.all[index].center;
+        const Vector3d ray = (eye - exact).normalized();
+        if (views.size() == 3 || ray.dot(frame.normal) < 0.15) continue;
+        if (std::none_of(blockers.begin(), blockers.end(),
+                         [&](const Frame& other) { return Blocks(other, eye, exact); })) {
+          views.push_back(photo);
+        }
+      }
+      if (views.size() < 2) continue;
+      AddPoint(exact + push * frame.normal, (frame.normal + tilt).normalized(), views,
+               captured.cloud);
+    }
+  }
+}
+
+}  // namespace
+
+House BoxHouse(double length, double width, double height, const Vector3d& corner) {
+  const double x0 = corner.x() - length / 2, x1 = corner.x() + length / 2;
+  const double y0 = corner.y() - width / 2, y1 = corner.y() + width / 2;
+  const double z0 = corner.z(), z1 = corner.z() + height;
+  return {{Polygon("south", {{x0, y0, z0}, {x1, y0, z0}, {x1, y0, z1}, {x0, y0, z1}}),
+           Polygon("east", {{x1, y0, z0}, {x1, y1, z0}, {x1, y1, z1}, {x1, y0, z1}}),
+           Polygon("north", {{x1, y1, z0}, {x0, y1, z0}, {x0, y1, z1}, {x1, y1, z1}}),
+           Polygon("west", {{x0, y1, z0}, {x0, y0, z0}, {x0, y0, z1}, {x0, y1, z1}}),
+           Polygon("roof", {{x0, y0, z1}, {x1, y0, z1}, {x1, y1, z1}, {x0, y1, z1}})}};
+}
+
+House GableHouse(double length, double width, double height, double ridge) {
+  const double x = length / 2, y = width / 2, h = height, r = ridge;
+  return {{Polygon("south", {{-x, -y, 0}, {x, -y, 0}, {x, -y, h}, {-x, -y, h}}),
+           Polygon("east", {{x, -y, 0}, {x, y, 0}, {x, y, h}, {x, 0, r}, {x, -y, h}}),
+           Polygon("north", {{x, y, 0}, {-x, y, 0}, {-x, y, h}, {x, y, h}}),
+           Polygon("west", {{-x, y, 0}, {-x, -y, 0}, {-x, -y, h}, {-x, 0, r}, {-x, y, h}}),
+           Polygon("south roof", {{-x, -y, h}, {x, -y, h}, {x, 0, r}, {-x, 0, r}}),
+           Polygon("north roof", {{x, y, h}, {-x, y, h}, {-x, 0, r}, {x, 0, r}})}};
+}
+
+House LShapedHouse(double length, double width, double height) {
+  const double x = length / 2, y = width / 2, h = height;
+  const std::vector<Eigen::Vector2d> corners = {{-x, -y}, {x, -y}, {x, 0}, {0, 0}, {0, y}, {-x, y}};
+  House house;
+  TruePolygon roof{.name = "roof", .ring = {}};
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const auto& a = corners[i];
+    const auto& b = corners[(i + 1) % corners.size()];
+    house.polygons.push_back(
+        Polygon("wall " + std::to_string(i),
+                {{a.x(), a.y(), 0}, {b.x(), b.y(), 0}, {b.x(), b.y(), h}, {a.x(), a.y(), h}}));
+    roof.ring.emplace_back(a.x(), a.y(), h);
+  }
+  house.polygons.push_back(roof);
+  return house;
+}
+
+TruePolygon GroundSquare(double half, double z) {
+  return Polygon("ground",
+                 {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}});
+}
+
+Captured Capture(const std::vector<House>& houses, const std::vector<TruePolygon>& others,
+                 const CaptureOptions& options) {
+  Captured captured;
+  captured.stations = PlaceStations(options.front_only);
+  std::vector<Frame> frames;
+  std::vector<std::string> names;
+  const auto add = [&](const TruePolygon& polygon) {
+    frames.push_back(FrameOfPolygon(polygon));
+    names.push_back(polygon.name);
+  };
+  for (const House& house : houses) {
+    for (const TruePolygon& polygon : house.polygons) add(polygon);
+  }
+  for (const TruePolygon& polygon : others) add(polygon);
+  Dice dice(options.seed);
+  Eigen::AlignedBox3d box;
+  for (size_t i = 0; i < frames.size(); ++i) {
+    for (const auto& p : frames[i].ring) {
+      box.extend(frames[i].origin + p.x() * frames[i].u + p.y() * frames[i].v);
+    }
+    if (std::find(options.hide.begin(), options.hide.end(), names[i]) != options.hide.end()) {
+      continue;
+    }
+    SamplePolygon(frames, frames[i], options, dice, captured);
+  }
+  const auto strays = static_cast<int>(options.outliers * double(captured.cloud.size()));
+  for (int i = 0; i < strays; ++i) {
+    const Vector3d p =
+        box.min() + Vector3d(dice.Uniform(0, 1), dice.Uniform(0, 1), dice.Uniform(0, 1))
+                        .cwiseProduct(box.sizes());
+    AddPoint(p, dice.Direction(), {1, 2}, captured.cloud);
+  }
+  return captured;
+}
+
+void AddTree(const Vector3d& center, double radius, int count, uint64_t seed, Captured& captured) {
+  Dice dice(seed);
+  for (int i = 0; i < count; ++i) {
+    const Vector3d p = center + radius * std::cbrt(dice.Uniform(0, 1)) * dice.Direction();
+    AddPoint(p, dice.Direction(), {1, 2}, captured.cloud);
+  }
+}
+
+void MoveTo(const Eigen::Matrix3d& rotation, double scale, const Vector3d& translation,
+            Captured& captured) {
+  const Eigen::Matrix3f rotation_f = rotation.cast<float>();
+  for (auto& p : captured.cloud.positions) p = scale * (rotation * p) + translation;
+  for (auto& n : captured.cloud.normals) n = rotation_f * n;
+  for (Station& station : captured.stations.all) {
+    station.center = scale * (rotation * station.center) + translation;
+    station.right = rotation * station.right;
+    station.upwards = rotation * station.upwards;
+    station.backwards = rotation * station.backwards;
+  }
+}
+
+Eigen::Vector4d PlaneOf(const TruePolygon& polygon) {
+  const Frame frame = FrameOfPolygon(polygon);
+  Eigen::Vector4d plane;
+  plane << frame.normal, frame.normal.dot(frame.origin);
+  return plane;
+}
+
+}  // namespace stucco::testing
