@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/colour.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace stucco {
+namespace {
+
+ColourRatio Ratio(int a, int b, double ratio) {
+  return {a, b, Eigen::Vector3d::Constant(std::log(ratio)), 500};
+}
+
+TEST(MeasureRatio, IsTheMedianOverTexelsThatBothShowUnclipped) {
+  std::vector<float> a;
+  std::vector<float> b;
+  std::vector<uint8_t> both;
+  std::mt19937 random(1);
+  for (int i = 0; i < 200; ++i) {
+    const auto value = static_cast<float>(40 + random() % 100);
+    for (int k = 0; k < 3; ++k) {
+      a.push_back(value * (k == 0 ? 1.5f : 1.2f));
+      b.push_back(value);
+    }
+    both.push_back(1);
+    if (i % 5 == 0) a[3 * i] = 255;                     // clipped
+    if (i % 7 == 0) std::fill_n(&b[3 * i], 3, 200.0f);  // a car
+    if (i % 11 == 0) {
+      both[i] = 0;
+      std::fill_n(&a[3 * i], 3, 0.0f);
+    }
+  }
+  const auto ratio = MeasureRatio(3, 4, a, b, both);
+  ASSERT_TRUE(ratio);
+  EXPECT_EQ(ratio->a, 3);
+  EXPECT_NEAR(ratio->log_ratio[0], std::log(1.5), 1e-3);
+  EXPECT_NEAR(ratio->log_ratio[1], std::log(1.2), 1e-3);
+}
+
+TEST(MeasureRatio, NeedsEnoughTexels) {
+  const std::vector<float> rgb(30, 100);
+  EXPECT_FALSE(MeasureRatio(0, 1, rgb, rgb, std::vector<uint8_t>(10, 1)));
+}
+
+TEST(SolveGains, EvensOutExposures) {
+  // Exposures 1, 1.5, 0.8, seen in a chain and once around.
+  const std::vector<double> exposure = {1, 1.5, 0.8};
+  std::vector<ColourRatio> ratios;
+  for (int a = 0; a < 3; ++a) {
+    for (int b = a + 1; b < 3; ++b) ratios.push_back(Ratio(a, b, exposure[a] / exposure[b]));
+  }
+  const auto gains = SolveGains(ratios, 4);
+  for (int i = 1; i < 3; ++i) {
+    EXPECT_NEAR(gains[i][0] * exposure[i], gains[0][0] * exposure[0], 0.005);
+  }
+  double product = 1;
+  for (int i = 0; i < 3; ++i) product *= gains[i][1];
+  EXPECT_NEAR(product, 1, 1e-3);  // overall brightness stays
+  EXPECT_EQ(gains[3], Eigen::Vector3d::Ones());
+}
+
+TEST(SolveGains, OutvotesAWrongRatio) {
+  std::vector<ColourRatio> ratios(6, Ratio(0, 1, 1.2));
+  ratios.push_back(Ratio(0, 1, 4));
+  const auto gains = SolveGains(ratios, 2);
+  EXPECT_NEAR(gains[1][2] / gains[0][2], 1.2, 0.05);
+}
+
+TEST(SolveGains, OfNothingIsOne) {
+  for (const auto& gain : SolveGains({}, 3)) EXPECT_EQ(gain, Eigen::Vector3d::Ones());
+}
+
+}  // namespace
+}  // namespace stucco

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/facet_unit.h"
+
+#include <gtest/gtest.h>
+
+#include "survey/error.h"
+#include "tests/texture/synthetic.h"
+#include "texture/file_names.h"
+
+namespace stucco {
+namespace {
+
+TEST(FacetLook, SurvivesPacking) {
+  FacetLook look;
+  look.texel = 0.0123;
+  look.candidates = {{3, 0.5, 0.25}, {1, 1, 0.75}};
+  look.ratios = {{1, 3, {0.1, -0.2, 0.3}, 99}};
+  const FacetLook again = UnpackLook(PackLook(look));
+  EXPECT_EQ(again.texel, look.texel);
+  ASSERT_EQ(again.candidates.size(), 2u);
+  EXPECT_EQ(again.candidates[0].photo, 3);
+  EXPECT_EQ(again.candidates[1].merit, 0.75);
+  ASSERT_EQ(again.ratios.size(), 1u);
+  EXPECT_EQ(again.ratios[0].log_ratio, look.ratios[0].log_ratio);
+  EXPECT_EQ(again.ratios[0].weight, 99);
+  EXPECT_THROW(UnpackLook("nonsense"), Error);
+  EXPECT_THROW(UnpackLook(PackFiles({})), Error);
+}
+
+TEST(FacetFiles, SurvivePacking) {
+  FacetFiles files;
+  files.facet.id = "B0001/W01";
+  files.facet.width_px = 12;
+  files.facet.photos = {"a.jpg", "b/c.jpg"};
+  files.facet.origin = {1.5, 2.25, -3};
+  files.facet.gains = {{"a.jpg", 1.25}};
+  files.facet.q_u = 0.5;
+  files.texture_png = std::string("\0\xff png", 6);
+  const FacetFiles again = UnpackFiles(PackFiles(files));
+  EXPECT_EQ(again.facet.id, files.facet.id);
+  EXPECT_EQ(again.facet.width_px, 12);
+  EXPECT_EQ(again.facet.photos, files.facet.photos);
+  EXPECT_EQ(again.facet.origin, files.facet.origin);
+  EXPECT_EQ(again.facet.gains, files.facet.gains);
+  EXPECT_EQ(again.facet.q_u, 0.5);
+  EXPECT_EQ(again.texture_png, files.texture_png);
+  EXPECT_TRUE(again.label_png.empty());
+}
+
+TEST(FilesKey, ChangesWithWhatTheFacetDependsOnOnly) {
+  TextureInput input;
+  input.geometry_hash = "g";
+  const Facet wall = testing::MakeWall(4, 3);
+  for (const char* name : {"a", "b", "c"}) {
+    input.photos.push_back(testing::LookFrom(name, {2, -5, 1}, {2, 0, 1}, 100, 100, 100));
+  }
+  FacetLook look;
+  look.candidates = {{0, 1, 1}, {1, 1, 1}};
+  std::vector<Eigen::Vector3d> gains(3, Eigen::Vector3d::Ones());
+  TextureOptions options;
+  const auto key = [&] { return FilesKey(wall, look, input, gains, options); };
+  const std::string original = key();
+
+  input.photos[2].hash = "other";  // no candidate
+  gains[2] *= 2;
+  options.glb_quality = 50;
+  EXPECT_EQ(key(), original);
+  input.photos[1].hash = "other";
+  EXPECT_NE(key(), original);
+  input.photos[1].hash = "b";
+  EXPECT_EQ(key(), original);
+  gains[0].x() = 1.01;
+  EXPECT_NE(key(), original);
+  gains[0].x() = 1;
+  input.photos[0].cam_from_world.translation.x() += 1e-9;
+  EXPECT_NE(key(), original);
+  input.photos[0].cam_from_world.translation.x() -= 1e-9;
+  options.seam_cost = 2;
+  EXPECT_NE(key(), original);
+}
+
+TEST(FileNames, AreSafeAndUnique) {
+  EXPECT_EQ(
+      FileNames({"B0001/W03", "B0001_W03", "b0001_w03", "../x", "", "\xc3\xa4 y"}),
+      (std::vector<std::string>{"B0001_W03", "B0001_W03-2", "b0001_w03-3", "_.._x", "_", "___y"}));
+}
+
+}  // namespace
+}  // namespace stucco

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "survey/image.h"
+#include "survey/proxy.h"
+#include "texture/grid.h"
+#include "texture/photo.h"
+
+namespace stucco::testing {
+
+using Colour = Eigen::Vector3d;  // 0 to 255
+
+// A wall in the plane y = 0 that faces south (-y), from (0, 0, 0) to (width, 0, height).
+Facet MakeWall(double width, double height);
+Proxy MakeProxy(const std::vector<Facet>& facets);
+
+// Blocks and waves with detail down to about 4 cm; x to the right, z upwards on the wall, metres.
+Colour WallColour(double x, double z);
+
+// A pinhole camera of the given size and focal length that looks from `position` to `target`.
+TexturePhoto LookFrom(const std::string& name, const Eigen::Vector3d& position,
+                      const Eigen::Vector3d& target, int width_px, int height_px, double focal_px);
+
+// What a ray meets first: colour, or nothing for the background.
+using Scene =
+    std::function<std::optional<Colour>(const Eigen::Vector3d& from, const Eigen::Vector3d& way)>;
+
+// The wall of MakeWall painted with WallColour.
+Scene WallScene(double width, double height);
+// The same behind a red disc that faces south.
+Scene DiscScene(const Eigen::Vector3d& center, double radius, const Scene& behind);
+
+// Renders with 2 x 2 rays a pixel, times `exposure`; background 128.
+Image Render(const TexturePhoto& photo, const Scene& scene, double exposure = 1);
+
+// WallColour as a perfect facade picture on a grid of MakeWall's plane.
+Image WallPicture(const TexelGrid& grid);
+
+// Peak signal-to-noise ratio in decibels over texels whose `mask` is not zero (all without one).
+double Psnr(const Image& a, const Image& b, const std::vector<uint8_t>& mask = {});
+
+// A folder that is removed with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace stucco::testing

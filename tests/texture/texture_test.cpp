@@ -1,0 +1,361 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/texture.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <numbers>
+
+#include "survey/colmap_io.h"
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/point_cloud.h"
+#include "survey/survey_folder.h"
+#include "survey/texture_set.h"
+#include "tests/texture/synthetic.h"
+
+namespace stucco {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::DiscScene;
+using testing::LookFrom;
+using testing::MakeProxy;
+using testing::MakeWall;
+using testing::Psnr;
+using testing::Render;
+using testing::TemporaryFolder;
+using testing::WallPicture;
+using testing::WallScene;
+
+constexpr int kPhotoWidth = 640;
+constexpr int kPhotoHeight = 480;
+constexpr double kFocal = 600;
+
+// A survey folder with a wall of 4 x 3 m, rendered photos and their poses.
+class Survey {
+ public:
+  Survey() {
+    fs::create_directories(Photos());
+    fs::create_directories(Folder() / "proxy");
+    SetProxy(MakeProxy({MakeWall(4, 3)}));
+  }
+
+  fs::path Folder() const { return folder_.path() / "survey"; }
+  fs::path Photos() const { return folder_.path() / "photos"; }
+  fs::path Out(const std::string& name = "out") const { return folder_.path() / name; }
+
+  void SetProxy(const Proxy& proxy) { WriteProxy(proxy, Folder() / kFacetsFile); }
+
+  TexturePhoto Add(const std::string& name, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                   double exposure = 1, const testing::Scene& scene = WallScene(4, 3)) {
+    const TexturePhoto photo = LookFrom(name, from, to, kPhotoWidth, kPhotoHeight, kFocal);
+    WriteImage(Render(photo, scene, exposure), Photos() / name, 97);
+    Pose(photo);
+    return photo;
+  }
+
+  // Poses a photo without writing a file.
+  void Pose(const TexturePhoto& photo) {
+    model_.cameras[photo.camera.id] = photo.camera;
+    const PhotoId id{static_cast<uint32_t>(model_.photos.size() + 1)};
+    model_.photos[id] = {id, photo.camera.id, photo.name, photo.cam_from_world, {}};
+  }
+
+  // The pose that the program is told is wrong by this rotation about the camera's y axis.
+  void Disturb(const std::string& name, double yaw_rad) {
+    for (auto& [id, photo] : model_.photos) {
+      if (photo.name != name) continue;
+      stucco::Pose turn;
+      turn.rotation = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitY());
+      photo.cam_from_world = turn * photo.cam_from_world;
+    }
+  }
+
+  TextureSet Run(TextureOptions options = {}, const std::string& out = "out", int threads = 1,
+                 UnitStore* units = nullptr) const {
+    fs::create_directories(Out(out));
+    WriteColmapText(model_, Folder() / kSparseFolder);
+    StageContext context;
+    context.survey = Folder();
+    context.photos = Photos();
+    context.out = Out(out);
+    context.threads = threads;
+    context.progress = &SilentProgress();
+    context.units = units ? units : &NoUnits();
+    RunTexture(options, context);
+    return ReadTextureSet(Out(out) / "textures.json");
+  }
+
+  Image Picture(const TexturedFacet& facet, const std::string& out = "out") const {
+    return ReadImage(Out(out) / facet.image);
+  }
+  Image Labels(const TexturedFacet& facet) const { return ReadImage(Out() / facet.label_image); }
+
+ private:
+  TemporaryFolder folder_;
+  Reconstruction model_;
+};
+
+TexelGrid GridOf(const TexturedFacet& facet) {
+  TexelGrid grid;
+  grid.origin = facet.origin;
+  grid.u_axis = facet.u_axis;
+  grid.v_axis = facet.v_axis;
+  grid.texel = facet.metres_per_texel;
+  grid.width = facet.width_px;
+  grid.height = facet.height_px;
+  return grid;
+}
+
+double TruthPsnr(const Survey& survey, const TexturedFacet& facet) {
+  return Psnr(survey.Picture(facet), WallPicture(GridOf(facet)));
+}
+
+int LabelAt(const Image& labels, int x, int y) {
+  return *labels.Pixel(x, y);
+}
+
+// Share of texels in which the picture is clearly red as DiscScene's disc is.
+double RedShare(const Image& image) {
+  double red = 0;
+  for (size_t i = 0; i < image.data.size(); i += 3) {
+    red += image.data[i] > 150 && image.data[i + 1] < 70 && image.data[i + 2] < 70;
+  }
+  return red / static_cast<double>(image.data.size() / 3);
+}
+
+TEST(RunTexture, PaintsTheTruth) {
+  Survey survey;
+  survey.Add("a.jpg", {2, -4.2, 1.5}, {2, 0, 1.5});
+  survey.Add("b.jpg", {3.5, -4.5, 2}, {2, 0, 1.5});
+  const TextureSet set = survey.Run();
+  ASSERT_EQ(set.facets.size(), 1u);
+  const TexturedFacet& facet = set.facets[0];
+  EXPECT_EQ(facet.image, "textures/B0001_W01.png");
+  EXPECT_NEAR(facet.metres_per_texel, 4.2 / 600, 0.0005);
+  EXPECT_NEAR(facet.gsd_m, 4.2 / 600, 0.0005);
+  EXPECT_EQ(facet.photos, std::vector<std::string>{"a.jpg"});
+  EXPECT_NEAR(facet.painted, 1, 0.01);
+  EXPECT_GT(facet.q_s, 0.9);
+  EXPECT_GT(facet.q_c, 0.98);
+  EXPECT_GT(facet.sharpness, 0);
+  EXPECT_GT(TruthPsnr(survey, facet), 28);
+  for (const char* file :
+       {"model.glb", "model.obj", "model.mtl", "labels/B0001_W01.png", "orthophotos/B0001_W01.png",
+        "orthophotos/B0001_W01.pgw", "orthophotos/B0001_W01.json"}) {
+    EXPECT_TRUE(fs::exists(survey.Out() / file)) << file;
+  }
+}
+
+TEST(RunTexture, JoinsPhotosThatEachSeeAPart) {
+  Survey survey;
+  survey.Add("left.jpg", {1, -2.5, 1.5}, {1, 0, 1.5});
+  survey.Add("right.jpg", {3, -2.5, 1.5}, {3, 0, 1.5}, 1.25);
+  TextureOptions options;
+  options.texel_size = 0.01;
+  const TexturedFacet facet = survey.Run(options).facets.at(0);
+  EXPECT_EQ(facet.photos.size(), 2u);
+  const Image labels = survey.Labels(facet);
+  EXPECT_NE(LabelAt(labels, 20, 150), LabelAt(labels, 380, 150));
+  // The right photo is a quarter brighter; afterwards both are between, and alike.
+  EXPECT_NEAR(facet.gains.at("left.jpg") / facet.gains.at("right.jpg"), 1.25, 0.03);
+  Image picture = survey.Picture(facet);
+  const double scale = 1 / facet.gains.at("left.jpg");
+  for (uint8_t& value : picture.data) value = static_cast<uint8_t>(value * scale);
+  // The photos end 14 cm from the upper and lower edge of the wall; the rest is invented.
+  std::vector<uint8_t> seen(labels.data.size());
+  std::transform(labels.data.begin(), labels.data.end(), seen.begin(),
+                 [](uint8_t label) { return label != 0 && label != 255; });
+  EXPECT_GT(Psnr(picture, WallPicture(GridOf(facet)), seen), 26);
+  EXPECT_GT(facet.painted, 0.6);
+}
+
+TEST(RunTexture, DoesNotPaintAnOccluderThatOthersSeeBehind) {
+  Survey survey;
+  const auto scene = DiscScene({2, -1, 1.5}, 0.25, WallScene(4, 3));
+  survey.Add("a.jpg", {2, -4.2, 1.5}, {2, 0, 1.5}, 1, scene);
+  survey.Add("b.jpg", {4.5, -4.2, 1.5}, {2, 0, 1.5}, 1, scene);
+  survey.Add("c.jpg", {-0.5, -4.2, 1.5}, {2, 0, 1.5}, 1, scene);
+  const TexturedFacet by_colour = survey.Run().facets.at(0);
+  EXPECT_LT(RedShare(survey.Picture(by_colour)), 0.001);
+  EXPECT_GT(TruthPsnr(survey, by_colour), 24);
+}
+
+TEST(RunTexture, AvoidsWhatTheCloudHasInFront) {
+  // Two photos cannot outvote each other: only the cloud knows which one shows the wall.
+  Survey survey;
+  const auto scene = DiscScene({2, -1, 1.5}, 0.25, WallScene(4, 3));
+  survey.Add("a.jpg", {2, -4.2, 1.5}, {2, 0, 1.5}, 1, scene);
+  survey.Add("b.jpg", {4.5, -4.2, 1.5}, {2, 0, 1.5}, 1, scene);
+  PointCloud cloud;
+  for (double x = -0.25; x <= 0.25; x += 0.01) {
+    for (double z = -0.25; z <= 0.25; z += 0.01) {
+      if (x * x + z * z < 0.25 * 0.25) cloud.positions.push_back({2 + x, -1, 1.5 + z});
+    }
+  }
+  fs::create_directories(survey.Folder() / "dense");
+  WritePly(cloud, survey.Folder() / kCloudFile);
+  EXPECT_LT(RedShare(survey.Picture(survey.Run().facets.at(0))), 0.001);
+}
+
+TEST(RunTexture, MeasuresAndRemovesMisregistration) {
+  Survey survey;
+  survey.Add("left.jpg", {1.3, -3.2, 1.5}, {1.3, 0, 1.5});
+  survey.Add("right.jpg", {2.7, -3.2, 1.5}, {2.7, 0, 1.5});
+  survey.Disturb("right.jpg", 0.006);  // 3.6 pixels
+  TextureOptions options;
+  options.texel_size = 0.006;
+  options.align = false;
+  const double before = survey.Run(options).facets.at(0).misregistration_px;
+  EXPECT_NEAR(before, 3.6, 1.5);
+  options.align = true;
+  const TexturedFacet after = survey.Run(options, "aligned").facets.at(0);
+  EXPECT_LT(after.misregistration_px, 0.5);
+  EXPECT_GT(after.misregistration_px, 0);
+}
+
+TEST(RunTexture, LeavesFacetsThatNobodySeesWithoutPicture) {
+  Survey survey;
+  Facet back = MakeWall(4, 3);
+  back.id = "B0001/W02";
+  back.normal = Eigen::Vector3d::UnitY();
+  std::reverse(back.outer.begin(), back.outer.end());
+  for (auto& vertex : back.outer) vertex.y() = 2;
+  back.offset = 2;
+  survey.SetProxy(MakeProxy({MakeWall(4, 3), back}));
+  survey.Add("a.jpg", {2, -4.2, 1.5}, {2, 0, 1.5});
+  const TextureSet set = survey.Run();
+  ASSERT_EQ(set.facets.size(), 2u);
+  EXPECT_FALSE(set.facets[0].image.empty());
+  EXPECT_TRUE(set.facets[1].image.empty());
+  EXPECT_EQ(set.facets[1].painted, 0);
+  EXPECT_TRUE(set.facets[1].photos.empty());
+
+  survey.SetProxy(MakeProxy({back}));
+  EXPECT_THROW(survey.Run(), Error);
+}
+
+TEST(RunTexture, FillsAndMarksWhatNobodySees) {
+  Survey survey;
+  survey.Add("a.jpg", {1, -2.5, 1.5}, {1, 0, 1.5});  // the left 2.3 m only
+  TextureOptions options;
+  options.texel_size = 0.02;
+  const TexturedFacet facet = survey.Run(options).facets.at(0);
+  EXPECT_NEAR(facet.painted + facet.inpainted, 1, 1e-9);
+  EXPECT_NEAR(facet.painted, 2.3 / 4 * 2.0 / 3, 0.06);
+  EXPECT_EQ(LabelAt(survey.Labels(facet), 190, 75), 255);
+  EXPECT_EQ(LabelAt(survey.Labels(facet), 50, 75), 1);
+  EXPECT_GT(survey.Picture(facet).Pixel(190, 75)[0], 20);
+  options.inpaint = false;
+  const TexturedFacet bare = survey.Run(options).facets.at(0);
+  EXPECT_EQ(bare.inpainted, 0);
+  EXPECT_EQ(LabelAt(survey.Labels(bare), 190, 75), 0);
+  EXPECT_EQ(survey.Picture(bare).Pixel(190, 75)[0], 0);
+}
+
+TEST(RunTexture, TakesAFacetOfOnePixelAndLimitsALargeOne) {
+  Survey survey;
+  Facet tiny = MakeWall(4, 3);
+  tiny.id = "B0001/W02";
+  tiny.outer = {{4.2, 0, 1}, {4.203, 0, 1}, {4.203, 0, 1.003}, {4.2, 0, 1.003}};
+  survey.SetProxy(MakeProxy({MakeWall(4, 3), tiny}));
+  survey.Add("a.jpg", {2, -5, 1.5}, {2, 0, 1.5});
+  TextureOptions options;
+  options.texel_size = 0.0001;
+  options.max_texture_px = 500;
+  const TextureSet set = survey.Run(options);
+  EXPECT_EQ(set.facets[0].width_px, 500);
+  EXPECT_EQ(set.facets[0].height_px, 375);
+  EXPECT_DOUBLE_EQ(set.facets[0].metres_per_texel, 0.008);
+  EXPECT_GT(TruthPsnr(survey, set.facets[0]), 25);
+  EXPECT_EQ(set.facets[1].width_px, 30);
+  options.texel_size = 0.01;
+  const TexturedFacet one = survey.Run(options).facets.at(1);
+  EXPECT_EQ(one.width_px, 1);
+  EXPECT_EQ(one.height_px, 1);
+  EXPECT_EQ(one.painted, 1);
+}
+
+TEST(RunTexture, RejectsGrazingPhotos) {
+  Survey survey;
+  survey.Add("grazing.jpg", {-14, -2, 1.5}, {2, 0, 1.5});  // 83 degrees
+  EXPECT_THROW(survey.Run(), Error);
+  TextureOptions options;
+  options.max_angle_deg = 88;
+  EXPECT_GT(survey.Run(options).facets.at(0).painted, 0.5);
+}
+
+std::map<std::string, std::string> Contents(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) {
+      files[fs::relative(entry.path(), folder).string()] = HashFile(entry.path());
+    }
+  }
+  return files;
+}
+
+// Keeps units in memory and counts what was computed.
+class MemoryUnits : public UnitStore {
+ public:
+  std::optional<std::string> Load(std::string_view kind, std::string_view key) override {
+    const std::lock_guard lock(mutex_);
+    const auto found = units_.find(std::string(kind) + "/" + std::string(key));
+    if (found == units_.end()) return std::nullopt;
+    return found->second;
+  }
+  void Save(std::string_view kind, std::string_view key, std::string_view bytes) override {
+    const std::lock_guard lock(mutex_);
+    units_[std::string(kind) + "/" + std::string(key)] = bytes;
+  }
+  size_t size() const { return units_.size(); }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::string> units_;
+};
+
+TEST(RunTexture, WritesTheSameBytesAtAnyThreadCountAndFromCheckpoints) {
+  Survey survey;
+  Facet side = MakeWall(4, 3);
+  side.id = "B0001/W02";
+  for (auto& vertex : side.outer) vertex.x() += 4;
+  survey.SetProxy(MakeProxy({MakeWall(4, 3), side}));
+  survey.Add("a.jpg", {2, -4.2, 1.5}, {2, 0, 1.5}, 1, WallScene(8, 3));
+  survey.Add("b.jpg", {4, -4.2, 1.5}, {4, 0, 1.5}, 1.2, WallScene(8, 3));
+  survey.Add("c.jpg", {6, -4.2, 1.5}, {6, 0, 1.5}, 0.9, WallScene(8, 3));
+  MemoryUnits units;
+  survey.Run({}, "one", 1, &units);
+  const size_t computed = units.size();
+  EXPECT_EQ(computed, 4u);
+  survey.Run({}, "two", 2);
+  survey.Run({}, "again", 2, &units);
+  EXPECT_EQ(units.size(), computed);
+  const auto one = Contents(survey.Out("one"));
+  EXPECT_GT(one.size(), 10u);
+  EXPECT_EQ(one, Contents(survey.Out("two")));
+  EXPECT_EQ(one, Contents(survey.Out("again")));
+}
+
+TEST(RunTexture, SaysWhatIsMissing) {
+  const Survey empty;
+  EXPECT_THROW(empty.Run(), Error);  // no photos
+
+  Survey gone;
+  gone.Add("a.jpg", {2, -4.2, 1.5}, {2, 0, 1.5});
+  gone.Add("b.jpg", {3, -4.2, 1.5}, {2, 0, 1.5});
+  fs::remove(gone.Photos() / "a.jpg");
+  EXPECT_EQ(gone.Run().facets.at(0).photos, std::vector<std::string>{"b.jpg"});
+  WriteFile(gone.Photos() / "b.jpg", "not a picture");
+  EXPECT_THROW(gone.Run(), Error);
+  fs::remove(gone.Folder() / kFacetsFile);
+  EXPECT_THROW(gone.Run(), Error);
+}
+
+}  // namespace
+}  // namespace stucco

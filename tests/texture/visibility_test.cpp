@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/visibility.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/texture/synthetic.h"
+
+namespace stucco {
+namespace {
+
+using testing::LookFrom;
+using testing::MakeProxy;
+using testing::MakeWall;
+
+TEST(OcclusionScene, FacetsBlockSegmentsThatCrossThem) {
+  const OcclusionScene scene(MakeProxy({MakeWall(4, 3)}));
+  EXPECT_TRUE(scene.Blocked({2, -5, 1}, {2, 5, 1}));
+  EXPECT_TRUE(scene.Blocked({2, 5, 1}, {2, -5, 1}));
+  EXPECT_FALSE(scene.Blocked({5, -5, 1}, {5, 5, 1}));
+  EXPECT_FALSE(scene.Blocked({2, -5, 1}, {2, -0.1, 1}));
+}
+
+TEST(OcclusionScene, OfNothingBlocksNothing) {
+  const OcclusionScene scene((Proxy()));
+  EXPECT_FALSE(scene.Blocked({0, 0, 0}, {1, 1, 1}));
+}
+
+TEST(OcclusionScene, StaysExactFarFromTheOrigin) {
+  Facet wall = MakeWall(4, 3);
+  const Eigen::Vector3d far(400000, 5300000, 300);
+  for (auto& vertex : wall.outer) vertex += far;
+  const OcclusionScene scene(MakeProxy({wall}));
+  EXPECT_TRUE(scene.Blocked(far + Eigen::Vector3d(2, -0.01, 1), far + Eigen::Vector3d(2, 0.01, 1)));
+  EXPECT_FALSE(
+      scene.Blocked(far + Eigen::Vector3d(2, -0.02, 1), far + Eigen::Vector3d(2, -0.01, 1)));
+}
+
+class Foreground : public ::testing::Test {
+ protected:
+  // Points 1 m in front of the wall's middle.
+  Foreground() {
+    AddPatch(2, -1, 1.5);
+    points_.push_back({0.5, -1, 0.5});  // noise
+  }
+  CloudView Ask(const Eigen::Vector3d& on_wall, double clearance) const {
+    const NearestPoints nearest = SplatNearest(photo_, points_, 100);
+    return AskCloud(nearest, points_, photo_, *ProjectIntoPhoto(photo_, on_wall), wall_, clearance);
+  }
+  // A patch of points of 40 cm around a place.
+  void AddPatch(double x, double y, double z) {
+    for (int i = 0; i < 40; ++i) {
+      for (int j = 0; j < 40; ++j) points_.push_back({x - 0.2 + 0.01 * i, y, z - 0.2 + 0.01 * j});
+    }
+  }
+
+  Facet wall_ = MakeWall(4, 3);
+  TexturePhoto photo_ = LookFrom("a.jpg", {2, -6, 1.5}, {2, 0, 1.5}, 400, 300, 400);
+  std::vector<Eigen::Vector3d> points_;
+};
+
+TEST_F(Foreground, HidesWhatIsBehindIt) {
+  EXPECT_EQ(Ask({2, 0, 1.5}, 0.3), CloudView::kInFront);
+  EXPECT_EQ(Ask({3.2, 0, 1.5}, 0.3), CloudView::kNoPoints);
+}
+
+TEST_F(Foreground, ThatIsWithinTheClearanceBelongsToTheWall) {
+  EXPECT_EQ(Ask({2, 0, 1.5}, 1.2), CloudView::kSurface);
+}
+
+TEST_F(Foreground, OfASinglePointIsNoise) {
+  // The wall point behind the lone point, seen from the camera.
+  const Eigen::Vector3d lone = points_.back();
+  const Eigen::Vector3d camera(2, -6, 1.5);
+  const Eigen::Vector3d behind = camera + (lone - camera) * 6 / 5;
+  EXPECT_EQ(Ask(behind, 0.3), CloudView::kSurface);
+}
+
+TEST_F(Foreground, IsNotWhatLiesBeyondThePlane) {
+  AddPatch(3.5, 2, 2.5);
+  const Eigen::Vector3d camera(2, -6, 1.5);
+  const Eigen::Vector3d on_wall = camera + (Eigen::Vector3d(3.5, 2, 2.5) - camera) * 6 / 8;
+  EXPECT_EQ(Ask(on_wall, 0.3), CloudView::kBeyond);
+  AddPatch(on_wall.x(), 0, on_wall.z());
+  EXPECT_EQ(Ask(on_wall, 0.3), CloudView::kSurface);
+}
+
+TEST(SplatNearest, KeepsTheNearestPoint) {
+  const TexturePhoto photo = LookFrom("a.jpg", {0, -6, 0}, {0, 0, 0}, 400, 300, 400);
+  const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {0, -2, 0}, {0, -1, 0}, {0, -7, 0}};
+  const NearestPoints nearest = SplatNearest(photo, points, 100);
+  EXPECT_EQ(nearest.width, 100);
+  EXPECT_EQ(nearest.height, 75);
+  EXPECT_EQ(nearest.index[37 * 100 + 50], 1);
+}
+
+}  // namespace
+}  // namespace stucco

@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/write_model.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <gtest/gtest.h>
+
+#include <assimp/Importer.hpp>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/image.h"
+#include "tests/texture/synthetic.h"
+#include "texture/orthophoto.h"
+
+namespace stucco {
+namespace {
+
+using nlohmann::json;
+using testing::MakeProxy;
+using testing::MakeWall;
+using testing::TemporaryFolder;
+
+// A textured wall with a hole and an untextured one behind it.
+class Model : public ::testing::Test {
+ protected:
+  Model() {
+    Facet wall = MakeWall(4, 3);
+    wall.holes = {{{1, 0, 1}, {1, 0, 2}, {2, 0, 2}, {2, 0, 1}}};
+    Facet back = MakeWall(2, 2);
+    back.id = "B0001/W02";
+    for (auto& vertex : back.outer) vertex.y() += 1;
+    proxy_ = MakeProxy({wall, back});
+
+    std::filesystem::create_directories(folder_.path() / "textures");
+    Image image;
+    image.width_px = 40;
+    image.height_px = 30;
+    image.data.assign(3600, 50);
+    for (int y = 0; y < 30; ++y) {
+      for (int x = 0; x < 20; ++x) image.Pixel(x, y)[0] = 250;  // the left half is red
+    }
+    WriteImage(image, folder_.path() / "textures/B0001_W01.png");
+
+    TexturedFacet textured;
+    textured.id = wall.id;
+    textured.image = "textures/B0001_W01.png";
+    textured.width_px = 40;
+    textured.height_px = 30;
+    textured.metres_per_texel = 0.1;
+    textured.origin = {0, 0, 3};
+    textured.v_axis = -Eigen::Vector3d::UnitZ();
+    TexturedFacet plain;
+    plain.id = back.id;
+    textures_.facets = {textured, plain};
+  }
+
+  std::string Glb(const char* name = "model.glb") { return ReadFile(folder_.path() / name); }
+  json GlbJson() {
+    const std::string glb = Glb();
+    uint32_t length = 0;
+    std::memcpy(&length, &glb[12], 4);
+    return json::parse(glb.substr(20, length));
+  }
+  std::string GlbBinary() {
+    const std::string glb = Glb();
+    uint32_t length = 0;
+    std::memcpy(&length, &glb[12], 4);
+    return glb.substr(20 + length + 8);
+  }
+
+  TemporaryFolder folder_;
+  Proxy proxy_;
+  TextureSet textures_;
+};
+
+TEST_F(Model, ObjReadsBackWithTextureCoordinates) {
+  WriteObj(proxy_, textures_, folder_.path());
+  Assimp::Importer importer;
+  const aiScene* scene =
+      importer.ReadFile((folder_.path() / "model.obj").string(), aiProcess_ValidateDataStructure);
+  ASSERT_TRUE(scene) << importer.GetErrorString();
+  ASSERT_EQ(scene->mNumMeshes, 2u);
+  const aiMesh* wall = nullptr;
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
+    if (std::string(scene->mMeshes[i]->mName.C_Str()) == "B0001/W01") wall = scene->mMeshes[i];
+  }
+  ASSERT_TRUE(wall);
+  ASSERT_TRUE(wall->HasTextureCoords(0));
+  for (unsigned i = 0; i < wall->mNumVertices; ++i) {
+    const aiVector3D& at = wall->mVertices[i];
+    const aiVector3D& uv = wall->mTextureCoords[0][i];
+    EXPECT_NEAR(uv.x, at.x / 4, 1e-5);
+    EXPECT_NEAR(uv.y, at.z / 3, 1e-5);  // OBJ counts from the bottom
+  }
+  aiString path;
+  ASSERT_EQ(scene->mMaterials[wall->mMaterialIndex]->GetTexture(aiTextureType_DIFFUSE, 0, &path),
+            aiReturn_SUCCESS);
+  EXPECT_STREQ(path.C_Str(), "textures/B0001_W01.png");
+}
+
+TEST_F(Model, ObjKeepsTheAreaOfPolygonsWithHoles) {
+  WriteObj(proxy_, textures_, folder_.path());
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile((folder_.path() / "model.obj").string(), 0);
+  ASSERT_TRUE(scene);
+  double area = 0;
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    const aiMesh* mesh = scene->mMeshes[m];
+    for (unsigned f = 0; f < mesh->mNumFaces; ++f) {
+      const unsigned* index = mesh->mFaces[f].mIndices;
+      const aiVector3D a = mesh->mVertices[index[0]];
+      const aiVector3D cross = (mesh->mVertices[index[1]] - a) ^ (mesh->mVertices[index[2]] - a);
+      area += -0.5 * cross.y;  // both walls face south
+    }
+  }
+  EXPECT_NEAR(area, 11 + 4, 1e-4);
+}
+
+TEST_F(Model, GlbIsValidAndEmbedsItsPictures) {
+  WriteGlb(proxy_, textures_, folder_.path(), 4096, 90);
+  const std::string glb = Glb();
+  uint32_t header[3];
+  std::memcpy(header, glb.data(), 12);
+  EXPECT_EQ(header[0], 0x46546C67u);
+  EXPECT_EQ(header[1], 2u);
+  EXPECT_EQ(header[2], glb.size());
+  const json gltf = GlbJson();
+  ASSERT_EQ(gltf.at("images").size(), 1u);
+  const json& image = gltf["images"][0];
+  EXPECT_EQ(image.at("mimeType"), "image/jpeg");
+  EXPECT_FALSE(image.contains("uri"));
+  const json& view = gltf["bufferViews"][image.at("bufferView").get<int>()];
+  const std::string jpeg =
+      GlbBinary().substr(view.value("byteOffset", 0), view.at("byteLength").get<size_t>());
+  WriteFile(folder_.path() / "embedded.jpg", jpeg);
+  const Image picture = ReadJpeg(folder_.path() / "embedded.jpg");
+  EXPECT_EQ(picture.width_px, 40);
+  EXPECT_GT(picture.Pixel(5, 15)[0], 200);
+  EXPECT_LT(picture.Pixel(35, 15)[0], 100);
+  ASSERT_EQ(gltf["buffers"].size(), 1u);
+  EXPECT_FALSE(gltf["buffers"][0].contains("uri"));
+  EXPECT_LE(gltf["buffers"][0].at("byteLength").get<size_t>(), GlbBinary().size());
+  size_t unlit = 0;
+  for (const json& material : gltf["materials"]) {
+    unlit +=
+        material.contains("extensions") && material["extensions"].contains("KHR_materials_unlit");
+  }
+  EXPECT_EQ(unlit, gltf["materials"].size());
+}
+
+TEST_F(Model, GlbReadsBackYUpWithTextureCoordinates) {
+  WriteGlb(proxy_, textures_, folder_.path(), 16, 90);
+  Assimp::Importer importer;
+  const aiScene* scene =
+      importer.ReadFile((folder_.path() / "model.glb").string(), aiProcess_ValidateDataStructure);
+  ASSERT_TRUE(scene) << importer.GetErrorString();
+  ASSERT_EQ(scene->mNumMeshes, 2u);
+  const aiMesh* wall = scene->mMeshes[0];
+  ASSERT_TRUE(wall->HasTextureCoords(0));
+  for (unsigned i = 0; i < wall->mNumVertices; ++i) {
+    const aiVector3D& at = wall->mVertices[i];  // (east, up, south)
+    EXPECT_NEAR(at.z, 0, 1e-6);
+    EXPECT_NEAR(wall->mTextureCoords[0][i].x, at.x / 4, 1e-5);
+    EXPECT_NEAR(wall->mTextureCoords[0][i].y, at.y / 3, 1e-5);
+  }
+  ASSERT_EQ(scene->mNumTextures, 1u);
+  EXPECT_STREQ(scene->mTextures[0]->achFormatHint, "jpg");
+  ASSERT_EQ(scene->mRootNode->mNumChildren, 2u);
+  EXPECT_STREQ(scene->mRootNode->mChildren[0]->mName.C_Str(), "B0001/W01");
+}
+
+TEST_F(Model, WithoutPicturesIsStillWritten) {
+  WriteGlb(proxy_, {}, folder_.path(), 64, 90);
+  WriteObj(proxy_, {}, folder_.path());
+  EXPECT_FALSE(GlbJson().contains("images"));
+}
+
+TEST_F(Model, IntoAMissingFolderIsAnError) {
+  EXPECT_THROW(WriteObj(proxy_, {}, folder_.path() / "missing"), Error);
+  EXPECT_THROW(WriteGlb(proxy_, {}, folder_.path() / "missing", 64, 90), Error);
+}
+
+TEST_F(Model, WorldFileGivesHeightsOnWallsAndMapCoordinatesOnLevelRoofs) {
+  EXPECT_EQ(WorldFile(textures_.facets[0], proxy_.buildings[0].facets[0], proxy_),
+            "0.1\n0\n0\n-0.1\n0.05\n2.95\n");
+  Facet roof;
+  roof.normal = Eigen::Vector3d::UnitZ();
+  TexturedFacet texture = textures_.facets[0];
+  texture.origin = {10, 20, 5};
+  texture.v_axis = -Eigen::Vector3d::UnitY();
+  EXPECT_EQ(WorldFile(texture, roof, proxy_), "0.1\n0\n0\n-0.1\n10.05\n19.95\n");
+}
+
+TEST_F(Model, OrthophotoJsonHoldsScaleAndPlane) {
+  Georef georef;
+  georef.frame = "enu";
+  georef.metric = true;
+  georef.origin_latitude_deg = 52.5;
+  const json j = json::parse(
+      OrthophotoJson(textures_.facets[0], proxy_.buildings[0].facets[0], proxy_, georef));
+  EXPECT_EQ(j.at("metres_per_pixel"), 0.1);
+  EXPECT_EQ(j.at("plane").at("normal").at(1), -1.0);
+  EXPECT_EQ(j.at("origin").at(2), 3.0);
+  EXPECT_EQ(j.at("frame").at("origin").at("latitude_deg"), 52.5);
+  EXPECT_EQ(j.at("unit"), "metre");
+}
+
+}  // namespace
+}  // namespace stucco

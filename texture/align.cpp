@@ -1,0 +1,251 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/align.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+namespace stucco {
+namespace {
+
+constexpr int kPatchRadius = 10;  // of the correlated window, texels
+constexpr int kSpotsAcross = 24;  // corners sought along the longer side
+constexpr double kLeastCorrelation = 0.75;
+constexpr double kBackTolerance_px = 0.75;  // forward and backward match must agree
+constexpr double kLeastContrast = 4;  // standard deviation of a window worth matching, grey levels
+constexpr size_t kFewestMatches = 8;
+constexpr double kMatchSigma_px = 0.3;
+constexpr int kRounds = 10;
+
+cv::Mat AsMat(const std::vector<uint8_t>& data, const GreyPicture& picture) {
+  return cv::Mat(picture.height, picture.width, CV_8UC1, const_cast<uint8_t*>(data.data()));
+}
+
+// Vertex of the parabola through three values at -1, 0, 1.
+double Peak(double left, double middle, double right) {
+  const double bend = left - 2 * middle + right;
+  return bend < 0 ? std::clamp(0.5 * (left - right) / bend, -0.5, 0.5) : 0.0;
+}
+
+// Where the window around `at` of one picture is in another, searched around `around`.
+std::optional<Eigen::Vector2d> FindWindow(const cv::Mat& from, const cv::Mat& to,
+                                          const cv::Mat& to_valid, const cv::Point& at,
+                                          const cv::Point& around, int reach) {
+  const int size = 2 * kPatchRadius + 1;
+  const cv::Rect bounds(0, 0, to.cols, to.rows);
+  const cv::Rect window(at.x - kPatchRadius, at.y - kPatchRadius, size, size);
+  const cv::Rect search(around.x - kPatchRadius - reach, around.y - kPatchRadius - reach,
+                        size + 2 * reach, size + 2 * reach);
+  const cv::Rect clipped = search & bounds;
+  if ((window & bounds) != window || clipped.width < size || clipped.height < size) {
+    return std::nullopt;
+  }
+  cv::Mat score;
+  cv::matchTemplate(to(clipped), from(window), score, cv::TM_CCOEFF_NORMED);
+  double best = 0;
+  cv::Point place;
+  cv::minMaxLoc(score, nullptr, &best, nullptr, &place);
+  if (!(best >= kLeastCorrelation)) return std::nullopt;
+  // A maximum on the rim may go on outside.
+  if (place.x == 0 || place.y == 0 || place.x == score.cols - 1 || place.y == score.rows - 1) {
+    return std::nullopt;
+  }
+  const cv::Rect found(clipped.x + place.x, clipped.y + place.y, size, size);
+  if (cv::countNonZero(to_valid(found)) < size * size) return std::nullopt;
+  const float* row = score.ptr<float>(place.y) + place.x;
+  const double dx = Peak(row[-1], row[0], row[1]);
+  const double dy =
+      Peak(score.at<float>(place.y - 1, place.x), row[0], score.at<float>(place.y + 1, place.x));
+  return Eigen::Vector2d(found.x + kPatchRadius + dx, found.y + kPatchRadius + dy);
+}
+
+// The strongest corner of every square of a grid over the picture whose window is valid in both.
+std::vector<cv::Point> FindSpots(const cv::Mat& grey, const cv::Mat& both_valid) {
+  cv::Mat usable;
+  cv::erode(both_valid, usable, cv::Mat::ones(2 * kPatchRadius + 1, 2 * kPatchRadius + 1, CV_8UC1),
+            cv::Point(-1, -1), 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::Mat strength;
+  cv::cornerMinEigenVal(grey, strength, 5);
+  const int square =
+      std::max(kPatchRadius, (std::max(grey.cols, grey.rows) + kSpotsAcross - 1) / kSpotsAcross);
+  std::vector<cv::Point> spots;
+  for (int y = 0; y < grey.rows; y += square) {
+    for (int x = 0; x < grey.cols; x += square) {
+      const cv::Rect area = cv::Rect(x, y, square, square) & cv::Rect(0, 0, grey.cols, grey.rows);
+      double best = 0;
+      cv::Point place(-1, -1);
+      cv::minMaxLoc(strength(area), nullptr, &best, nullptr, &place, usable(area));
+      if (place.x < 0 || !(best > 0)) continue;
+      const cv::Point spot = place + area.tl();
+      cv::Scalar mean;
+      cv::Scalar deviation;
+      cv::meanStdDev(grey(cv::Rect(spot.x - kPatchRadius, spot.y - kPatchRadius,
+                                   2 * kPatchRadius + 1, 2 * kPatchRadius + 1)),
+                     mean, deviation);
+      if (deviation[0] >= kLeastContrast) spots.push_back(spot);
+    }
+  }
+  return spots;
+}
+
+// The rows of GridShift::At for a place: shift = basis * terms.
+Eigen::Matrix<double, 2, 8> Basis(const GridShift& frame, const Eigen::Vector2d& x) {
+  const Eigen::Vector2d q = (x - frame.center) / frame.radius;
+  Eigen::Matrix<double, 2, 8> basis;
+  basis.row(0) << 1, 0, q.x(), q.y(), 0, 0, q.x() * q.x(), q.x() * q.y();
+  basis.row(1) << 0, 1, 0, 0, q.x(), q.y(), q.x() * q.y(), q.y() * q.y();
+  return basis;
+}
+
+Eigen::Vector2d Residual(const GridMatch& match, std::span<const GridShift> shifts) {
+  const Eigen::Vector2d place = (match.in_a + match.in_b) / 2;
+  return match.in_a - match.in_b - (shifts[match.a].At(place) - shifts[match.b].At(place));
+}
+
+double MedianResidual(std::span<const GridMatch> matches, std::span<const GridShift> shifts) {
+  std::vector<double> lengths;
+  for (const GridMatch& match : matches) lengths.push_back(Residual(match, shifts).norm());
+  if (lengths.empty()) return -1;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+// Prior deviations of the terms, from the largest shift that is believed.
+Eigen::Matrix<double, 8, 1> PriorSigma(double limit_px) {
+  Eigen::Matrix<double, 8, 1> sigma;
+  sigma << limit_px / 2, limit_px / 2, limit_px / 3, limit_px / 3, limit_px / 3, limit_px / 3,
+      limit_px / 6, limit_px / 6;
+  return sigma;
+}
+
+std::vector<GridShift> SolveShifts(std::span<const GridMatch> matches,
+                                   std::vector<GridShift> shifts, int terms, double limit_px) {
+  const auto count = static_cast<Eigen::Index>(shifts.size());
+  const Eigen::Matrix<double, 8, 1> sigma = PriorSigma(limit_px);
+  for (int round = 0; round < kRounds; ++round) {
+    // The kernel's width falls from the largest shift to a texel: far starts still converge.
+    const double width = std::max(1.0, limit_px * std::pow(0.6, round));
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count * terms, count * terms);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(count * terms);
+    for (Eigen::Index i = 0; i < count * terms; ++i) {
+      normal(i, i) = 1 / (sigma[i % terms] * sigma[i % terms]);
+    }
+    for (const GridMatch& match : matches) {
+      const double length = Residual(match, shifts).norm() / width;
+      const double root = 1 / (1 + length * length);
+      const double weight = root * root / (kMatchSigma_px * kMatchSigma_px);
+      const Eigen::Matrix<double, 2, 8> full =
+          Basis(shifts[match.a], (match.in_a + match.in_b) / 2);
+      const Eigen::MatrixXd basis = full.leftCols(terms);
+      const Eigen::Vector2d wanted = match.in_a - match.in_b;
+      const Eigen::MatrixXd block = weight * basis.transpose() * basis;
+      const Eigen::VectorXd pull = weight * basis.transpose() * wanted;
+      const Eigen::Index a = match.a * terms;
+      const Eigen::Index b = match.b * terms;
+      normal.block(a, a, terms, terms) += block;
+      normal.block(b, b, terms, terms) += block;
+      normal.block(a, b, terms, terms) -= block;
+      normal.block(b, a, terms, terms) -= block;
+      right.segment(a, terms) += pull;
+      right.segment(b, terms) -= pull;
+    }
+    const Eigen::VectorXd solution = normal.ldlt().solve(right);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      shifts[i].terms.setZero();
+      shifts[i].terms.head(terms) = solution.segment(i * terms, terms);
+    }
+  }
+  return shifts;
+}
+
+double LargestShift(std::span<const GridShift> shifts, const Eigen::Vector2d& raster_size) {
+  double largest = 0;
+  for (const GridShift& shift : shifts) {
+    for (int corner = 0; corner < 4; ++corner) {
+      const Eigen::Vector2d place((corner % 2) * raster_size.x(), (corner / 2) * raster_size.y());
+      largest = std::max(largest, shift.At(place).norm());
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+std::vector<GridMatch> MatchPictures(std::span<const GreyPicture> pictures, int a, int b,
+                                     int reach) {
+  const cv::Mat grey_a = AsMat(pictures[a].grey, pictures[a]);
+  const cv::Mat grey_b = AsMat(pictures[b].grey, pictures[b]);
+  const cv::Mat valid_a = AsMat(pictures[a].valid, pictures[a]);
+  const cv::Mat valid_b = AsMat(pictures[b].valid, pictures[b]);
+  std::vector<GridMatch> matches;
+  for (const cv::Point& spot : FindSpots(grey_a, valid_a & valid_b)) {
+    const auto there = FindWindow(grey_a, grey_b, valid_b, spot, spot, reach);
+    if (!there) continue;
+    const cv::Point near(static_cast<int>(std::lround(there->x())),
+                         static_cast<int>(std::lround(there->y())));
+    const auto back = FindWindow(grey_b, grey_a, valid_a, near, spot, reach);
+    if (!back) continue;
+    const Eigen::Vector2d from(spot.x, spot.y);
+    const Eigen::Vector2d rounding = *there - Eigen::Vector2d(near.x, near.y);
+    if (!((*back + rounding - from).norm() <= kBackTolerance_px)) continue;
+    const Eigen::Vector2d half(0.5, 0.5);  // raster positions count from the texel's corner
+    matches.push_back({a, b, from + half, *there + half});
+  }
+  return matches;
+}
+
+Alignment SolveAlignment(std::span<const GridMatch> matches, size_t pictures,
+                         const Eigen::Vector2d& raster_size, double limit_px) {
+  Alignment out;
+  GridShift identity;
+  identity.center = raster_size / 2;
+  identity.radius = std::max(1.0, raster_size.maxCoeff() / 2);
+  out.shifts.assign(pictures, identity);
+
+  std::vector<GridMatch> believed;
+  for (size_t a = 0; a < pictures; ++a) {
+    for (size_t b = a + 1; b < pictures; ++b) {
+      std::vector<GridMatch> pair;
+      for (const GridMatch& match : matches) {
+        if (match.a == static_cast<int>(a) && match.b == static_cast<int>(b)) pair.push_back(match);
+      }
+      if (pair.size() >= kFewestMatches) believed.insert(believed.end(), pair.begin(), pair.end());
+    }
+  }
+  if (believed.empty()) return out;
+  out.before_px = MedianResidual(believed, out.shifts);
+  out.after_px = out.before_px;
+  if (!(limit_px > 0)) return out;
+  for (int terms : {8, 6, 2}) {
+    const auto shifts = SolveShifts(believed, out.shifts, terms, limit_px);
+    if (!(LargestShift(shifts, raster_size) <= limit_px)) continue;
+    const double after = MedianResidual(believed, shifts);
+    if (!(after < out.before_px)) continue;
+    out.shifts = shifts;
+    out.after_px = after;
+    break;
+  }
+  return out;
+}
+
+Alignment AlignPictures(std::span<const GreyPicture> pictures, double limit_px) {
+  std::vector<GridMatch> matches;
+  // Two pictures may both be off by the limit, in opposite directions.
+  const int reach = std::max(4, static_cast<int>(std::ceil(2 * limit_px)) + 1);
+  for (int a = 0; a < static_cast<int>(pictures.size()); ++a) {
+    for (int b = a + 1; b < static_cast<int>(pictures.size()); ++b) {
+      const auto pair = MatchPictures(pictures, a, b, reach);
+      matches.insert(matches.end(), pair.begin(), pair.end());
+    }
+  }
+  const Eigen::Vector2d size = pictures.empty()
+                                   ? Eigen::Vector2d(1, 1)
+                                   : Eigen::Vector2d(pictures[0].width, pictures[0].height);
+  return SolveAlignment(matches, pictures.size(), size, limit_px);
+}
+
+}  // namespace stucco

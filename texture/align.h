@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "texture/resample.h"
+
+namespace stucco {
+
+// One photo rectified on a facet's alignment raster.
+struct GreyPicture {
+  int width = 0;
+  int height = 0;
+  std::vector<uint8_t> grey;
+  std::vector<uint8_t> valid;  // the photo shows the facet here, not an occluder
+};
+
+// The same detail of the wall in two pictures, in raster texels.
+struct GridMatch {
+  int a = -1;  // indices of the pictures
+  int b = -1;
+  Eigen::Vector2d in_a = Eigen::Vector2d::Zero();
+  Eigen::Vector2d in_b = Eigen::Vector2d::Zero();
+};
+
+// Matches corners spread over the overlap of two pictures by normalised cross-correlation within
+// `reach` texels, both ways, to a fraction of a texel. Rectified pictures of one plane differ by a
+// small shift only, so that no descriptor is needed.
+std::vector<GridMatch> MatchPictures(std::span<const GreyPicture> pictures, int a, int b,
+                                     int reach);
+
+struct Alignment {
+  std::vector<GridShift> shifts;  // one per picture, in raster texels; identity when unsure
+  double before_px = -1;          // median distance of matched details, raster texels
+  double after_px = -1;           // the same after the shifts; -1: nothing could be matched
+};
+
+// One smooth shift per picture that brings matched details together, all pictures at once: least
+// squares with a prior on identity (so that no picture is the reference and errors of poses and
+// proxy are shared), reweighted by Geman-McClure's function. Tries eight terms (homography), then
+// six (affine), then two; shifts that would move any corner by more than `limit_px` are not
+// believed. Pairs with fewer than eight matches do not count.
+Alignment SolveAlignment(std::span<const GridMatch> matches, size_t pictures,
+                         const Eigen::Vector2d& raster_size, double limit_px);
+
+// MatchPictures over all pairs, then SolveAlignment.
+Alignment AlignPictures(std::span<const GreyPicture> pictures, double limit_px);
+
+}  // namespace stucco

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "texture/candidates.h"
+#include "texture/grid.h"
+#include "texture/select.h"
+
+namespace stucco {
+
+// Facets are often a little larger than the real surface; photos show background on the rest.
+
+// Texels without points of the cloud that look like the sky (bright, not warm, without contrast)
+// and not like the wall where it has points become Sight::kBeyond. `rgb` are the photo's own
+// colours.
+void MarkSky(const TexelGrid& raster, const std::vector<uint8_t>& no_points,
+             const std::vector<float>& rgb, std::vector<Sight>& sight);
+
+// Takes the owner from texels whose picture looks beyond the surface, in regions that reach the
+// left, right or upper edge of the facet: they are filled from the wall instead. Regions that
+// touch only the lower edge may be arcades, enclosed ones windows: these stay. So does everything
+// when it would be more than 30 % of the facet: then the cloud is not to be trusted.
+void DropBackground(const TexelGrid& raster, std::span<const uint16_t> inside,
+                    std::span<const RasterPicture> pictures, std::vector<int>& owner);
+
+}  // namespace stucco

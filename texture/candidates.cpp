@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/candidates.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace stucco {
+namespace {
+
+constexpr double kBorderShare = 0.04;
+// Not used at all: lenses are at their worst there, and alignment may still move the picture.
+constexpr double kUnusedShare = 0.005;
+
+// Photo pixels per raster texel at a texel's centre, or nothing where the photo does not show it.
+std::optional<Eigen::Matrix2d> PixelsPerTexel(const TexturePhoto& photo, const TexelGrid& raster,
+                                              double x, double y) {
+  const auto right = ProjectIntoPhoto(photo, raster.At(x + 0.25, y));
+  const auto left = ProjectIntoPhoto(photo, raster.At(x - 0.25, y));
+  const auto below = ProjectIntoPhoto(photo, raster.At(x, y + 0.25));
+  const auto above = ProjectIntoPhoto(photo, raster.At(x, y - 0.25));
+  if (!right || !left || !below || !above) return std::nullopt;
+  Eigen::Matrix2d jacobian;
+  jacobian.col(0) = 2 * (*right - *left);
+  jacobian.col(1) = 2 * (*below - *above);
+  return jacobian;
+}
+
+double SmallerSingularValue(const Eigen::Matrix2d& m) {
+  const double half_trace = m.squaredNorm() / 2;
+  const double determinant = m.determinant();
+  const double root = std::sqrt(std::max(0.0, half_trace * half_trace - determinant * determinant));
+  return std::sqrt(std::max(0.0, half_trace - root));
+}
+
+double BorderDistance(const Camera& camera, const Eigen::Vector2d& pixel) {
+  return std::min(
+      {pixel.x(), pixel.y(), camera.width_px - pixel.x(), camera.height_px - pixel.y()});
+}
+
+float BorderNearness(const Camera& camera, const Eigen::Vector2d& pixel) {
+  const double share = BorderDistance(camera, pixel) / (kBorderShare * camera.width_px);
+  return static_cast<float>(std::clamp(1 - share, 0.0, 1.0));
+}
+
+// Texels with a third of their neighbourhood hidden become hidden too.
+void GrowHidden(const TexelGrid& raster, std::vector<TexelView>& texels) {
+  std::vector<uint8_t> grown(texels.size(), 0);
+  for (int y = 0; y < raster.height; ++y) {
+    for (int x = 0; x < raster.width; ++x) {
+      int hidden = 0;
+      int known = 0;
+      for (int j = std::max(0, y - 1); j <= std::min(raster.height - 1, y + 1); ++j) {
+        for (int i = std::max(0, x - 1); i <= std::min(raster.width - 1, x + 1); ++i) {
+          const Sight sight = texels[static_cast<size_t>(j) * raster.width + i].sight;
+          hidden += sight == Sight::kBehind;
+          known += sight != Sight::kNot;
+        }
+      }
+      grown[static_cast<size_t>(y) * raster.width + x] = 3 * hidden >= known && hidden > 0;
+    }
+  }
+  for (size_t i = 0; i < texels.size(); ++i) {
+    if (grown[i] && texels[i].sight == Sight::kFree) texels[i].sight = Sight::kBehind;
+  }
+}
+
+double RoundedToTwoDigits(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  return std::round(value / unit) * unit;
+}
+
+}  // namespace
+
+RasterView MeasureView(std::span<const TexturePhoto> photos, int photo_index, const Facet& facet,
+                       const TexelGrid& raster, std::span<const uint16_t> inside,
+                       const Obstacles& obstacles, const ViewLimits& limits) {
+  const TexturePhoto& photo = photos[photo_index];
+  RasterView out{photo_index, std::vector<TexelView>(raster.size())};
+  const Eigen::Vector3d camera = photo.cam_from_world.Center();
+  if (facet.normal.dot(camera) - facet.offset <= limits.tolerance) return out;
+  const double least_cos = std::cos(limits.max_angle_deg * std::numbers::pi / 180);
+  bool any_hidden = false;
+  for (int row = 0; row < raster.height; ++row) {
+    for (int column = 0; column < raster.width; ++column) {
+      const size_t index = static_cast<size_t>(row) * raster.width + column;
+      if (inside[index] == 0) continue;
+      const Eigen::Vector3d point = raster.Center(column, row);
+      const Eigen::Vector3d to_camera = (camera - point).normalized();
+      const double cos_angle = facet.normal.dot(to_camera);
+      if (!(cos_angle >= least_cos)) continue;
+      const auto pixel = ProjectIntoPhoto(photo, point);
+      if (!pixel) continue;
+      if (BorderDistance(photo.camera, *pixel) < kUnusedShare * photo.camera.width_px) continue;
+      const auto jacobian = PixelsPerTexel(photo, raster, column + 0.5, row + 0.5);
+      if (!jacobian) continue;
+      const double area = std::abs(jacobian->determinant());
+      if (!(area > 0)) continue;
+      if (obstacles.scene->Blocked(point + limits.tolerance * facet.normal, camera)) continue;
+      TexelView& view = out.texels[index];
+      view.sight = Sight::kFree;
+      view.resolution = static_cast<float>(SmallerSingularValue(*jacobian));
+      view.footprint = static_cast<float>(raster.texel / std::sqrt(area));
+      view.cos_angle = static_cast<float>(cos_angle);
+      view.border = BorderNearness(photo.camera, *pixel);
+      if (obstacles.nearest.empty()) continue;
+      const CloudView cloud = AskCloud(obstacles.nearest[photo_index], obstacles.points, photo,
+                                       *pixel, facet, limits.clearance);
+      view.no_points = cloud == CloudView::kNoPoints;
+      if (cloud == CloudView::kBeyond) view.sight = Sight::kBeyond;
+      if (cloud == CloudView::kInFront) view.sight = Sight::kBehind;
+      any_hidden |= cloud == CloudView::kInFront;
+    }
+  }
+  if (any_hidden) GrowHidden(raster, out.texels);
+  return out;
+}
+
+float ViewCost(const TexelView& view, double raster_texel, double texel, double sharpness) {
+  const double resolution = std::min(1.0, view.resolution * texel / raster_texel);
+  // A sharpness of half the survey's typical value is clearly visible in the picture.
+  const double blur = std::clamp(1 - sharpness, 0.0, 1.0);
+  return static_cast<float>(0.4 * (1 - resolution) + 0.3 * (1 - view.cos_angle) + 0.2 * blur +
+                            0.1 * view.border);
+}
+
+std::vector<Candidate> RankCandidates(std::span<const RasterView> views,
+                                      std::span<const uint16_t> inside,
+                                      std::span<const std::vector<float>> costs, int max_count) {
+  const auto total = static_cast<double>(
+      std::count_if(inside.begin(), inside.end(), [](auto n) { return n > 0; }));
+  std::vector<Candidate> pool;
+  for (size_t v = 0; v < views.size(); ++v) {
+    Candidate candidate{static_cast<int>(v)};
+    for (size_t i = 0; i < inside.size(); ++i) {
+      if (views[v].texels[i].sight == Sight::kNot) continue;
+      candidate.seen += 1 / total;
+      candidate.merit += std::max(0.0f, 1 - costs[v][i]) / total;
+    }
+    if (candidate.seen > 0) pool.push_back(candidate);
+  }
+  std::stable_sort(pool.begin(), pool.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.merit > b.merit; });
+  std::vector<Candidate> out;
+  std::vector<float> reached(inside.size(), 0);
+  const auto take = [&](size_t k) {
+    const int v = pool[k].photo;
+    for (size_t i = 0; i < inside.size(); ++i) {
+      if (views[v].texels[i].sight == Sight::kNot) continue;
+      reached[i] = std::max(reached[i], 1 - costs[v][i]);
+    }
+    out.push_back(pool[k]);
+    pool.erase(pool.begin() + static_cast<std::ptrdiff_t>(k));
+  };
+  while (!pool.empty() && static_cast<int>(out.size()) < max_count) {
+    size_t best = 0;
+    double best_gain = 0.002 * total;  // less than this is no coverage worth a photo
+    bool found = false;
+    for (size_t k = 0; k < pool.size(); ++k) {
+      double gain = 0;
+      const int v = pool[k].photo;
+      for (size_t i = 0; i < inside.size(); ++i) {
+        if (views[v].texels[i].sight == Sight::kNot) continue;
+        gain += std::max(0.0f, 1 - costs[v][i] - reached[i]);
+      }
+      if (gain > best_gain) {
+        best_gain = gain;
+        best = k;
+        found = true;
+      }
+    }
+    take(found ? best : 0);
+  }
+  for (Candidate& candidate : out) candidate.photo = views[candidate.photo].photo;
+  return out;
+}
+
+double FinestTexel(std::span<const RasterView> views, double raster_texel) {
+  std::vector<double> finest;
+  if (views.empty()) return 0;
+  for (size_t i = 0; i < views.front().texels.size(); ++i) {
+    float best = 0;
+    for (const RasterView& view : views) {
+      if (view.texels[i].sight != Sight::kNot) best = std::max(best, view.texels[i].resolution);
+    }
+    if (best > 0) finest.push_back(raster_texel / best);
+  }
+  if (finest.empty()) return 0;
+  const auto quarter = finest.begin() + static_cast<std::ptrdiff_t>(finest.size() / 4);
+  std::nth_element(finest.begin(), quarter, finest.end());
+  return RoundedToTwoDigits(*quarter);
+}
+
+}  // namespace stucco

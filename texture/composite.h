@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "survey/image.h"
+#include "texture/candidates.h"
+#include "texture/grid.h"
+#include "texture/photo.h"
+#include "texture/photo_cache.h"
+#include "texture/resample.h"
+
+namespace stucco {
+
+// A photo that was chosen for a facet, with everything its texels depend on.
+struct ChosenPhoto {
+  const TexturePhoto* photo = nullptr;
+  std::shared_ptr<const PhotoPyramid> pyramid;
+  Eigen::Vector3d gain = Eigen::Vector3d::Ones();
+  GridShift shift;           // in texels of the facet's grid
+  std::vector<Sight> sight;  // over the selection raster
+};
+
+// Which chosen photo paints what, over a raster of `step` x `step` texels.
+struct Ownership {
+  int step = 1;
+  int raster_width = 0;
+  std::vector<int> owner;  // index into the chosen photos, -1: none
+
+  size_t RasterIndex(int column, int row) const {
+    return static_cast<size_t>(row / step) * raster_width + column / step;
+  }
+};
+
+struct Composite {
+  Image picture;                // 3 channels
+  std::vector<uint8_t> labels;  // 1 + index of the photo that painted a texel, 0: nobody
+};
+
+// Paints the facet's picture tile by tile, so that memory does not grow with the facet: each photo
+// resampled with its shift and gain, joined at the borders of ownership (over several bands where
+// `blend` is set). Texels outside `mask` stay 0 in the labels.
+Composite ComposePicture(const TexelGrid& grid, const std::vector<uint8_t>& mask,
+                         const std::vector<ChosenPhoto>& chosen, const Ownership& ownership,
+                         bool blend);
+
+}  // namespace stucco

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "texture/candidates.h"
+#include "texture/grid.h"
+
+namespace stucco {
+
+// A candidate over the selection raster of a facet: how it sees each texel and what it shows there.
+struct RasterPicture {
+  std::vector<Sight> sight;
+  std::vector<float> cost;  // ViewCost, 0 where not seen
+  std::vector<float> rgb;   // 3 per texel, 0 to 255, after colour gains; 0 where not seen
+};
+
+// What most pictures show: per texel the median colour of those that see it freely (of all that see
+// it when fewer than three do) and their number.
+struct Consensus {
+  std::vector<float> rgb;  // 3 per texel
+  std::vector<int> count;
+};
+
+Consensus FindConsensus(std::span<const RasterPicture> pictures, const TexelGrid& raster);
+
+// How far each picture is from the consensus, per texel, 0 (agrees) to 1: forgiving near edges,
+// where a little misregistration is enough to differ. 0 where fewer than three see a texel: nobody
+// knows who is right.
+std::vector<std::vector<float>> Disagreement(std::span<const RasterPicture> pictures,
+                                             const Consensus& consensus, const TexelGrid& raster);
+
+// The share of the consensus's contrast that a picture lacks, 0 to 1: haze, lens flare, blur. The
+// slope of its brightness against the consensus's where they show the same thing; 0 with fewer than
+// 50 such texels or hardly any contrast.
+float Haze(const RasterPicture& picture, const Consensus& consensus,
+           const std::vector<float>& disagreement);
+
+}  // namespace stucco

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace stucco {
+
+// File names (without folder and extension) for facet ids: letters, digits, '-', '_' and '.' stay,
+// everything else becomes '_' ("B0001/W03" -> "B0001_W03"); names that would differ in nothing but
+// case, or not at all, get a number.
+std::vector<std::string> FileNames(const std::vector<std::string>& ids);
+
+}  // namespace stucco

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "survey/captures.h"
+#include "survey/colmap_io.h"
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/point_cloud.h"
+#include "survey/survey_folder.h"
+
+namespace stucco {
+namespace {
+
+// Enough to cover the small rasters in which foreground is looked up; more only costs time.
+constexpr size_t kMostPoints = 1'000'000;
+
+std::map<std::string, CapturedPhoto> ReadCapturesByPath(const std::filesystem::path& path) {
+  std::map<std::string, CapturedPhoto> out;
+  if (!std::filesystem::exists(path)) return out;
+  for (CapturedPhoto& photo : ReadCaptures(path).photos) out[photo.path] = std::move(photo);
+  return out;
+}
+
+double MedianSharpness(const std::map<std::string, CapturedPhoto>& captures) {
+  std::vector<double> values;
+  for (const auto& [path, photo] : captures) {
+    if (photo.usable && photo.sharpness > 0) values.push_back(photo.sharpness);
+  }
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::vector<TexturePhoto> ReadPhotos(const StageContext& context) {
+  const Reconstruction model = ReadColmapModel(context.survey / kSparseFolder);
+  const auto captures = ReadCapturesByPath(context.survey / kCapturesFile);
+  const double typical = MedianSharpness(captures);
+  std::vector<TexturePhoto> photos;
+  for (const auto& [id, posed] : model.photos) {
+    const std::filesystem::path path = context.photos / posed.name;
+    if (!std::filesystem::exists(path)) {
+      context.progress->Warn(
+          fmt::format("{}: this posed photo is gone; painting without it", path.string()));
+      continue;
+    }
+    TexturePhoto photo;
+    photo.name = posed.name;
+    photo.camera = model.cameras.at(posed.camera);
+    photo.cam_from_world = posed.cam_from_world;
+    const auto captured = captures.find(posed.name);
+    if (captured != captures.end()) {
+      photo.hash = captured->second.hash;
+      const double sharpness = captured->second.sharpness;
+      if (typical > 0 && sharpness > 0) photo.sharpness = sharpness / typical;
+    }
+    if (photo.hash.empty()) photo.hash = HashFile(path);
+    KnowLens(photo);
+    photos.push_back(std::move(photo));
+  }
+  std::sort(photos.begin(), photos.end(),
+            [](const TexturePhoto& a, const TexturePhoto& b) { return a.name < b.name; });
+  return photos;
+}
+
+// Every k-th point, so that about kMostPoints are left.
+std::vector<Eigen::Vector3d> Thinned(const std::vector<Eigen::Vector3d>& points) {
+  const size_t step = (points.size() + kMostPoints - 1) / kMostPoints;
+  std::vector<Eigen::Vector3d> out;
+  for (size_t i = 0; i < points.size(); i += std::max<size_t>(1, step)) out.push_back(points[i]);
+  return out;
+}
+
+}  // namespace
+
+TextureInput ReadTextureInput(const StageContext& context, bool with_cloud) {
+  TextureInput input;
+  const std::filesystem::path facets = context.survey / kFacetsFile;
+  input.proxy = ReadProxy(facets);
+  std::string cloud_hash;
+  const std::filesystem::path cloud = context.survey / kCloudFile;
+  if (with_cloud && std::filesystem::exists(cloud)) {
+    input.cloud = Thinned(ReadPly(cloud).positions);
+    cloud_hash = HashFile(cloud);
+  } else if (with_cloud) {
+    context.progress->Warn(fmt::format(
+        "{} is missing: what stands in front of facades is only known from the photos themselves",
+        cloud.string()));
+  }
+  const std::vector<std::string> parts = {HashFile(facets), cloud_hash};
+  input.geometry_hash = HashParts(parts);
+  const std::filesystem::path georef = context.survey / kGeorefFile;
+  if (std::filesystem::exists(georef)) input.georef = ReadGeoref(georef);
+  input.photos = ReadPhotos(context);
+  if (input.photos.empty()) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: none of the posed photos of {} is there", context.photos.string(),
+                            (context.survey / kSparseFolder).string()),
+                "check that the photo folder of the survey still holds the photos");
+  }
+  return input;
+}
+
+}  // namespace stucco

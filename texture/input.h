@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "survey/georef.h"
+#include "survey/proxy.h"
+#include "survey/stage.h"
+#include "texture/photo.h"
+
+namespace stucco {
+
+// Everything that painting reads from the survey folder.
+struct TextureInput {
+  Proxy proxy;
+  Georef georef;
+  std::vector<TexturePhoto> photos;    // posed and on disk, by name
+  std::vector<Eigen::Vector3d> cloud;  // thinned; empty without one
+  std::string geometry_hash;           // of the proxy and the cloud
+};
+
+// Reads proxy/facets.json, calib/sparse/0 and, where they are, calib/georef.json,
+// ingest/captures.json and dense/cloud.ply (`with_cloud`). Posed photos whose file is gone are
+// reported and left out. Throws Error (kBadInput) when nothing usable is left.
+TextureInput ReadTextureInput(const StageContext& context, bool with_cloud);
+
+}  // namespace stucco

@@ -1,0 +1,331 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/paint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "texture/align.h"
+#include "texture/background.h"
+#include "texture/composite.h"
+#include "texture/fill.h"
+#include "texture/patch_fill.h"
+#include "texture/select.h"
+
+namespace stucco {
+namespace {
+
+constexpr int kLookSide = 32;           // raster of the first look
+constexpr int kCellSplit = 4;           // raster texels per cell side
+constexpr double kMostCells = 20000;    // of one facet
+constexpr int kSelectPhotoSide = 1600;  // photos are read this small for looking and selecting
+constexpr int kAlignSide = 1600;        // longest side of the alignment raster
+constexpr int kMostPhotos = 254;        // labels are bytes
+constexpr int kPatchFillSide = 512;
+constexpr double kMostPatchFilled = 0.5;  // of the facet: beyond, copies would be invention
+constexpr uint32_t kFillSeed = 20260101;
+
+struct Selected {
+  TexelGrid raster;
+  std::vector<uint16_t> inside;
+  std::vector<RasterView> views;  // of the used photos, most painted first
+  Ownership ownership;            // indices into `views`
+};
+
+void ApplyGain(const Eigen::Vector3d& gain, std::vector<float>& rgb) {
+  for (size_t i = 0; i < rgb.size(); ++i) {
+    rgb[i] = std::min(255.0f, rgb[i] * static_cast<float>(gain[static_cast<int>(i % 3)]));
+  }
+}
+
+std::vector<float> SampleRaster(const TexturePhoto& photo, const TexelGrid& raster,
+                                PhotoCache& cache) {
+  return SamplePhoto(photo, *cache.Get(photo.name, kSelectPhotoSide), raster,
+                     {0, 0, raster.width, raster.height})
+      .rgb;
+}
+
+std::vector<float> CostsOf(const RasterView& view, double raster_texel, double texel,
+                           double sharpness) {
+  std::vector<float> costs(view.texels.size(), 0);
+  for (size_t i = 0; i < costs.size(); ++i) {
+    if (view.texels[i].sight == Sight::kNot) continue;
+    costs[i] = ViewCost(view.texels[i], raster_texel, texel, sharpness);
+  }
+  return costs;
+}
+
+RasterPicture MakeRasterPicture(const RasterView& view, const TexelGrid& raster, double texel,
+                                const Eigen::Vector3d& gain, const PaintScene& scene) {
+  const TexturePhoto& photo = scene.photos[view.photo];
+  RasterPicture picture;
+  picture.sight.reserve(view.texels.size());
+  for (const TexelView& seen : view.texels) picture.sight.push_back(seen.sight);
+  picture.cost = CostsOf(view, raster.texel, texel, photo.sharpness);
+  picture.rgb = SampleRaster(photo, raster, *scene.cache);
+  std::vector<uint8_t> no_points;
+  for (const TexelView& seen : view.texels) no_points.push_back(seen.no_points);
+  MarkSky(raster, no_points, picture.rgb, picture.sight);
+  ApplyGain(gain, picture.rgb);
+  return picture;
+}
+
+// Texels per cell: the wish, a multiple of kCellSplit, larger on large facets.
+int CellSide(const TexelGrid& grid, int wish_px) {
+  const double needed = std::sqrt(static_cast<double>(grid.size()) / kMostCells);
+  const double side = std::max(needed, static_cast<double>(wish_px)) / kCellSplit;
+  return kCellSplit * std::max(1, static_cast<int>(std::ceil(side)));
+}
+
+// Keeps the photos that own something, most first, and renumbers the owners.
+void KeepUsed(std::vector<RasterView>& views, std::span<const uint16_t> inside,
+              std::vector<int>& owner) {
+  std::vector<uint64_t> area(views.size(), 0);
+  for (size_t i = 0; i < owner.size(); ++i) {
+    if (owner[i] >= 0) area[owner[i]] += inside[i];
+  }
+  std::vector<int> order(views.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return area[a] > area[b]; });
+  std::vector<int> number(views.size(), -1);
+  std::vector<RasterView> kept;
+  for (int old : order) {
+    if (area[old] == 0 || static_cast<int>(kept.size()) >= kMostPhotos) continue;
+    number[old] = static_cast<int>(kept.size());
+    kept.push_back(std::move(views[old]));
+  }
+  for (int& o : owner) o = o >= 0 ? number[o] : -1;
+  views = std::move(kept);
+}
+
+Selected SelectPhotos(const Facet& facet, const FacetLook& look, const PaintedFacet& canvas,
+                      std::span<const Eigen::Vector3d> gains, const PaintScene& scene,
+                      const TextureOptions& options) {
+  Selected out;
+  const int cell = CellSide(canvas.grid, options.cell_px);
+  out.ownership.step = cell / kCellSplit;
+  out.raster = Coarsened(canvas.grid, out.ownership.step);
+  out.ownership.raster_width = out.raster.width;
+  out.inside = CountInside(canvas.grid, canvas.mask, out.ownership.step);
+  const ViewLimits limits = LimitsFor(facet, scene.photos, options.max_angle_deg);
+  std::vector<RasterPicture> pictures;
+  for (const Candidate& candidate : look.candidates) {
+    out.views.push_back(MeasureView(scene.photos, candidate.photo, facet, out.raster, out.inside,
+                                    scene.obstacles, limits));
+    pictures.push_back(MakeRasterPicture(out.views.back(), out.raster, canvas.grid.texel,
+                                         gains[candidate.photo], scene));
+    for (size_t i = 0; i < out.raster.size(); ++i) {
+      out.views.back().texels[i].sight = pictures.back().sight[i];
+    }
+  }
+  const SelectOptions select{kCellSplit, options.photo_cost, options.seam_cost, options.min_region};
+  out.ownership.owner = SelectPictures(pictures, out.raster, out.inside,
+                                       out.ownership.step * out.ownership.step, select);
+  DropBackground(out.raster, out.inside, pictures, out.ownership.owner);
+  KeepUsed(out.views, out.inside, out.ownership.owner);
+  return out;
+}
+
+std::vector<ChosenPhoto> OpenChosen(const Selected& selected,
+                                    std::span<const Eigen::Vector3d> gains,
+                                    const PaintScene& scene) {
+  std::vector<ChosenPhoto> chosen;
+  for (const RasterView& view : selected.views) {
+    ChosenPhoto photo;
+    photo.photo = &scene.photos[view.photo];
+    photo.pyramid = scene.cache->Get(photo.photo->name, 0);
+    photo.gain = gains[view.photo];
+    for (const TexelView& seen : view.texels) photo.sight.push_back(seen.sight);
+    chosen.push_back(std::move(photo));
+  }
+  return chosen;
+}
+
+GreyPicture MakeGreyPicture(const ChosenPhoto& chosen, const TexelGrid& raster, int step,
+                            const PaintedFacet& canvas, const Ownership& ownership) {
+  const SampledTile sampled =
+      SamplePhoto(*chosen.photo, *chosen.pyramid, raster, {0, 0, raster.width, raster.height});
+  GreyPicture out{raster.width, raster.height, {}, sampled.valid};
+  out.grey.reserve(raster.size());
+  for (size_t i = 0; i < raster.size(); ++i) {
+    const float* rgb = &sampled.rgb[3 * i];
+    out.grey.push_back(
+        static_cast<uint8_t>(0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2] + 0.5f));
+    const int column =
+        std::min(canvas.grid.width - 1, static_cast<int>(i % raster.width) * step + step / 2);
+    const int row =
+        std::min(canvas.grid.height - 1, static_cast<int>(i / raster.width) * step + step / 2);
+    if (chosen.sight[ownership.RasterIndex(column, row)] != Sight::kFree) out.valid[i] = 0;
+  }
+  return out;
+}
+
+void AlignChosen(const Selected& selected, const TextureOptions& options,
+                 std::vector<ChosenPhoto>& chosen, PaintedFacet& painted) {
+  if (chosen.size() < 2) return;
+  const int longest = std::max(painted.grid.width, painted.grid.height);
+  const int step = (longest + kAlignSide - 1) / kAlignSide;
+  const TexelGrid raster = Coarsened(painted.grid, step);
+  std::vector<GreyPicture> pictures;
+  for (const ChosenPhoto& photo : chosen) {
+    pictures.push_back(MakeGreyPicture(photo, raster, step, painted, selected.ownership));
+  }
+  Alignment alignment = AlignPictures(pictures, options.align_limit_px / step);
+  if (alignment.before_px < 0) return;
+  painted.misregistration_before_px = alignment.before_px * step;
+  painted.misregistration_px = alignment.before_px * step;
+  if (!options.align) return;
+  painted.misregistration_px = alignment.after_px * step;
+  for (size_t k = 0; k < chosen.size(); ++k) {
+    GridShift shift = alignment.shifts[k];
+    shift.center *= step;
+    shift.radius *= step;
+    shift.terms *= step;
+    chosen[k].shift = shift;
+  }
+}
+
+// Continues colours into holes and beyond the facet, copies texture into the holes, and counts.
+void FillAndCount(const TextureOptions& options, PaintedFacet& painted) {
+  std::vector<uint8_t> known(painted.labels.size());
+  std::vector<uint8_t> hole(painted.labels.size());
+  size_t area = 0;
+  size_t known_area = 0;
+  for (size_t i = 0; i < known.size(); ++i) {
+    known[i] = painted.labels[i] != 0;
+    hole[i] = painted.mask[i] != 0 && !known[i];
+    area += painted.mask[i] != 0;
+    known_area += known[i];
+  }
+  painted.painted = static_cast<double>(known_area) / static_cast<double>(area);
+  painted.sharpness = MeasureSharpness(painted.picture, known);
+  if (options.inpaint) {
+    FillPictureSmoothly(painted.picture, known);
+    painted.inpainted = 1 - painted.painted;
+    if (known_area < area && painted.inpainted <= kMostPatchFilled) {
+      FillWithPatches(painted.picture, hole, known, kPatchFillSide, kFillSeed);
+    }
+    for (size_t i = 0; i < hole.size(); ++i) {
+      if (hole[i]) painted.labels[i] = 255;
+    }
+    return;
+  }
+  // Holes stay black; the surroundings of the facet still get colours, for mipmaps.
+  std::vector<uint8_t> fixed(known);
+  for (size_t i = 0; i < hole.size(); ++i) {
+    if (!hole[i]) continue;
+    fixed[i] = 1;
+    std::fill_n(&painted.picture.data[3 * i], 3, uint8_t{0});
+  }
+  FillPictureSmoothly(painted.picture, fixed);
+}
+
+}  // namespace
+
+ViewLimits LimitsFor(const Facet& facet, std::span<const TexturePhoto> photos,
+                     double max_angle_deg) {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& vertex : facet.outer) center += vertex;
+  center /= static_cast<double>(facet.outer.size());
+  std::vector<double> facing;
+  std::vector<double> all;
+  for (const TexturePhoto& photo : photos) {
+    const double distance = (photo.cam_from_world.Center() - center).norm();
+    all.push_back(distance);
+    if (ProjectIntoPhoto(photo, center)) facing.push_back(distance);
+  }
+  std::vector<double>& distances = facing.empty() ? all : facing;
+  std::sort(distances.begin(), distances.end());
+  const double typical = distances.empty() ? 0 : distances[distances.size() / 2];
+  ViewLimits limits;
+  limits.max_angle_deg = max_angle_deg;
+  limits.tolerance = std::max(2 * facet.rms, 0.003 * typical);
+  limits.clearance = std::max(4 * facet.rms, 0.02 * typical);
+  return limits;
+}
+
+FacetLook LookAtFacet(const Facet& facet, const PaintScene& scene, const TextureOptions& options) {
+  const double tiny = std::numeric_limits<double>::min();
+  const TexelGrid raster = MakeGrid(facet, scene.up, tiny, kLookSide);
+  const std::vector<uint8_t> mask = RasterizeFacet(facet, raster);
+  const std::vector<uint16_t> inside(mask.begin(), mask.end());
+  const ViewLimits limits = LimitsFor(facet, scene.photos, options.max_angle_deg);
+  std::vector<RasterView> views;
+  for (size_t p = 0; p < scene.photos.size(); ++p) {
+    RasterView view = MeasureView(scene.photos, static_cast<int>(p), facet, raster, inside,
+                                  scene.obstacles, limits);
+    const bool any = std::any_of(view.texels.begin(), view.texels.end(),
+                                 [](const TexelView& t) { return t.sight != Sight::kNot; });
+    if (any) views.push_back(std::move(view));
+  }
+  FacetLook look;
+  look.texel = options.texel_size > 0 ? options.texel_size : FinestTexel(views, raster.texel);
+  if (views.empty()) return look;
+  std::vector<std::vector<float>> costs;
+  for (const RasterView& view : views) {
+    costs.push_back(CostsOf(view, raster.texel, look.texel, scene.photos[view.photo].sharpness));
+  }
+  look.candidates = RankCandidates(views, inside, costs, options.max_candidates);
+  if (!options.colour) return look;
+
+  std::vector<std::vector<float>> colours;
+  std::vector<const RasterView*> sights;
+  for (const Candidate& candidate : look.candidates) {
+    colours.push_back(SampleRaster(scene.photos[candidate.photo], raster, *scene.cache));
+    sights.push_back(&*std::find_if(views.begin(), views.end(), [&](const RasterView& view) {
+      return view.photo == candidate.photo;
+    }));
+  }
+  std::vector<uint8_t> both(raster.size());
+  for (size_t a = 0; a < colours.size(); ++a) {
+    for (size_t b = a + 1; b < colours.size(); ++b) {
+      for (size_t i = 0; i < both.size(); ++i) {
+        both[i] = sights[a]->texels[i].sight == Sight::kFree &&
+                  sights[b]->texels[i].sight == Sight::kFree;
+      }
+      const auto ratio = MeasureRatio(look.candidates[a].photo, look.candidates[b].photo,
+                                      colours[a], colours[b], both);
+      if (ratio) look.ratios.push_back(*ratio);
+    }
+  }
+  return look;
+}
+
+PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
+                        std::span<const Eigen::Vector3d> gains, const PaintScene& scene,
+                        const TextureOptions& options) {
+  PaintedFacet painted;
+  if (look.candidates.empty()) return painted;
+  painted.grid = MakeGrid(facet, scene.up, look.texel, options.max_texture_px);
+  painted.mask = RasterizeFacet(facet, painted.grid);
+
+  // 1. Which photo paints what.
+  const Selected selected = SelectPhotos(facet, look, painted, gains, scene, options);
+  if (selected.views.empty()) return painted;
+  for (const RasterView& view : selected.views) painted.photos.push_back(view.photo);
+
+  // 2. Bring the chosen photos together on the facet's plane.
+  std::vector<ChosenPhoto> chosen = OpenChosen(selected, gains, scene);
+  AlignChosen(selected, options, chosen, painted);
+
+  // 3. Paint, and fill what nobody shows.
+  Composite composite =
+      ComposePicture(painted.grid, painted.mask, chosen, selected.ownership, options.blend);
+  painted.picture = std::move(composite.picture);
+  painted.labels = std::move(composite.labels);
+  if (std::all_of(painted.labels.begin(), painted.labels.end(), [](uint8_t l) { return l == 0; })) {
+    PaintedFacet nothing;
+    nothing.grid = painted.grid;
+    return nothing;
+  }
+  FillAndCount(options, painted);
+
+  // 4. Measure.
+  painted.quality = MeasureQuality(selected.views, scene.photos, selected.raster, selected.inside,
+                                   selected.ownership.owner, look.texel);
+  return painted;
+}
+
+}  // namespace stucco

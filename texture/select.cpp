@@ -1,0 +1,322 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/select.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stucco {
+namespace {
+
+// Weights of the data term against the view cost, which is in [0, 1]. An occluder is worse than the
+// poorest view, so that removing one pays for another photo.
+constexpr float kDisagreementWeight = 2.0f;
+constexpr float kBehindWeight = 2.0f;  // also for what is beyond
+constexpr float kUnseenCost = 3.0f;
+constexpr float kHazeWeight = 1.0f;  // of all contrast lost
+// A texel leaves its cell's picture for a neighbouring cell's that is better by this.
+constexpr float kClearlyBetter = 1.2f;
+constexpr int kNotStray = 4;  // of 9 texels
+// Seams: a floor that keeps them short, and weights of differences on a scale of 0 to 1.
+constexpr float kSeamFloor = 0.1f;
+constexpr float kSeamColour = 8.0f;
+constexpr float kSeamGradient = 4.0f;
+constexpr float kSeamUnseen = 0.5f;
+// Something stands out of the plane here: photos show it in different places.
+constexpr float kSeamRelief = 0.8f;
+
+float Difference(const float* a, const float* b) {
+  const float r = a[0] - b[0];
+  const float g = a[1] - b[1];
+  const float bl = a[2] - b[2];
+  return std::sqrt((r * r + g * g + bl * bl) / 3);
+}
+
+// Walks the pairs of raster texels (i on this side, j on the other) along the border between a cell
+// and its right or lower neighbour.
+template <typename Fn>
+void ForEachBorderPair(const TexelGrid& raster, int cell, int cell_x, int cell_y, int direction,
+                       Fn&& fn) {
+  for (int k = 0; k < cell; ++k) {
+    const int x = direction == 0 ? (cell_x + 1) * cell - 1 : cell_x * cell + k;
+    const int y = direction == 0 ? cell_y * cell + k : (cell_y + 1) * cell - 1;
+    const int next_x = direction == 0 ? x + 1 : x;
+    const int next_y = direction == 0 ? y : y + 1;
+    if (next_x >= raster.width || next_y >= raster.height) continue;
+    fn(static_cast<size_t>(y) * raster.width + x,
+       static_cast<size_t>(next_y) * raster.width + next_x);
+  }
+}
+
+float SeamAt(const RasterPicture& a, const RasterPicture& b, size_t i, size_t j) {
+  if (a.sight[i] == Sight::kNot || b.sight[i] == Sight::kNot || a.sight[j] == Sight::kNot ||
+      b.sight[j] == Sight::kNot) {
+    return kSeamUnseen;
+  }
+  const float colour =
+      (Difference(&a.rgb[3 * i], &b.rgb[3 * i]) + Difference(&a.rgb[3 * j], &b.rgb[3 * j])) / 2;
+  float step_a[3];
+  float step_b[3];
+  for (int k = 0; k < 3; ++k) {
+    step_a[k] = a.rgb[3 * j + k] - a.rgb[3 * i + k];
+    step_b[k] = b.rgb[3 * j + k] - b.rgb[3 * i + k];
+  }
+  const bool flat = a.sight[i] == Sight::kFree && b.sight[i] == Sight::kFree;
+  return (kSeamColour * colour + kSeamGradient * Difference(step_a, step_b)) / 255 +
+         (flat ? 0 : kSeamRelief);
+}
+
+using TexelCosts = std::vector<std::vector<float>>;  // [picture][texel]
+
+TexelCosts CostsOfTexels(std::span<const RasterPicture> pictures, const TexelGrid& raster) {
+  const Consensus consensus = FindConsensus(pictures, raster);
+  TexelCosts costs = Disagreement(pictures, consensus, raster);
+  for (size_t p = 0; p < pictures.size(); ++p) {
+    const float haze = kHazeWeight * Haze(pictures[p], consensus, costs[p]);
+    for (size_t i = 0; i < raster.size(); ++i) {
+      const Sight sight = pictures[p].sight[i];
+      costs[p][i] = pictures[p].cost[i] + haze + kDisagreementWeight * costs[p][i];
+      if (sight != Sight::kFree) costs[p][i] += kBehindWeight;
+      if (sight == Sight::kNot) costs[p][i] = kUnseenCost;
+    }
+  }
+  return costs;
+}
+
+void FillData(std::span<const RasterPicture> pictures, const TexelGrid& raster,
+              std::span<const uint16_t> inside, double full_cell, int cell, LabelProblem& problem) {
+  const TexelCosts costs = CostsOfTexels(pictures, raster);
+  problem.data.assign(problem.cells() * problem.labels, 0);
+  for (int label = 0; label < problem.labels; ++label) {
+    const RasterPicture& picture = pictures[label];
+    std::vector<uint8_t> seen(problem.cells(), 0);
+    for (int y = 0; y < raster.height; ++y) {
+      for (int x = 0; x < raster.width; ++x) {
+        const size_t i = static_cast<size_t>(y) * raster.width + x;
+        if (inside[i] == 0) continue;
+        const size_t c = static_cast<size_t>(y / cell) * problem.width + x / cell;
+        if (picture.sight[i] != Sight::kNot) seen[c] = 1;
+        problem.data[c * problem.labels + label] +=
+            costs[label][i] * static_cast<float>(inside[i] / full_cell);
+      }
+    }
+    for (size_t c = 0; c < problem.cells(); ++c) {
+      if (!seen[c]) problem.data[c * problem.labels + label] = LabelProblem::kForbidden;
+    }
+  }
+}
+
+struct Region {
+  int label = -1;
+  std::vector<size_t> cells;
+};
+
+// Connected regions of equal label, in order of their first cell; `region_of` gives each cell's.
+std::vector<Region> FindRegions(const LabelProblem& problem, const Labels& labels,
+                                std::vector<int>& region_of) {
+  std::vector<Region> regions;
+  region_of.assign(labels.size(), -1);
+  const auto width = static_cast<size_t>(problem.width);
+  for (size_t start = 0; start < labels.size(); ++start) {
+    if (labels[start] < 0 || region_of[start] >= 0) continue;
+    Region region{labels[start], {start}};
+    const int number = static_cast<int>(regions.size());
+    region_of[start] = number;
+    for (size_t k = 0; k < region.cells.size(); ++k) {
+      const size_t cell = region.cells[k];
+      const size_t x = cell % width;
+      const auto visit = [&](bool exists, size_t next) {
+        if (!exists || region_of[next] >= 0 || labels[next] != region.label) return;
+        region_of[next] = number;
+        region.cells.push_back(next);
+      };
+      visit(x > 0, cell - 1);
+      visit(x + 1 < width, cell + 1);
+      visit(cell >= width, cell - width);
+      visit(cell + width < labels.size(), cell + width);
+    }
+    regions.push_back(std::move(region));
+  }
+  return regions;
+}
+
+// Length of the border that a region shares with each label.
+std::vector<size_t> BorderWith(const LabelProblem& problem, const Labels& labels,
+                               const Region& region) {
+  std::vector<size_t> border(problem.labels, 0);
+  const auto width = static_cast<size_t>(problem.width);
+  for (size_t cell : region.cells) {
+    const size_t x = cell % width;
+    const auto visit = [&](bool exists, size_t next) {
+      if (exists && labels[next] >= 0 && labels[next] != region.label) ++border[labels[next]];
+    };
+    visit(x > 0, cell - 1);
+    visit(x + 1 < width, cell + 1);
+    visit(cell >= width, cell - width);
+    visit(cell + width < labels.size(), cell + width);
+  }
+  return border;
+}
+
+// A label that may replace a region's: it can paint nine tenths of the cells.
+int BestNeighbour(const LabelProblem& problem, const Labels& labels, const Region& region) {
+  const std::vector<size_t> border = BorderWith(problem, labels, region);
+  int best = -1;
+  for (int label = 0; label < problem.labels; ++label) {
+    if (border[label] == 0 || (best >= 0 && border[label] <= border[best])) continue;
+    const auto allowed = std::count_if(region.cells.begin(), region.cells.end(), [&](size_t cell) {
+      return problem.Data(cell, label) < LabelProblem::kForbidden;
+    });
+    if (10 * static_cast<size_t>(allowed) >= 9 * region.cells.size()) best = label;
+  }
+  return best;
+}
+
+// The pictures in use in a cell and the eight around it.
+std::vector<uint8_t> NearbyLabels(const LabelProblem& problem, const Labels& labels, int cell_x,
+                                  int cell_y) {
+  std::vector<uint8_t> nearby(problem.labels, 0);
+  for (int y = std::max(0, cell_y - 1); y <= std::min(problem.height - 1, cell_y + 1); ++y) {
+    for (int x = std::max(0, cell_x - 1); x <= std::min(problem.width - 1, cell_x + 1); ++x) {
+      const int label = labels[static_cast<size_t>(y) * problem.width + x];
+      if (label >= 0) nearby[label] = 1;
+    }
+  }
+  return nearby;
+}
+
+// The cheapest of the pictures marked in `allowed` that see a texel, -1 for none.
+int Cheapest(std::span<const RasterPicture> pictures, const TexelCosts& costs,
+             const std::vector<uint8_t>& allowed, size_t texel) {
+  int best = -1;
+  for (size_t p = 0; p < pictures.size(); ++p) {
+    if (!allowed[p] || pictures[p].sight[texel] == Sight::kNot) continue;
+    if (best < 0 || costs[p][texel] < costs[best][texel]) best = static_cast<int>(p);
+  }
+  return best;
+}
+
+// How many of the 3 x 3 texels around one have this value.
+int CountAround(const std::vector<int>& values, const TexelGrid& raster, int x, int y, int value) {
+  int count = 0;
+  for (int j = std::max(0, y - 1); j <= std::min(raster.height - 1, y + 1); ++j) {
+    for (int i = std::max(0, x - 1); i <= std::min(raster.width - 1, x + 1); ++i) {
+      count += values[static_cast<size_t>(j) * raster.width + i] == value;
+    }
+  }
+  return count;
+}
+
+// From cells to texels: a texel that its cell's picture does not see takes the cheapest in use;
+// those that another picture nearby shows far better (the rim of an occluder) take that, unless
+// they are stray ones.
+std::vector<int> RefineToTexels(std::span<const RasterPicture> pictures, const TexelGrid& raster,
+                                std::span<const uint16_t> inside, int cell,
+                                const LabelProblem& problem, const Labels& labels) {
+  const TexelCosts costs = CostsOfTexels(pictures, raster);
+  std::vector<uint8_t> in_use(pictures.size(), 0);
+  for (int label : labels) {
+    if (label >= 0) in_use[label] = 1;
+  }
+  std::vector<int> wish(raster.size(), -1);
+  std::vector<int> out(raster.size(), -1);
+  for (int y = 0; y < raster.height; ++y) {
+    for (int x = 0; x < raster.width; ++x) {
+      const size_t i = static_cast<size_t>(y) * raster.width + x;
+      if (inside[i] == 0) continue;
+      const int own = labels[static_cast<size_t>(y / cell) * problem.width + x / cell];
+      if (own < 0 || pictures[own].sight[i] == Sight::kNot) {
+        out[i] = Cheapest(pictures, costs, in_use, i);
+        continue;
+      }
+      out[i] = own;
+      const int other =
+          Cheapest(pictures, costs, NearbyLabels(problem, labels, x / cell, y / cell), i);
+      if (costs[other][i] + kClearlyBetter < costs[own][i]) wish[i] = other;
+    }
+  }
+  for (int y = 0; y < raster.height; ++y) {
+    for (int x = 0; x < raster.width; ++x) {
+      const size_t i = static_cast<size_t>(y) * raster.width + x;
+      if (wish[i] >= 0 && CountAround(wish, raster, x, y, wish[i]) >= kNotStray) out[i] = wish[i];
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+LabelProblem MakeLabelProblem(std::span<const RasterPicture> pictures, const TexelGrid& raster,
+                              std::span<const uint16_t> inside, int full,
+                              const SelectOptions& options) {
+  LabelProblem problem;
+  const int cell = options.cell;
+  problem.width = (raster.width + cell - 1) / cell;
+  problem.height = (raster.height + cell - 1) / cell;
+  problem.labels = static_cast<int>(pictures.size());
+  const double full_cell = static_cast<double>(full) * cell * cell;
+  FillData(pictures, raster, inside, full_cell, cell, problem);
+
+  problem.seams.assign(problem.cells() * 2 * problem.labels * problem.labels, 0);
+  const auto scale = static_cast<float>(options.seam_cost / cell);
+  for (int y = 0; y < problem.height; ++y) {
+    for (int x = 0; x < problem.width; ++x) {
+      const size_t c = static_cast<size_t>(y) * problem.width + x;
+      for (int direction = 0; direction < 2; ++direction) {
+        float* to = &problem.seams[(c * 2 + direction) * problem.labels * problem.labels];
+        ForEachBorderPair(raster, cell, x, y, direction, [&](size_t i, size_t j) {
+          if (inside[i] == 0 || inside[j] == 0) return;
+          for (int a = 0; a < problem.labels; ++a) {
+            for (int b = a + 1; b < problem.labels; ++b) {
+              const float seam = scale * (kSeamFloor + SeamAt(pictures[a], pictures[b], i, j));
+              to[a * problem.labels + b] += seam;
+              to[b * problem.labels + a] += seam;
+            }
+          }
+        });
+      }
+    }
+  }
+  double area = 0;
+  for (uint16_t count : inside) area += count / full_cell;
+  problem.label_cost = options.photo_cost * area;
+  return problem;
+}
+
+void MergeSmallRegions(const LabelProblem& problem, size_t min_cells, Labels& labels) {
+  std::vector<int> region_of;
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::vector<Region> regions = FindRegions(problem, labels, region_of);
+    std::stable_sort(regions.begin(), regions.end(), [](const Region& a, const Region& b) {
+      return a.cells.size() < b.cells.size();
+    });
+    for (const Region& region : regions) {
+      if (region.cells.size() >= min_cells) break;
+      const int heir = BestNeighbour(problem, labels, region);
+      if (heir < 0) continue;
+      for (size_t cell : region.cells) {
+        if (problem.Data(cell, heir) < LabelProblem::kForbidden) labels[cell] = heir;
+      }
+      // Regions have changed shape; the smallest goes first again. Every pass lowers the number of
+      // regions or leaves a remnant that the heir cannot paint and that is not tried again.
+      changed = FindRegions(problem, labels, region_of).size() < regions.size();
+      if (changed) break;
+    }
+  }
+}
+
+std::vector<int> SelectPictures(std::span<const RasterPicture> pictures, const TexelGrid& raster,
+                                std::span<const uint16_t> inside, int full,
+                                const SelectOptions& options) {
+  const LabelProblem problem = MakeLabelProblem(pictures, raster, inside, full, options);
+  Labels labels = CutLabels(problem);
+  const auto used_cells =
+      std::count_if(labels.begin(), labels.end(), [](int label) { return label >= 0; });
+  MergeSmallRegions(problem,
+                    static_cast<size_t>(options.min_region * static_cast<double>(used_cells)) + 1,
+                    labels);
+  return RefineToTexels(pictures, raster, inside, options.cell, problem, labels);
+}
+
+}  // namespace stucco

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "texture/consensus.h"
+#include "texture/grid.h"
+#include "texture/label_cut.h"
+
+namespace stucco {
+
+struct SelectOptions {
+  int cell = 4;  // side of a cell in raster texels
+  double photo_cost = 0.03;
+  double seam_cost = 1;
+  double min_region = 0.01;
+};
+
+// The labelling problem on cells of options.cell raster texels. `inside` are the counts of
+// CountInside, `full` their value inside the facet. Data term: view cost, disagreement, points of
+// the cloud in front; seams: difference of colour and gradient on both sides of the cell border
+// (Kwatra et al., "Graphcut Textures", 2003).
+LabelProblem MakeLabelProblem(std::span<const RasterPicture> pictures, const TexelGrid& raster,
+                              std::span<const uint16_t> inside, int full,
+                              const SelectOptions& options);
+
+// Gives connected regions of fewer than `min_cells` cells to the neighbour they share most of their
+// border with, where that photo can paint them.
+void MergeSmallRegions(const LabelProblem& problem, size_t min_cells, Labels& labels);
+
+// The picture for each raster texel: index into `pictures`, -1 where none sees it. Few pictures, in
+// large regions; texels that the picture of their cell does not see take the best of the others in
+// use.
+std::vector<int> SelectPictures(std::span<const RasterPicture> pictures, const TexelGrid& raster,
+                                std::span<const uint16_t> inside, int full,
+                                const SelectOptions& options);
+
+}  // namespace stucco

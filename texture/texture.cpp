@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/texture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/parallel.h"
+#include "survey/survey_folder.h"
+#include "survey/texture_set.h"
+#include "texture/colour.h"
+#include "texture/facet_unit.h"
+#include "texture/file_names.h"
+#include "texture/input.h"
+#include "texture/orthophoto.h"
+#include "texture/paint.h"
+#include "texture/write_model.h"
+
+namespace stucco {
+namespace {
+
+// Widest rasters in which points of the cloud in front of facets are looked up.
+constexpr int kNearestWidth = 640;
+// Bytes that painting needs per texel of a facet: picture, masks, rasters, encoded files.
+constexpr uint64_t kBytesPerTexel = 24;
+
+std::vector<const Facet*> FacetsToPaint(const Proxy& proxy, bool ground) {
+  std::vector<const Facet*> facets;
+  for (const Building& building : proxy.buildings) {
+    for (const Facet& facet : building.facets) {
+      if (facet.outer.size() < 3) continue;
+      if (facet.facet_class == FacetClass::kGround && !ground) continue;
+      facets.push_back(&facet);
+    }
+  }
+  return facets;
+}
+
+std::vector<NearestPoints> SplatAll(const TextureInput& input, const StageContext& context) {
+  std::vector<NearestPoints> nearest(input.cloud.empty() ? 0 : input.photos.size());
+  if (nearest.empty()) return nearest;
+  context.progress->Begin("foreground", nearest.size());
+  ParallelFor(nearest.size(), context.threads, [&](size_t i) {
+    context.ThrowIfCancelled();
+    nearest[i] = SplatNearest(input.photos[i], input.cloud, kNearestWidth);
+    context.progress->Advance();
+  });
+  return nearest;
+}
+
+std::vector<FacetLook> LookAtAll(const std::vector<const Facet*>& facets, const TextureInput& input,
+                                 const PaintScene& scene, const TextureOptions& options,
+                                 const StageContext& context) {
+  std::vector<FacetLook> looks(facets.size());
+  context.progress->Begin("choosing candidate photos", facets.size());
+  ParallelFor(facets.size(), context.threads, [&](size_t i) {
+    context.ThrowIfCancelled();
+    looks[i] =
+        UnpackLook(ComputeUnit(context, "texture_look", LookKey(*facets[i], input, options),
+                               [&] { return PackLook(LookAtFacet(*facets[i], scene, options)); }));
+    context.progress->Advance();
+  });
+  return looks;
+}
+
+std::vector<Eigen::Vector3d> GainsFrom(const std::vector<FacetLook>& looks, size_t photos) {
+  std::vector<ColourRatio> ratios;
+  for (const FacetLook& look : looks) {
+    ratios.insert(ratios.end(), look.ratios.begin(), look.ratios.end());
+  }
+  return SolveGains(ratios, photos);
+}
+
+// As many facets at once as fit beside the photo cache.
+int PaintingThreads(const std::vector<const Facet*>& facets, const std::vector<FacetLook>& looks,
+                    const PaintScene& scene, const TextureOptions& options,
+                    const StageContext& context) {
+  uint64_t largest = 1;
+  for (size_t i = 0; i < facets.size(); ++i) {
+    if (looks[i].candidates.empty()) continue;
+    const TexelGrid grid = MakeGrid(*facets[i], scene.up, looks[i].texel, options.max_texture_px);
+    largest = std::max(largest, kBytesPerTexel * grid.size());
+  }
+  const uint64_t fit = std::max<uint64_t>(1, context.memory_limit_bytes / 2 / largest);
+  return static_cast<int>(std::min<uint64_t>(fit, std::max(1, context.threads)));
+}
+
+// Writes a facet's files and fills in their names.
+TexturedFacet StoreFacet(FacetFiles files, const Facet& facet, const std::string& name,
+                         const TextureInput& input, const std::filesystem::path& out) {
+  TexturedFacet& textured = files.facet;
+  if (files.texture_png.empty()) return textured;
+  textured.image = fmt::format("textures/{}.png", name);
+  textured.label_image = fmt::format("labels/{}.png", name);
+  WriteFile(out / textured.image, files.texture_png);
+  WriteFile(out / textured.label_image, files.label_png);
+  if (!files.orthophoto_png.empty()) {
+    textured.orthophoto = fmt::format("orthophotos/{}.png", name);
+    WriteFile(out / textured.orthophoto, files.orthophoto_png);
+    WriteFile(out / fmt::format("orthophotos/{}.pgw", name),
+              WorldFile(textured, facet, input.proxy));
+    WriteFile(out / fmt::format("orthophotos/{}.json", name),
+              OrthophotoJson(textured, facet, input.proxy, input.georef));
+  }
+  return textured;
+}
+
+std::vector<TexturedFacet> PaintAll(const std::vector<const Facet*>& facets,
+                                    const std::vector<FacetLook>& looks,
+                                    const std::vector<Eigen::Vector3d>& gains,
+                                    const TextureInput& input, const PaintScene& scene,
+                                    const TextureOptions& options, const StageContext& context) {
+  std::vector<std::string> ids;
+  for (const Facet* facet : facets) ids.push_back(facet->id);
+  const std::vector<std::string> names = FileNames(ids);
+  std::vector<TexturedFacet> textured(facets.size());
+  context.progress->Begin("painting facets", facets.size());
+  const int threads = PaintingThreads(facets, looks, scene, options, context);
+  ParallelFor(facets.size(), threads, [&](size_t i) {
+    context.ThrowIfCancelled();
+    const std::string key = FilesKey(*facets[i], looks[i], input, gains, options);
+    FacetFiles files = UnpackFiles(ComputeUnit(context, "texture_facet", key, [&] {
+      const PaintedFacet painted = PaintFacet(*facets[i], looks[i], gains, scene, options);
+      return PackFiles(
+          MakeFacetFiles(facets[i]->id, painted, input.photos, gains, options.orthophotos));
+    }));
+    textured[i] = StoreFacet(std::move(files), *facets[i], names[i], input, context.out);
+    context.progress->Advance();
+  });
+  return textured;
+}
+
+void ReportFindings(const std::vector<TexturedFacet>& facets, Progress& progress) {
+  size_t painted = 0;
+  std::set<std::string> photos;
+  double uses = 0;
+  for (const TexturedFacet& facet : facets) {
+    if (facet.image.empty()) continue;
+    ++painted;
+    uses += static_cast<double>(facet.photos.size());
+    photos.insert(facet.photos.begin(), facet.photos.end());
+  }
+  if (painted == 0) {
+    throw Error(ErrorKind::kStageFailed,
+                fmt::format("none of the {} facets is seen by any photo", facets.size()),
+                "check that the proxy and the camera poses are of the same survey; a wider "
+                "texture.max_angle_deg admits more oblique photos");
+  }
+  progress.Note(fmt::format("painted {} of {} facets with {} photos, {:.1f} per facet", painted,
+                            facets.size(), photos.size(), uses / static_cast<double>(painted)));
+  if (painted < facets.size()) {
+    progress.Note(fmt::format("{} facets are seen by no photo and stay without a picture",
+                              facets.size() - painted));
+  }
+}
+
+}  // namespace
+
+void RunTexture(const TextureOptions& options, StageContext& context) {
+  // 1. What there is.
+  const TextureInput input = ReadTextureInput(context, options.occluders);
+  const std::vector<const Facet*> facets = FacetsToPaint(input.proxy, options.ground);
+  for (const char* folder : {"textures", "labels"}) {
+    std::filesystem::create_directories(context.out / folder);
+  }
+  if (options.orthophotos) std::filesystem::create_directories(context.out / "orthophotos");
+
+  // 2. What hides what.
+  const OcclusionScene occlusion(input.proxy);
+  const std::vector<NearestPoints> nearest = SplatAll(input, context);
+  PhotoCache cache(context.photos, context.memory_limit_bytes / 3);
+  const PaintScene scene{
+      input.photos, {&occlusion, nearest, input.cloud}, &cache, input.proxy.up.normalized()};
+
+  // 3. Who sees each facet, how finely and how brightly.
+  const std::vector<FacetLook> looks = LookAtAll(facets, input, scene, options, context);
+  const std::vector<Eigen::Vector3d> gains = GainsFrom(looks, input.photos.size());
+
+  // 4. Paint.
+  TextureSet textures;
+  textures.facets = PaintAll(facets, looks, gains, input, scene, options, context);
+  ReportFindings(textures.facets, *context.progress);
+
+  // 5. The model and its table of contents.
+  context.ThrowIfCancelled();
+  context.progress->Begin("writing the model", 2);
+  WriteObj(input.proxy, textures, context.out);
+  context.progress->Advance();
+  WriteGlb(input.proxy, textures, context.out, options.glb_max_px, options.glb_quality);
+  context.progress->Advance();
+  textures.model_obj = "model.obj";
+  textures.model_glb = "model.glb";
+  WriteTextureSet(textures, context.out / "textures.json");
+}
+
+}  // namespace stucco

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/visibility.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "survey/error.h"
+#include "texture/triangulate.h"
+
+namespace stucco {
+namespace {
+
+constexpr int kFewestInFront = 2;
+constexpr int kFewestBeyond = 3;
+// A raster is so coarse that surfaces get about this many points per cell, else they look open.
+constexpr double kSplatsPerCell = 1.5;
+constexpr int kNarrowest = 100;
+
+}  // namespace
+
+struct OcclusionScene::State {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // taken off, as rays are in float
+
+  ~State() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+OcclusionScene::OcclusionScene(const Proxy& proxy) : state_(std::make_unique<State>()) {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  for (const Building& building : proxy.buildings) {
+    for (const Facet& facet : building.facets) {
+      const FacetTriangles part = TriangulateFacet(facet);
+      const auto first = static_cast<uint32_t>(vertices.size());
+      vertices.insert(vertices.end(), part.vertices.begin(), part.vertices.end());
+      for (const auto& t : part.triangles) {
+        triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      }
+    }
+  }
+  for (const Eigen::Vector3d& vertex : vertices) state_->center += vertex;
+  if (!vertices.empty()) state_->center /= static_cast<double>(vertices.size());
+
+  state_->device = rtcNewDevice("threads=1");
+  if (!state_->device) {
+    throw Error(ErrorKind::kStageFailed, "Embree could not be started on this processor");
+  }
+  state_->scene = rtcNewScene(state_->device);
+  rtcSetSceneFlags(state_->scene, RTC_SCENE_FLAG_ROBUST);
+  if (!triangles.empty()) {
+    RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* xyz = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                            RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                                            vertices.size()));
+    for (size_t i = 0; i < vertices.size(); ++i) {
+      const Eigen::Vector3f local = (vertices[i] - state_->center).cast<float>();
+      std::copy_n(local.data(), 3, xyz + 3 * i);
+    }
+    auto* corners = static_cast<uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(uint32_t), triangles.size()));
+    for (size_t i = 0; i < triangles.size(); ++i) {
+      std::copy_n(triangles[i].data(), 3, corners + 3 * i);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(state_->scene, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(state_->scene);
+}
+
+OcclusionScene::~OcclusionScene() = default;
+OcclusionScene::OcclusionScene(OcclusionScene&&) noexcept = default;
+OcclusionScene& OcclusionScene::operator=(OcclusionScene&&) noexcept = default;
+
+bool OcclusionScene::Blocked(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+  const Eigen::Vector3f start = (from - state_->center).cast<float>();
+  const Eigen::Vector3f way = (to - from).cast<float>();
+  RTCRay ray{};
+  ray.org_x = start.x();
+  ray.org_y = start.y();
+  ray.org_z = start.z();
+  ray.dir_x = way.x();
+  ray.dir_y = way.y();
+  ray.dir_z = way.z();
+  ray.tnear = 0;
+  ray.tfar = 1;
+  ray.mask = std::numeric_limits<unsigned>::max();
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(state_->scene, &context, &ray);
+  return ray.tfar < 0;
+}
+
+NearestPoints SplatNearest(const TexturePhoto& photo, std::span<const Eigen::Vector3d> points,
+                           int most_px) {
+  struct Splat {
+    Eigen::Vector2d pixel;
+    float depth;
+    int32_t index;
+  };
+  std::vector<Splat> splats;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const auto pixel = ProjectIntoPhoto(photo, points[i]);
+    if (!pixel) continue;
+    const auto depth = static_cast<float>((photo.cam_from_world * points[i]).z());
+    splats.push_back({*pixel, depth, static_cast<int32_t>(i)});
+  }
+  NearestPoints out;
+  const double aspect = static_cast<double>(photo.camera.width_px) / photo.camera.height_px;
+  const double dense_enough =
+      std::sqrt(static_cast<double>(splats.size()) * aspect / kSplatsPerCell);
+  out.width = std::min(std::clamp(static_cast<int>(dense_enough), kNarrowest, most_px),
+                       photo.camera.width_px);
+  out.height = std::max(1, static_cast<int>(out.width / aspect));
+  out.index.assign(static_cast<size_t>(out.width) * out.height, -1);
+  std::vector<float> nearest(out.index.size(), std::numeric_limits<float>::max());
+  for (const Splat& splat : splats) {
+    const int x = std::min(out.width - 1,
+                           static_cast<int>(splat.pixel.x() * out.width / photo.camera.width_px));
+    const int y = std::min(out.height - 1,
+                           static_cast<int>(splat.pixel.y() * out.height / photo.camera.height_px));
+    const size_t cell = static_cast<size_t>(y) * out.width + x;
+    if (splat.depth < nearest[cell]) {
+      nearest[cell] = splat.depth;
+      out.index[cell] = splat.index;
+    }
+  }
+  return out;
+}
+
+CloudView AskCloud(const NearestPoints& nearest, std::span<const Eigen::Vector3d> points,
+                   const TexturePhoto& photo, const Eigen::Vector2d& pixel, const Facet& facet,
+                   double clearance) {
+  const double camera_height = facet.normal.dot(photo.cam_from_world.Center()) - facet.offset;
+  const int x = static_cast<int>(pixel.x() * nearest.width / photo.camera.width_px);
+  const int y = static_cast<int>(pixel.y() * nearest.height / photo.camera.height_px);
+  int in_front = 0;
+  int beyond = 0;
+  int near = 0;
+  int all = 0;
+  for (int row = std::max(0, y - 2); row <= std::min(nearest.height - 1, y + 2); ++row) {
+    for (int column = std::max(0, x - 2); column <= std::min(nearest.width - 1, x + 2); ++column) {
+      const int32_t i = nearest.index[static_cast<size_t>(row) * nearest.width + column];
+      if (i < 0) continue;
+      ++all;
+      const double height = facet.normal.dot(points[i]) - facet.offset;
+      const bool close = std::abs(row - y) <= 1 && std::abs(column - x) <= 1;
+      near += close;
+      in_front += close && height > clearance && height < camera_height;
+      beyond += height < -clearance;
+    }
+  }
+  if (in_front >= kFewestInFront) return CloudView::kInFront;
+  if (all >= kFewestBeyond && beyond == all) return CloudView::kBeyond;
+  return near == 0 ? CloudView::kNoPoints : CloudView::kSurface;
+}
+
+}  // namespace stucco

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "survey/proxy.h"
+#include "texture/photo.h"
+
+namespace stucco {
+
+// All facets of a proxy as triangles for ray casting (Embree).
+class OcclusionScene {
+ public:
+  explicit OcclusionScene(const Proxy& proxy);
+  ~OcclusionScene();
+  OcclusionScene(OcclusionScene&&) noexcept;
+  OcclusionScene& operator=(OcclusionScene&&) noexcept;
+
+  // Whether any facet crosses the segment between the two world points. Thread-safe.
+  bool Blocked(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// The cloud points nearest to one photo, splatted into a small raster over the photo's picture:
+// index into the cloud, -1 where none.
+struct NearestPoints {
+  int width = 0;
+  int height = 0;
+  std::vector<int32_t> index;
+};
+
+// The raster gets as fine as the points are dense, between 100 and `most_px` cells wide.
+NearestPoints SplatNearest(const TexturePhoto& photo, std::span<const Eigen::Vector3d> points,
+                           int most_px);
+
+// What the cloud says about a place on a facet as one photo sees it.
+enum class CloudView {
+  kNoPoints,  // nothing is known: a smooth surface, or the sky
+  kSurface,   // the facet, or not clear
+  kInFront,   // something stands between the photo and the facet's plane
+  kBeyond,    // the photo looks past the facet at things behind its plane
+};
+
+// Looks at the splats around `pixel`, where the photo sees the facet's plane. Points more than
+// `clearance` (world units) on the outer side of the plane, nearer to it than the photo, are in
+// front; it takes two of the nine nearest splats, as one may be noise. Beyond means that of the
+// twenty-five nearest at least three hold points, all farther than `clearance` behind the plane.
+CloudView AskCloud(const NearestPoints& nearest, std::span<const Eigen::Vector3d> points,
+                   const TexturePhoto& photo, const Eigen::Vector2d& pixel, const Facet& facet,
+                   double clearance);
+
+}  // namespace stucco

@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/write_model.h"
+
+#include <assimp/GltfMaterial.h>
+#include <assimp/material.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <assimp/Exporter.hpp>
+#include <map>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/image.h"
+#include "texture/grid.h"
+#include "texture/triangulate.h"
+
+namespace stucco {
+namespace {
+
+constexpr float kGrey = 0.6f;
+
+// How pictures get into a model: the texture path of a facet's material.
+using TexturePath = std::map<std::string, std::string>;
+
+aiMaterial* MakeMaterial(const std::string& name, const std::string* texture) {
+  auto* material = new aiMaterial();  // owned by the scene, as everything assimp takes
+  const aiString title(name);
+  material->AddProperty(&title, AI_MATKEY_NAME);
+  const float shade = texture ? 1.0f : kGrey;
+  const aiColor4D color(shade, shade, shade, 1);
+  material->AddProperty(&color, 1, AI_MATKEY_COLOR_DIFFUSE);
+  material->AddProperty(&color, 1, AI_MATKEY_BASE_COLOR);
+  const aiShadingMode shading = aiShadingMode_Unlit;  // as an int the glTF exporter misses it
+  material->AddProperty(&shading, 1, AI_MATKEY_SHADING_MODEL);
+  if (texture) {
+    const aiString path(*texture);
+    material->AddProperty(&path, AI_MATKEY_TEXTURE_DIFFUSE(0));
+    const int clamp = aiTextureMapMode_Clamp;
+    material->AddProperty(&clamp, 1, AI_MATKEY_MAPPINGMODE_U(aiTextureType_DIFFUSE, 0));
+    material->AddProperty(&clamp, 1, AI_MATKEY_MAPPINGMODE_V(aiTextureType_DIFFUSE, 0));
+  }
+  return material;
+}
+
+aiVector3D ToVector(const Eigen::Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+// Assimp's texture coordinates have their origin at the lower left.
+aiVector3D TextureCoordinates(const TexturedFacet& texture, const Eigen::Vector3d& vertex) {
+  const Eigen::Vector3d offset = (vertex - texture.origin) / texture.metres_per_texel;
+  const double u = offset.dot(texture.u_axis) / texture.width_px;
+  const double v = 1 - offset.dot(texture.v_axis) / texture.height_px;
+  return {static_cast<float>(u), static_cast<float>(v), 0};
+}
+
+aiMesh* MakeMesh(const Facet& facet, const TexturedFacet* texture, const Eigen::Matrix3d& turn,
+                 unsigned material) {
+  const FacetTriangles shape = TriangulateFacet(facet);
+  if (shape.triangles.empty()) return nullptr;
+  auto* mesh = new aiMesh();
+  mesh->mName = aiString(facet.id);
+  mesh->mMaterialIndex = material;
+  mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
+  mesh->mNumVertices = static_cast<unsigned>(shape.vertices.size());
+  mesh->mVertices = new aiVector3D[shape.vertices.size()];
+  mesh->mNormals = new aiVector3D[shape.vertices.size()];
+  if (texture) {
+    mesh->mTextureCoords[0] = new aiVector3D[shape.vertices.size()];
+    mesh->mNumUVComponents[0] = 2;
+  }
+  for (size_t i = 0; i < shape.vertices.size(); ++i) {
+    mesh->mVertices[i] = ToVector(turn * shape.vertices[i]);
+    mesh->mNormals[i] = ToVector(turn * facet.normal);
+    if (texture) mesh->mTextureCoords[0][i] = TextureCoordinates(*texture, shape.vertices[i]);
+  }
+  mesh->mNumFaces = static_cast<unsigned>(shape.triangles.size());
+  mesh->mFaces = new aiFace[shape.triangles.size()];
+  for (size_t i = 0; i < shape.triangles.size(); ++i) {
+    mesh->mFaces[i].mNumIndices = 3;
+    mesh->mFaces[i].mIndices = new unsigned[3];
+    for (int k = 0; k < 3; ++k) mesh->mFaces[i].mIndices[k] = shape.triangles[i][k];
+  }
+  return mesh;
+}
+
+template <typename T>
+T** MoveIntoArray(const std::vector<T*>& items) {
+  auto** array = new T*[items.size()];
+  std::copy(items.begin(), items.end(), array);
+  return array;
+}
+
+// One node per facet below the root, so that viewers list facets by their id.
+aiNode* MakeNodes(const std::vector<aiMesh*>& meshes) {
+  auto* root = new aiNode("stucco");
+  root->mNumChildren = static_cast<unsigned>(meshes.size());
+  root->mChildren = new aiNode*[meshes.size()];
+  for (unsigned i = 0; i < meshes.size(); ++i) {
+    auto* node = new aiNode(meshes[i]->mName.C_Str());
+    node->mParent = root;
+    node->mNumMeshes = 1;
+    node->mMeshes = new unsigned[1]{i};
+    root->mChildren[i] = node;
+  }
+  return root;
+}
+
+std::unique_ptr<aiScene> MakeScene(const Proxy& proxy, const TextureSet& textures,
+                                   const TexturePath& paths, const Eigen::Matrix3d& turn) {
+  std::map<std::string, const TexturedFacet*> by_id;
+  for (const TexturedFacet& facet : textures.facets) by_id[facet.id] = &facet;
+  std::vector<aiMaterial*> materials = {MakeMaterial("untextured", nullptr)};
+  std::vector<aiMesh*> meshes;
+  for (const Building& building : proxy.buildings) {
+    for (const Facet& facet : building.facets) {
+      const auto path = paths.find(facet.id);
+      const bool painted = path != paths.end();
+      const auto material = painted ? static_cast<unsigned>(materials.size()) : 0u;
+      aiMesh* mesh = MakeMesh(facet, painted ? by_id.at(facet.id) : nullptr, turn, material);
+      if (!mesh) continue;
+      meshes.push_back(mesh);
+      if (painted) materials.push_back(MakeMaterial(facet.id, &path->second));
+    }
+  }
+  auto scene = std::make_unique<aiScene>();
+  scene->mNumMaterials = static_cast<unsigned>(materials.size());
+  scene->mMaterials = MoveIntoArray(materials);
+  scene->mNumMeshes = static_cast<unsigned>(meshes.size());
+  scene->mMeshes = MoveIntoArray(meshes);
+  scene->mRootNode = MakeNodes(meshes);
+  return scene;
+}
+
+void Export(const aiScene& scene, const char* format, const std::filesystem::path& path) {
+  Assimp::Exporter exporter;
+  if (exporter.Export(&scene, format, path.string()) != aiReturn_SUCCESS) {
+    throw Error(ErrorKind::kOutOfResource,
+                fmt::format("{}: cannot be written: {}", path.string(), exporter.GetErrorString()),
+                "check free space and permissions of the survey folder");
+  }
+}
+
+std::vector<uint8_t> EncodeJpeg(const std::filesystem::path& path, int max_px, int quality) {
+  const Image image = ReadImage(path);
+  cv::Mat picture(image.height_px, image.width_px, CV_8UC3,
+                  const_cast<uint8_t*>(image.data.data()));
+  const ImageSize size = ScaledSize({image.width_px, image.height_px}, max_px);
+  cv::Mat scaled;
+  cv::resize(picture, scaled, {size.width_px, size.height_px}, 0, 0, cv::INTER_AREA);
+  cv::cvtColor(scaled, scaled, cv::COLOR_RGB2BGR);
+  std::vector<uint8_t> bytes;
+  cv::imencode(".jpg", scaled, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
+  return bytes;
+}
+
+aiTexture* MakeEmbedded(const std::string& name, const std::vector<uint8_t>& bytes) {
+  auto* texture = new aiTexture();
+  texture->mFilename = aiString(name);
+  texture->mWidth = static_cast<unsigned>(bytes.size());
+  texture->mHeight = 0;  // compressed, mWidth bytes
+  const size_t texels = (bytes.size() + sizeof(aiTexel) - 1) / sizeof(aiTexel);
+  texture->pcData = new aiTexel[texels];
+  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<uint8_t*>(texture->pcData));
+  std::copy_n("jpg", 4, texture->achFormatHint);
+  return texture;
+}
+
+Eigen::Matrix3d TurnToYUp(const Eigen::Vector3d& up) {
+  Eigen::Matrix3d y_from_z;
+  y_from_z << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  return y_from_z *
+         Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
+}  // namespace
+
+void WriteObj(const Proxy& proxy, const TextureSet& textures, const std::filesystem::path& folder) {
+  TexturePath paths;
+  for (const TexturedFacet& facet : textures.facets) {
+    if (!facet.image.empty()) paths[facet.id] = facet.image;
+  }
+  const auto scene = MakeScene(proxy, textures, paths, Eigen::Matrix3d::Identity());
+  Export(*scene, "obj", folder / "model.obj");
+}
+
+void WriteGlb(const Proxy& proxy, const TextureSet& textures, const std::filesystem::path& folder,
+              int max_px, int jpeg_quality) {
+  TexturePath paths;
+  std::vector<aiTexture*> embedded;
+  for (const TexturedFacet& facet : textures.facets) {
+    if (facet.image.empty()) continue;
+    paths[facet.id] = fmt::format("*{}", embedded.size());
+    const std::string name = std::filesystem::path(facet.image).stem().string();
+    embedded.push_back(MakeEmbedded(name, EncodeJpeg(folder / facet.image, max_px, jpeg_quality)));
+  }
+  const auto scene = MakeScene(proxy, textures, paths, TurnToYUp(proxy.up));
+  scene->mNumTextures = static_cast<unsigned>(embedded.size());
+  scene->mTextures = MoveIntoArray(embedded);
+  Export(*scene, "glb2", folder / "model.glb");
+}
+
+}  // namespace stucco
