@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report/facade_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "report/numbers.h"
+
+namespace stucco {
+namespace {
+
+// A measure that is bad when it is high, or, with `low_is_bad`, when it is low.
+struct Limit {
+  double amber = 0;
+  double red = 0;
+  bool low_is_bad = false;
+
+  // Written so that a value that is not a number is red.
+  Verdict Judge(double value) const {
+    const double sign = low_is_bad ? -1 : 1;
+    if (!(sign * value <= sign * red)) return Verdict::kRed;
+    if (!(sign * value <= sign * amber)) return Verdict::kAmber;
+    return Verdict::kGreen;
+  }
+  double Passed(Verdict verdict) const { return verdict == Verdict::kRed ? red : amber; }
+};
+
+class Judge {
+ public:
+  explicit Judge(const ReportOptions& options) : options_(options) {}
+
+  void Fill(FacadeRow& row) const {
+    if (!row.IsPainted()) {
+      row.findings.push_back({Verdict::kRed, "no photo paints it"});
+    } else {
+      JudgeTexture(row);
+    }
+    if (row.facet != nullptr) {
+      const Limit limit{options_.inferred_amber_above, options_.inferred_red_above};
+      Add(row, limit, row.facet->inferred, [](double value, double bound) {
+        return fmt::format("{} without measured points (limit {})", Percent(value), Percent(bound));
+      });
+    }
+    std::stable_sort(row.findings.begin(), row.findings.end(),
+                     [](const Finding& a, const Finding& b) { return a.verdict > b.verdict; });
+    row.verdict = row.findings.empty() ? Verdict::kGreen : row.findings.front().verdict;
+  }
+
+ private:
+  void JudgeTexture(FacadeRow& row) const {
+    const TexturedFacet& texture = *row.texture;
+    Add(row, {options_.coverage_amber_below, options_.coverage_red_below, /*low_is_bad=*/true},
+        texture.painted, [](double value, double bound) {
+          return fmt::format("{} painted from photos (limit {})", Percent(value), Percent(bound));
+        });
+    if (row.gsd_ratio > 0) {
+      Add(row, {options_.gsd_amber_above, options_.gsd_red_above}, row.gsd_ratio,
+          [](double value, double bound) {
+            return fmt::format("photo pixels {:.1f} times as large as usual here (limit {:g})",
+                               value, bound);
+          });
+    }
+    Add(row, {options_.inpainted_amber_above, options_.inpainted_red_above}, texture.inpainted,
+        [](double value, double bound) {
+          return fmt::format("{} filled in without a photo (limit {})", Percent(value),
+                             Percent(bound));
+        });
+    if (texture.misregistration_px >= 0) {
+      Add(row, {options_.misregistration_amber_above, options_.misregistration_red_above},
+          texture.misregistration_px, [](double value, double bound) {
+            return fmt::format("photos disagree by {:.1f} texels (limit {:g})", value, bound);
+          });
+    }
+  }
+
+  template <typename Text>
+  static void Add(FacadeRow& row, const Limit& limit, double value, Text text) {
+    const Verdict verdict = limit.Judge(value);
+    if (verdict == Verdict::kGreen) return;
+    row.findings.push_back({verdict, text(value, limit.Passed(verdict))});
+  }
+
+  const ReportOptions& options_;
+};
+
+std::vector<FacadeRow> ListFacets(const SurveyData& data) {
+  std::map<std::string, const TexturedFacet*> texture_by_id;
+  if (data.textures) {
+    for (const TexturedFacet& texture : data.textures->facets) {
+      texture_by_id.emplace(texture.id, &texture);
+    }
+  }
+  std::vector<FacadeRow> rows;
+  if (data.proxy) {
+    for (const Building& building : data.proxy->buildings) {
+      for (const Facet& facet : building.facets) {
+        const auto found = texture_by_id.find(facet.id);
+        FacadeRow row;
+        row.id = facet.id;
+        row.building = building.id;
+        row.facet = &facet;
+        row.facet_class = facet.facet_class;
+        if (found != texture_by_id.end()) {
+          row.texture = found->second;
+          texture_by_id.erase(found);
+        }
+        rows.push_back(std::move(row));
+      }
+    }
+  }
+  if (!data.textures) return rows;
+  for (const TexturedFacet& texture : data.textures->facets) {
+    if (texture_by_id.erase(texture.id) == 0) continue;
+    FacadeRow row;
+    row.id = texture.id;
+    row.building = texture.id.substr(0, texture.id.find('/'));
+    row.texture = &texture;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::string Name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kGreen:
+      return "green";
+    case Verdict::kAmber:
+      return "amber";
+    case Verdict::kRed:
+      return "red";
+    case Verdict::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
+std::string ClassLabel(FacetClass facet_class) {
+  switch (facet_class) {
+    case FacetClass::kWall:
+      return "Wall";
+    case FacetClass::kRoof:
+      return "Roof";
+    case FacetClass::kGround:
+      return "Ground";
+    case FacetClass::kOuterFloor:
+      break;
+  }
+  return "Overhang";
+}
+
+std::optional<double> MedianGsd(const SurveyData& data) {
+  std::vector<double> sizes;
+  if (data.textures) {
+    for (const TexturedFacet& texture : data.textures->facets) {
+      if (texture.gsd_m > 0 && !texture.image.empty()) sizes.push_back(texture.gsd_m);
+    }
+  }
+  if (sizes.empty()) return std::nullopt;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle;
+}
+
+std::vector<FacadeRow> MakeFacadeRows(const SurveyData& data, const ReportOptions& options) {
+  std::vector<FacadeRow> rows = ListFacets(data);
+  if (!data.textures) return rows;
+  const double median = MedianGsd(data).value_or(0);
+  const Judge judge(options);
+  for (FacadeRow& row : rows) {
+    if (row.texture != nullptr && median > 0) row.gsd_ratio = row.texture->gsd_m / median;
+    judge.Fill(row);
+  }
+  return rows;
+}
+
+VerdictCounts CountVerdicts(const std::vector<FacadeRow>& rows, bool walls_only) {
+  VerdictCounts counts;
+  for (const FacadeRow& row : rows) {
+    if (walls_only && row.facet_class != FacetClass::kWall) continue;
+    switch (row.verdict) {
+      case Verdict::kGreen:
+        ++counts.green;
+        break;
+      case Verdict::kAmber:
+        ++counts.amber;
+        break;
+      case Verdict::kRed:
+        ++counts.red;
+        break;
+      case Verdict::kUnknown:
+        ++counts.unknown;
+        break;
+    }
+  }
+  return counts;
+}
+
+}  // namespace stucco

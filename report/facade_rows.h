@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/report.h"
+#include "report/survey_data.h"
+
+namespace stucco {
+
+enum class Verdict { kGreen, kAmber, kRed, kUnknown };
+
+std::string Name(Verdict verdict);  // "green", "amber", "red", "unknown"
+
+// One measure held against its limits.
+struct Finding {
+  Verdict verdict = Verdict::kGreen;
+  std::string text;  // "54 % painted from photos (red below 60 %)"
+};
+
+// A facet of the proxy with all that is known about it.
+struct FacadeRow {
+  std::string id;
+  std::string building;
+  const Facet* facet = nullptr;            // nullptr: only textured
+  const TexturedFacet* texture = nullptr;  // nullptr: not textured
+  FacetClass facet_class = FacetClass::kWall;
+  double gsd_ratio = 0;  // size of a photo pixel on it over the survey's median; 0: not known
+  Verdict verdict = Verdict::kUnknown;
+  std::vector<Finding> findings;  // amber and red ones, worst first
+
+  bool IsPainted() const { return texture != nullptr && !texture->image.empty(); }
+};
+
+// A row per facet in the order of the proxy, then of the textures; the rows point into `data`.
+// Verdicts are kUnknown as long as there are no textures.
+std::vector<FacadeRow> MakeFacadeRows(const SurveyData& data, const ReportOptions& options);
+
+// "Wall", "Roof", ... for people.
+std::string ClassLabel(FacetClass facet_class);
+
+struct VerdictCounts {
+  int green = 0;
+  int amber = 0;
+  int red = 0;
+  int unknown = 0;
+  int Total() const { return green + amber + red + unknown; }
+};
+
+VerdictCounts CountVerdicts(const std::vector<FacadeRow>& rows, bool walls_only);
+
+// Median size of a photo pixel over the painted facets, world units; nothing without any.
+std::optional<double> MedianGsd(const SurveyData& data);
+
+}  // namespace stucco

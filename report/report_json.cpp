@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "report/escape.h"
+
+namespace stucco {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json OrNull(bool known, double value) {
+  return known ? Json(value) : Json(nullptr);
+}
+
+// Negative stands for "not known" in the files of the stages.
+Json UnlessNegative(double value) {
+  return OrNull(value >= 0, value);
+}
+
+const char* Unit(const SurveyData& data) {
+  return data.metric ? "m" : "units";
+}
+
+Json VerdictJson(Verdict verdict) {
+  return verdict == Verdict::kUnknown ? Json(nullptr) : Json(Name(verdict));
+}
+
+Json CountsJson(const VerdictCounts& counts) {
+  return {{"total", counts.Total()},
+          {"green", counts.green},
+          {"amber", counts.amber},
+          {"red", counts.red},
+          {"unknown", counts.unknown}};
+}
+
+Json FindingsJson(const FacadeRow& row) {
+  Json findings = Json::array();
+  for (const Finding& finding : row.findings) {
+    findings.push_back({{"verdict", Name(finding.verdict)}, {"text", finding.text}});
+  }
+  return findings;
+}
+
+Json TextsJson(const std::vector<std::string>& texts) {
+  Json clean = Json::array();
+  for (const std::string& text : texts) clean.push_back(CleanUtf8(text));
+  return clean;
+}
+
+Json FacadeJson(const FacadeRow& row) {
+  const Facet* facet = row.facet;
+  const TexturedFacet* texture = row.texture;
+  const bool painted = row.IsPainted();
+  Json json = {{"id", CleanUtf8(row.id)},
+               {"building", CleanUtf8(row.building)},
+               {"facade", CleanUtf8(facet != nullptr ? facet->facade : row.id)},
+               {"class", CityGmlName(row.facet_class)},
+               {"verdict", VerdictJson(row.verdict)},
+               {"findings", FindingsJson(row)},
+               {"planned", nullptr}};
+  json["achieved"] = painted ? Json{{"q_s", texture->q_s},
+                                    {"q_d", texture->q_d},
+                                    {"q_u", texture->q_u},
+                                    {"q_c", texture->q_c}}
+                             : Json(nullptr);
+  json["gsd_m"] = painted && texture->gsd_m > 0 ? Json(texture->gsd_m) : Json(nullptr);
+  json["gsd_ratio"] = row.gsd_ratio > 0 ? Json(row.gsd_ratio) : Json(nullptr);
+  json["photos"] = texture != nullptr ? TextsJson(texture->photos) : Json::array();
+  json["painted"] = texture != nullptr ? Json(texture->painted) : Json(nullptr);
+  json["inpainted"] = texture != nullptr ? Json(texture->inpainted) : Json(nullptr);
+  json["misregistration_px"] =
+      painted ? UnlessNegative(texture->misregistration_px) : Json(nullptr);
+  json["sharpness"] = painted ? Json(texture->sharpness) : Json(nullptr);
+  json["heldout_ssim"] = nullptr;
+  json["area"] = facet != nullptr ? Json(facet->area) : Json(nullptr);
+  json["plane_rms"] = facet != nullptr ? Json(facet->rms) : Json(nullptr);
+  json["support"] = facet != nullptr ? Json(facet->support) : Json(nullptr);
+  json["seen"] = facet != nullptr ? Json(facet->seen) : Json(nullptr);
+  json["inferred"] = facet != nullptr ? Json(facet->inferred) : Json(nullptr);
+  json["image"] = painted ? Json(CleanUtf8(texture->image)) : Json(nullptr);
+  json["epoch"] = "original";
+  return json;
+}
+
+Json AttentionJson(const SurveyData& data) {
+  Json list = Json::array();
+  for (const Attention& item : FindAttention(data)) {
+    list.push_back({{"stage", CleanUtf8(item.stage)},
+                    {"state", CleanUtf8(item.state)},
+                    {"why", CleanUtf8(item.why)},
+                    {"remedy", CleanUtf8(item.remedy)},
+                    {"command", CleanUtf8(item.command)}});
+  }
+  return list;
+}
+
+Json PhotosJson(const SurveyData& data) {
+  Json json = {{"total", nullptr}, {"usable", nullptr}, {"posed", nullptr}};
+  if (data.captures) {
+    int usable = 0;
+    for (const CapturedPhoto& photo : data.captures->photos) usable += photo.usable ? 1 : 0;
+    json["total"] = data.captures->photos.size();
+    json["usable"] = usable;
+  }
+  if (data.calibration) json["posed"] = data.calibration->photos_posed;
+  Json left_out = Json::array();
+  for (const LeftOutPhoto& photo : LeftOutPhotos(data)) {
+    left_out.push_back(
+        {{"path", CleanUtf8(photo.path)}, {"what", photo.what}, {"why", CleanUtf8(photo.why)}});
+  }
+  json["left_out"] = left_out;
+  return json;
+}
+
+Json CameraJson(const CalibratedCamera& camera) {
+  return {{"label", CleanUtf8(camera.label)},
+          {"model", CleanUtf8(camera.model)},
+          {"names", TextsJson(camera.names)},
+          {"params", camera.params},
+          {"sigma", camera.sigma},
+          {"held", TextsJson(camera.held)}};
+}
+
+Json CalibrationJson(const SurveyData& data) {
+  if (!data.calibration) return nullptr;
+  const Calibration& calibration = *data.calibration;
+  Json cameras = Json::array();
+  for (const CalibratedCamera& camera : calibration.cameras) cameras.push_back(CameraJson(camera));
+  return {{"photos_total", calibration.photos_total},
+          {"photos_posed", calibration.photos_posed},
+          {"reprojection_error_px", calibration.reprojection_error_px},
+          {"points", calibration.points},
+          {"mean_track_length", calibration.mean_track_length},
+          {"prior_rms_m",
+           {{"horizontal", UnlessNegative(calibration.prior_rms_horizontal_m)},
+            {"vertical", UnlessNegative(calibration.prior_rms_vertical_m)}}},
+          {"cameras", cameras},
+          {"findings", TextsJson(calibration.findings)}};
+}
+
+Json GeorefJson(const SurveyData& data) {
+  if (!data.georef) return nullptr;
+  const Georef& georef = *data.georef;
+  Json json = {{"frame", CleanUtf8(georef.frame)},
+               {"metric", georef.metric},
+               {"source", CleanUtf8(georef.source)}};
+  if (georef.frame == "enu") {
+    json["origin"] = {{"latitude_deg", georef.origin_latitude_deg},
+                      {"longitude_deg", georef.origin_longitude_deg},
+                      {"height_m", georef.origin_height_m}};
+  }
+  return json;
+}
+
+Json StagesJson(const SurveyData& data, bool record_times) {
+  Json stages = Json::array();
+  for (const StageStatus& status : data.statuses) {
+    Json stage = {{"stage", CleanUtf8(status.stage)},
+                  {"state", CleanUtf8(status.state)},
+                  {"why", CleanUtf8(status.why)}};
+    if (record_times) {
+      stage["wall_s"] = UnlessNegative(status.wall_s);
+      stage["cpu_s"] = UnlessNegative(status.cpu_s);
+      stage["peak_memory_mb"] = UnlessNegative(status.peak_memory_mb);
+    }
+    stages.push_back(std::move(stage));
+  }
+  return stages;
+}
+
+Json LimitsJson(const ReportOptions& options) {
+  return {{"coverage_amber_below", options.coverage_amber_below},
+          {"coverage_red_below", options.coverage_red_below},
+          {"gsd_amber_above", options.gsd_amber_above},
+          {"gsd_red_above", options.gsd_red_above},
+          {"inpainted_amber_above", options.inpainted_amber_above},
+          {"inpainted_red_above", options.inpainted_red_above},
+          {"inferred_amber_above", options.inferred_amber_above},
+          {"inferred_red_above", options.inferred_red_above},
+          {"misregistration_amber_above", options.misregistration_amber_above},
+          {"misregistration_red_above", options.misregistration_red_above}};
+}
+
+}  // namespace
+
+std::string ReportJson(const SurveyData& data, const std::vector<FacadeRow>& rows,
+                       const ReportOptions& options) {
+  Json facades = Json::array();
+  for (const FacadeRow& row : rows) facades.push_back(FacadeJson(row));
+  const auto median = MedianGsd(data);
+  const Json report = {{"version", 1},
+                       {"unit", Unit(data)},
+                       {"attention", AttentionJson(data)},
+                       {"verdicts",
+                        {{"walls", CountsJson(CountVerdicts(rows, /*walls_only=*/true))},
+                         {"all", CountsJson(CountVerdicts(rows, /*walls_only=*/false))}}},
+                       {"limits", LimitsJson(options)},
+                       {"median_gsd", median ? Json(*median) : Json(nullptr)},
+                       {"photos", PhotosJson(data)},
+                       {"calibration", CalibrationJson(data)},
+                       {"georef", GeorefJson(data)},
+                       {"facades", facades},
+                       {"stages", StagesJson(data, options.record_times)}};
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace stucco

@@ -1,0 +1,81 @@
+/* SPDX-FileCopyrightText: 2026 the Stucco authors
+   SPDX-License-Identifier: GPL-3.0-or-later */
+"use strict";
+// The facade table: filters by verdict, surface and text; sorts by any column.
+(() => {
+  const table = document.getElementById("facade-table");
+  if (!table) return;
+  const body = table.tBodies[0];
+  const rows = Array.from(body.rows);
+  const tiles = Array.from(document.querySelectorAll(".tile"));
+  const search = document.getElementById("search");
+  const surfaces = document.getElementById("class-filter");
+  const shown = document.getElementById("shown");
+  const noneShown = document.getElementById("none-shown");
+  let verdict = "";
+
+  function isOfSurface(row) {
+    return !surfaces || surfaces.value === "" || row.dataset.class === surfaces.value;
+  }
+
+  function filter() {
+    const wanted = search.value.trim().toLowerCase();
+    let count = 0;
+    for (const row of rows) {
+      const matches = isOfSurface(row) && (verdict === "" || row.dataset.verdict === verdict) &&
+        row.querySelector("th").textContent.toLowerCase().includes(wanted);
+      row.hidden = !matches;
+      if (matches) count += 1;
+    }
+    shown.textContent = count + " of " + rows.length + " shown";
+    noneShown.hidden = count > 0;
+    for (const tile of tiles) {
+      const own = rows.filter((row) => isOfSurface(row) && row.dataset.verdict === tile.dataset.verdict);
+      tile.querySelector(".tile-count").textContent = own.length;
+      tile.setAttribute("aria-pressed", String(tile.dataset.verdict === verdict));
+    }
+  }
+
+  for (const tile of tiles) {
+    tile.addEventListener("click", () => {
+      verdict = verdict === tile.dataset.verdict ? "" : tile.dataset.verdict;
+      filter();
+      table.scrollIntoView({block: "nearest"});
+    });
+  }
+  search.addEventListener("input", filter);
+  if (surfaces) surfaces.addEventListener("change", filter);
+  document.getElementById("show-all").addEventListener("click", () => {
+    verdict = "";
+    search.value = "";
+    if (surfaces) surfaces.value = "";
+    filter();
+  });
+
+  // What a cell sorts by: its number, else its text; a number that is not known comes last.
+  function keyOf(row, column) {
+    const cell = row.cells[column];
+    if (!("sort" in cell.dataset)) return cell.textContent.trim();
+    return cell.dataset.sort === "" ? null : Number(cell.dataset.sort);
+  }
+
+  const collator = new Intl.Collator("en", {numeric: true});
+  function compare(a, b, sign) {
+    if (a === null || b === null) return (a === null) - (b === null);
+    return sign * (typeof a === "number" ? a - b : collator.compare(a, b));
+  }
+
+  function sortBy(header) {
+    const ascending = header.getAttribute("aria-sort") !== "ascending";
+    for (const other of table.tHead.rows[0].cells) other.removeAttribute("aria-sort");
+    header.setAttribute("aria-sort", ascending ? "ascending" : "descending");
+    const keyed = rows.map((row) => ({row, key: keyOf(row, header.cellIndex)}));
+    keyed.sort((a, b) => compare(a.key, b.key, ascending ? 1 : -1));
+    body.append(...keyed.map((entry) => entry.row));
+  }
+
+  for (const button of table.querySelectorAll(".sort")) {
+    button.addEventListener("click", () => sortBy(button.closest("th")));
+  }
+  filter();
+})();

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report/facade_rows.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stucco {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// Three walls without a fault; the first is the one a test damages.
+SurveyData GoodWalls() {
+  SurveyData data;
+  data.metric = true;
+  data.proxy.emplace();
+  data.textures.emplace();
+  Building building;
+  building.id = "B0001";
+  for (int i = 0; i < 3; ++i) {
+    Facet facet;
+    facet.id = "B0001/W0" + std::to_string(i + 1);
+    facet.facade = facet.id;
+    facet.area = 50;
+    facet.seen = 0.95;
+    facet.inferred = 0.05;
+    building.facets.push_back(facet);
+    TexturedFacet texture;
+    texture.id = facet.id;
+    texture.image = "textures/x.png";
+    texture.photos = {"a.jpg"};
+    texture.painted = 0.99;
+    texture.inpainted = 0.01;
+    texture.gsd_m = 0.01;
+    texture.misregistration_px = 0.5;
+    data.textures->facets.push_back(texture);
+  }
+  data.proxy->buildings.push_back(building);
+  return data;
+}
+
+FacadeRow FirstRow(const SurveyData& data) {
+  return MakeFacadeRows(data, {}).at(0);
+}
+
+TEST(MakeFacadeRows, GoodWallsAreGreen) {
+  const SurveyData data = GoodWalls();
+  const auto rows = MakeFacadeRows(data, {});
+  ASSERT_EQ(rows.size(), 3U);
+  for (const FacadeRow& row : rows) {
+    EXPECT_EQ(row.verdict, Verdict::kGreen);
+    EXPECT_THAT(row.findings, IsEmpty());
+    EXPECT_EQ(row.building, "B0001");
+  }
+}
+
+// Every measure makes a facade amber and red by itself, with a text that says which.
+TEST(MakeFacadeRows, EachMeasureCountsByItself) {
+  struct Case {
+    const char* text;
+    std::function<void(SurveyData&, bool)> damage;  // the flag: badly
+  };
+  const Case cases[] = {
+      {"painted from photos",
+       [](SurveyData& d, bool bad) { d.textures->facets[0].painted = bad ? 0.5 : 0.8; }},
+      {"photo pixels",
+       [](SurveyData& d, bool bad) { d.textures->facets[0].gsd_m = bad ? 0.04 : 0.02; }},
+      {"filled in",
+       [](SurveyData& d, bool bad) { d.textures->facets[0].inpainted = bad ? 0.3 : 0.1; }},
+      {"measured points",
+       [](SurveyData& d, bool bad) { d.proxy->buildings[0].facets[0].inferred = bad ? 0.9 : 0.5; }},
+      {"disagree",
+       [](SurveyData& d, bool bad) { d.textures->facets[0].misregistration_px = bad ? 6 : 3; }}};
+  for (const Case& c : cases) {
+    for (const bool bad : {false, true}) {
+      SurveyData data = GoodWalls();
+      c.damage(data, bad);
+      const FacadeRow row = FirstRow(data);
+      EXPECT_EQ(row.verdict, bad ? Verdict::kRed : Verdict::kAmber) << c.text;
+      ASSERT_EQ(row.findings.size(), 1U) << c.text;
+      EXPECT_THAT(row.findings[0].text, HasSubstr(c.text));
+      EXPECT_EQ(MakeFacadeRows(data, {})[1].verdict, Verdict::kGreen) << c.text;
+    }
+  }
+}
+
+TEST(MakeFacadeRows, ExactlyAtTheLimitIsGood) {
+  SurveyData data = GoodWalls();
+  const ReportOptions options;
+  data.textures->facets[0].painted = options.coverage_amber_below;
+  data.textures->facets[0].inpainted = options.inpainted_amber_above;
+  data.proxy->buildings[0].facets[0].inferred = options.inferred_amber_above;
+  EXPECT_EQ(FirstRow(data).verdict, Verdict::kGreen);
+}
+
+TEST(MakeFacadeRows, LimitsAreOptions) {
+  SurveyData data = GoodWalls();
+  data.textures->facets[0].painted = 0.8;
+  ReportOptions options;
+  options.coverage_amber_below = 0.7;
+  EXPECT_EQ(MakeFacadeRows(data, options)[0].verdict, Verdict::kGreen);
+  options.coverage_amber_below = options.coverage_red_below = 0.85;
+  EXPECT_EQ(MakeFacadeRows(data, options)[0].verdict, Verdict::kRed);
+}
+
+TEST(MakeFacadeRows, NotANumberIsRed) {
+  SurveyData data = GoodWalls();
+  data.textures->facets[0].painted = NAN;
+  EXPECT_EQ(FirstRow(data).verdict, Verdict::kRed);
+}
+
+TEST(MakeFacadeRows, OnePhotoHasNoMisfit) {
+  SurveyData data = GoodWalls();
+  data.textures->facets[0].misregistration_px = -1;
+  EXPECT_EQ(FirstRow(data).verdict, Verdict::kGreen);
+}
+
+TEST(MakeFacadeRows, UnpaintedIsRed) {
+  SurveyData data = GoodWalls();
+  data.textures->facets[0].image.clear();
+  data.textures->facets[0].painted = 0;
+  EXPECT_EQ(FirstRow(data).verdict, Verdict::kRed);
+  EXPECT_EQ(FirstRow(data).findings[0].text, "no photo paints it");
+  data.textures->facets.erase(data.textures->facets.begin());
+  EXPECT_EQ(FirstRow(data).verdict, Verdict::kRed);
+  EXPECT_EQ(FirstRow(data).texture, nullptr);
+}
+
+TEST(MakeFacadeRows, WithoutTexturesNothingIsRated) {
+  SurveyData data = GoodWalls();
+  data.textures.reset();
+  EXPECT_EQ(FirstRow(data).verdict, Verdict::kUnknown);
+  EXPECT_THAT(FirstRow(data).findings, IsEmpty());
+  EXPECT_EQ(MedianGsd(data), std::nullopt);
+}
+
+TEST(MakeFacadeRows, TexturesWithoutProxyAreRated) {
+  SurveyData data = GoodWalls();
+  data.proxy.reset();
+  const auto rows = MakeFacadeRows(data, {});
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].verdict, Verdict::kGreen);
+  EXPECT_EQ(rows[0].building, "B0001");
+  EXPECT_EQ(rows[0].facet, nullptr);
+}
+
+TEST(MakeFacadeRows, NothingFromNothing) {
+  EXPECT_THAT(MakeFacadeRows({}, {}), IsEmpty());
+  EXPECT_EQ(CountVerdicts({}, true).Total(), 0);
+}
+
+TEST(CountVerdicts, CountsWallsApart) {
+  SurveyData data = GoodWalls();
+  data.textures->facets[0].painted = 0.1;
+  data.proxy->buildings[0].facets[2].facet_class = FacetClass::kRoof;
+  const auto rows = MakeFacadeRows(data, {});
+  EXPECT_EQ(CountVerdicts(rows, true).Total(), 2);
+  EXPECT_EQ(CountVerdicts(rows, true).red, 1);
+  EXPECT_EQ(CountVerdicts(rows, false).green, 2);
+}
+
+TEST(MedianGsd, IsThatOfPaintedFacets) {
+  SurveyData data = GoodWalls();
+  data.textures->facets[0].gsd_m = 0.03;
+  data.textures->facets[1].image.clear();
+  data.textures->facets[1].gsd_m = 9;
+  data.textures->facets[2].gsd_m = 0.03;
+  EXPECT_DOUBLE_EQ(MedianGsd(data).value(), 0.03);
+}
+
+}  // namespace
+}  // namespace stucco

@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report/report.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/survey_folder.h"
+#include "tests/report/made_survey.h"
+
+namespace stucco {
+namespace {
+
+class Report : public testing::Test {
+ protected:
+  void Run(const ReportOptions& options = {}, std::vector<StageStatus> statuses = {},
+           int threads = 2) {
+    StageContext context;
+    context.survey = folder_.path();
+    context.out = folder_.path() / "out";
+    context.threads = threads;
+    context.progress = &SilentProgress();
+    context.units = &NoUnits();
+    context.statuses = std::move(statuses);
+    std::filesystem::create_directories(context.out);
+    RunReport(options, context);
+  }
+
+  std::string Output(const char* name) { return ReadFile(folder_.path() / "out" / name); }
+  std::string Page() { return Output("report.html"); }
+  nlohmann::json Json() { return nlohmann::json::parse(Output("report.json")); }
+
+  TempFolder folder_;
+};
+
+size_t CountOf(const std::string& text, const std::string& part) {
+  size_t count = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+// A page is too long to be printed by a matcher.
+bool Has(const std::string& page, const std::string& text) {
+  return page.find(text) != std::string::npos;
+}
+
+// The page without its own style and script: what comes from data.
+std::string Content(const std::string& page) {
+  return page.substr(page.find("<body>"), page.rfind("<script>") - page.find("<body>"));
+}
+
+TEST_F(Report, AnswersFirst) {
+  WriteSurvey(MakeSurvey(), folder_.path());
+  Run();
+  const std::string page = Page();
+  EXPECT_TRUE(Has(page, "of 12 facades are good."));
+  EXPECT_TRUE(Has(page, "21 of 22 photos posed"));
+  EXPECT_EQ(CountOf(page, "<tr data-index="), 15U);
+  EXPECT_EQ(CountOf(page, "<dialog "), 15U);
+  EXPECT_EQ(CountOf(page, "alt=\"Picture of B0001/W01\""), 2U);
+  EXPECT_FALSE(Has(page, "class=\"attention"));
+  EXPECT_LT(page.find("facades are good"), page.find("facade-table\""));
+}
+
+TEST_F(Report, LoadsNothingFromOutside) {
+  WriteSurvey(MakeSurvey(), folder_.path());
+  Run();
+  const std::string page = Content(Page());
+  EXPECT_EQ(CountOf(page, "src="), CountOf(page, "src=\"data:"));  // data: only
+  EXPECT_FALSE(Has(page, "http://"));
+  EXPECT_FALSE(Has(page, "https://"));
+  EXPECT_FALSE(Has(Page(), "@import"));
+  EXPECT_FALSE(Has(Page(), "url("));
+  EXPECT_FALSE(Has(Page(), "<link"));
+  EXPECT_TRUE(Has(Page(), "default-src 'none'"));
+}
+
+TEST_F(Report, TablesAndDialogsAreClosed) {
+  WriteSurvey(MakeSurvey(), folder_.path());
+  Run();
+  const std::string page = Content(Page());
+  for (const char* tag : {"table", "tr", "td", "section", "dialog", "figure", "ul", "li", "dl",
+                          "dd", "div", "span", "button", "svg", "g", "bdi", "p", "h2", "details"}) {
+    const std::regex opening(std::string("<") + tag + "[ >]");
+    const auto opened = std::distance(std::sregex_iterator(page.begin(), page.end(), opening), {});
+    EXPECT_EQ(static_cast<size_t>(opened), CountOf(page, std::string("</") + tag + ">")) << tag;
+  }
+}
+
+TEST_F(Report, AnEmptySurveyGetsOneToo) {
+  Run();
+  EXPECT_TRUE(Has(Page(), "There are no facades yet."));
+  EXPECT_TRUE(Has(Page(), "Not run yet:"));
+  EXPECT_TRUE(Has(Page(), "stucco run SURVEY"));
+  EXPECT_EQ(Json()["facades"].size(), 0U);
+}
+
+TEST_F(Report, OneFacade) {
+  MadeSurvey made = MakeSurvey({.buildings = 1});
+  made.proxy.buildings[0].facets.resize(1);
+  made.textures.facets.resize(1);
+  WriteSurvey(made, folder_.path());
+  Run();
+  EXPECT_TRUE(Has(Page(), "The one facade is good."));
+  EXPECT_EQ(CountOf(Page(), "<tr data-index="), 1U);
+}
+
+TEST_F(Report, NoFacadeAtAll) {
+  MadeSurvey made = MakeSurvey({.buildings = 0});
+  WriteSurvey(made, folder_.path());
+  Run();
+  EXPECT_TRUE(Has(Page(), "There are no facades yet."));
+  EXPECT_TRUE(Has(Page(), "Reprojection error"));
+}
+
+TEST_F(Report, BeginsWithWhatFailed) {
+  WriteSurvey(MakeSurvey(), folder_.path());
+  std::filesystem::remove(folder_.path() / kTexturesFile);
+  StageStatus failed;
+  failed.stage = "texture";
+  failed.state = "failed";
+  failed.why = "no <space> left";
+  failed.remedy = "free 2 GB";
+  Run({}, {failed});
+  const std::string page = Page();
+  EXPECT_TRUE(Has(page, "<bdi>texture</bdi> failed"));
+  EXPECT_TRUE(Has(page, "no &lt;space&gt; left"));
+  EXPECT_TRUE(Has(page, "free 2 GB"));
+  EXPECT_LT(page.find("Processing stopped"), page.find("facade-table\""));
+  EXPECT_TRUE(Has(page, "not painted yet"));
+  EXPECT_EQ(Json()["attention"][0]["why"], "no <space> left");
+  EXPECT_TRUE(Json()["facades"][0]["verdict"].is_null());
+}
+
+TEST_F(Report, HalfASurvey) {
+  WriteSurvey(MakeSurvey(), folder_.path());
+  for (const char* stage : {"proxy", "texture"}) {
+    std::filesystem::remove_all(folder_.path() / stage);
+  }
+  Run();
+  EXPECT_TRUE(Has(Page(), "Reprojection error"));
+  EXPECT_TRUE(Has(Page(), "3 photos left out"));
+}
+
+TEST_F(Report, FilesDeletedBehindItsBack) {
+  WriteSurvey(MakeSurvey(), folder_.path());
+  std::filesystem::remove_all(folder_.path() / "texture/textures");
+  std::filesystem::remove_all(folder_.path() / "calib/sparse");
+  std::filesystem::remove(folder_.path() / kCapturesFile);
+  Run();
+  EXPECT_TRUE(Has(Page(), "texture/textures/B0001_W01.png is missing"));
+  EXPECT_TRUE(Has(Page(), "of 12 facades are good."));
+}
+
+TEST_F(Report, HostileNamesStayText) {
+  MadeSurvey made = MakeSurvey();
+  const std::string names[] = {"<script>alert(1)</script>.jpg",
+                               "\"><img src=x onerror=alert(1)>",
+                               "'quotes' & \"more\"",
+                               "emoji 😀.jpg",
+                               "\u202egpj.exe",
+                               std::string(300, 'x'),
+                               "</dialog></table>"};
+  for (size_t i = 0; i < std::size(names); ++i) {
+    made.textures.facets[0].photos.push_back(names[i]);
+    made.textures.facets[0].gains[names[i]] = 1;
+    made.calibration.unposed.push_back({names[i], names[i]});
+    made.calibration.findings.push_back(names[i]);
+    made.captures.photos[i].path = names[i];
+    made.proxy.buildings[0].facets[0].source = names[i];
+  }
+  made.proxy.buildings[0].facets[1].id = made.textures.facets[1].id = names[1];
+  made.calibration.cameras[0].label = names[0];
+  made.georef.frame = names[2];
+  WriteSurvey(made, folder_.path());
+  Run();
+  const std::string page = Content(Page());
+  EXPECT_EQ(CountOf(page, "<script"), 0U);
+  EXPECT_EQ(CountOf(page, "<img src=x"), 0U);
+  EXPECT_EQ(CountOf(page, "<img "), CountOf(page, "src=\"data:image/"));
+  EXPECT_TRUE(Has(page, "&lt;script&gt;alert(1)&lt;/script&gt;.jpg"));
+  EXPECT_TRUE(Has(page, "emoji 😀.jpg"));
+  EXPECT_TRUE(Has(page, "<bdi>\u202egpj.exe</bdi>"));
+  EXPECT_EQ(CountOf(page, "</dialog>"), 15U);
+}
+
+TEST_F(Report, NeverSaysMetresWithoutScale) {
+  MadeSurvey made = MakeSurvey({.metric = false});
+  made.calibration.cameras[0].label = "no millimetres of a lens";
+  WriteSurvey(made, folder_.path());
+  Run();
+  const std::string page = Content(Page());
+  EXPECT_TRUE(Has(page, "units²"));
+  EXPECT_TRUE(Has(page, "nothing fixes the scale"));
+  EXPECT_FALSE(std::regex_search(page, std::regex("[0-9] ?(m|cm|mm|m²)[^a-z0-9A-Z=/+]")));
+  EXPECT_FALSE(Has(page, " metres"));
+}
+
+TEST_F(Report, TimesOnlyOnRequest) {
+  WriteSurvey(MakeSurvey(), folder_.path());
+  StageStatus done;
+  done.stage = "calib";
+  done.state = "done";
+  done.wall_s = 200;
+  done.peak_memory_mb = 777;
+  Run({}, {done});
+  EXPECT_FALSE(Has(Page(), "3 min 20 s"));
+  Run({.record_times = true}, {done});
+  EXPECT_TRUE(Has(Page(), "3 min 20 s"));
+  EXPECT_TRUE(Has(Page(), "777 MB"));
+}
+
+TEST_F(Report, BytesDependOnTheSurveyAlone) {
+  const MadeSurvey made = MakeSurvey();
+  WriteSurvey(made, folder_.path());
+  Run({}, {}, 1);
+  const std::string page = Page();
+  const std::string json = Output("report.json");
+  const std::string csv = Output("facades.csv");
+  EXPECT_FALSE(Has(page, folder_.path().string()));
+  Run({}, {}, 4);
+  EXPECT_EQ(Page(), page);
+  const TempFolder elsewhere;
+  WriteSurvey(made, elsewhere.path());
+  StageContext context;
+  context.survey = context.out = elsewhere.path();
+  context.progress = &SilentProgress();
+  context.units = &NoUnits();
+  RunReport({}, context);
+  EXPECT_EQ(ReadFile(elsewhere.path() / "report.html"), page);
+  EXPECT_EQ(ReadFile(elsewhere.path() / "report.json"), json);
+  EXPECT_EQ(ReadFile(elsewhere.path() / "facades.csv"), csv);
+}
+
+TEST_F(Report, ExplainsItsLimits) {
+  WriteSurvey(MakeSurvey(), folder_.path());
+  Run({.coverage_amber_below = 0.77, .gsd_red_above = 4.5});
+  EXPECT_TRUE(Has(Page(), "below 77 %"));
+  EXPECT_TRUE(Has(Page(), "above 4.5 times"));
+}
+
+TEST(DescribeReport, EveryOptionHasHelpAndADefaultInRange) {
+  ReportOptions options;
+  OptionTable table("report");
+  Describe(table, options);
+  EXPECT_EQ(table.options().size(), 12U);
+  for (const Option& option : table.options()) {
+    EXPECT_FALSE(option.help.empty()) << option.name;
+    if (const auto* value = std::get_if<double*>(&option.value)) {
+      EXPECT_GE(**value, option.min) << option.name;
+      EXPECT_LE(**value, option.max) << option.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace stucco
