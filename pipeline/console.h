@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdio>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace stucco {
+
+enum class Verbosity { kQuiet, kNormal, kVerbose };
+
+// Where a run tells people what it does: stderr, usually. On a terminal the last line is a bar that
+// is drawn over in place; elsewhere there are only whole lines. Thread-safe.
+class Console {
+ public:
+  Console(std::FILE* file, bool is_terminal, Verbosity verbosity);
+  // To stderr, as a terminal when it is one.
+  static Console ForStderr(Verbosity verbosity);
+  Console(Console&&) = delete;
+
+  bool is_terminal() const { return is_terminal_; }
+  Verbosity verbosity() const { return verbosity_; }
+
+  void Line(std::string_view text);     // not when quiet
+  void Detail(std::string_view text);   // only when verbose
+  void Warning(std::string_view text);  // always
+  // Draws the bar (terminal only, not when quiet); empty text takes it away.
+  void Bar(std::string_view text);
+
+ private:
+  void Print(std::string_view text);
+
+  std::FILE* file_;
+  bool is_terminal_;
+  Verbosity verbosity_;
+  std::mutex mutex_;
+  std::string bar_;
+};
+
+// "12 s", "3 min 05 s", "2 h 07 min".
+std::string DurationText(double seconds);
+
+// "812 MB", "3.2 GB".
+std::string MemoryText(double megabytes);
+
+// "11 298".
+std::string GroupedDigits(size_t count);
+
+}  // namespace stucco

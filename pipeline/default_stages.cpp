@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/default_stages.h"
+
+#include "calib/calibrate.h"
+#include "capture_ingest/ingest.h"
+#include "dense/densify.h"
+#include "proxy/abstract.h"
+#include "report/report.h"
+#include "survey/survey_folder.h"
+#include "texture/texture.h"
+
+namespace stucco {
+namespace {
+
+Stage IngestStage() {
+  Stage stage;
+  stage.name = "ingest";
+  stage.title = "the list of photos with metadata and health";
+  stage.photos_are_input = true;
+  stage.opens_photos = true;
+  stage.cost = {
+      .cpu_s_per_megapixel = 0.012, .memory_mb = 60, .memory_mb_per_largest_megapixel = 12};
+  stage.bind = [] { return Bind<IngestOptions>("ingest", Describe, RunIngest); };
+  return stage;
+}
+
+// From here on the photos themselves are covered by captures.json, which holds their hashes.
+Stage CalibStage() {
+  Stage stage;
+  stage.name = "calib";
+  stage.title = "camera poses and lens calibration";
+  stage.needs = {"ingest"};
+  stage.inputs = {kCapturesFile};
+  stage.opens_photos = true;
+  stage.cost = {.cpu_s_per_megapixel = 0.55,
+                .cpu_s_per_pair = 0.33,
+                .disk_mb_per_photo = 1.4,
+                .memory_mb = 250,
+                .memory_mb_per_largest_megapixel = 200};
+  stage.bind = [] { return Bind<CalibOptions>("calib", Describe, RunCalib); };
+  return stage;
+}
+
+Stage DenseStage() {
+  Stage stage;
+  stage.name = "dense";
+  stage.title = "the dense point cloud";
+  stage.needs = {"ingest", "calib"};
+  stage.inputs = {kCapturesFile, kSparseFolder};
+  stage.opens_photos = true;
+  stage.cost = {.cpu_s_per_megapixel = 21,
+                .disk_mb_per_megapixel = 25,
+                .memory_mb = 250,
+                .memory_mb_per_megapixel = 45};
+  stage.bind = [] { return Bind<DenseOptions>("dense", Describe, RunDense); };
+  return stage;
+}
+
+Stage ProxyStage() {
+  Stage stage;
+  stage.name = "proxy";
+  stage.title = "the planar model";
+  stage.needs = {"calib", "dense"};
+  stage.inputs = {kCloudFile, kSparseFolder, kGeorefFile};
+  stage.cost = {.cpu_s_per_photo = 0.25, .disk_mb_per_photo = 0.02, .memory_mb = 700};
+  stage.bind = [] { return Bind<ProxyOptions>("proxy", Describe, RunProxy); };
+  return stage;
+}
+
+Stage TextureStage() {
+  Stage stage;
+  stage.name = "texture";
+  stage.title = "facade textures and the textured model";
+  stage.needs = {"ingest", "calib", "dense", "proxy"};
+  stage.inputs = {kFacetsFile, kSparseFolder, kGeorefFile, kCloudFile, kCapturesFile};
+  stage.opens_photos = true;
+  stage.cost = {.cpu_s_per_photo = 0.4,
+                .cpu_s_per_megapixel = 0.2,
+                .disk_mb_per_megapixel = 0.7,
+                .memory_mb = 600,
+                .memory_mb_per_largest_megapixel = 30};
+  stage.bind = [] { return Bind<TextureOptions>("texture", Describe, RunTexture); };
+  return stage;
+}
+
+Stage ReportStage() {
+  Stage stage;
+  stage.name = "report";
+  stage.title = "the quality report";
+  stage.needs = {"ingest", "calib", "dense", "proxy", "texture"};
+  stage.inputs = {"ingest", "calib", kCloudFile, "proxy", "texture"};
+  stage.reports_failures = true;
+  stage.cost = {.cpu_s_per_photo = 0.03, .disk_mb_per_photo = 0.05, .memory_mb = 300};
+  stage.bind = [] { return Bind<ReportOptions>("report", Describe, RunReport); };
+  return stage;
+}
+
+}  // namespace
+
+StageTable DefaultStages() {
+  return {IngestStage(), CalibStage(), DenseStage(), ProxyStage(), TextureStage(), ReportStage()};
+}
+
+}  // namespace stucco

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stucco {
+
+struct ExportFormat {
+  std::string name;   // "colmap-txt"
+  std::string help;   // what comes out, for people
+  std::string stage;  // whose outputs it takes
+};
+
+const std::vector<ExportFormat>& ExportFormats();
+
+// Writes a survey's result in another program's format to `out`: a file for "glb" and "ply", a
+// folder for the others. Throws Error: kUsage for an unknown format, kBadInput when the stage has
+// not run or `out` exists already (unless `overwrite`).
+void ExportSurvey(const std::filesystem::path& survey, const std::string& format,
+                  const std::filesystem::path& out, bool overwrite);
+
+}  // namespace stucco

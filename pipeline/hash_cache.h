@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace stucco {
+
+// What a file system says about a file without opening it.
+struct FileStamp {
+  int64_t size = 0;
+  int64_t modified_ns = 0;
+  int64_t changed_ns = 0;  // inode change time, which no program can set back
+  uint64_t inode = 0;
+  auto operator<=>(const FileStamp&) const = default;
+};
+
+// Content hashes of files, remembered by stamp so that a photo is read once and not at every run.
+// Only an accelerator: what is up to date is decided by the hashes, never by the times. A damaged
+// or missing cache file is an empty cache. Thread-safe.
+class HashCache {
+ public:
+  explicit HashCache(std::filesystem::path file);
+
+  // Hash of the file's content. Throws Error (kBadInput) when it cannot be read.
+  std::string Hash(const std::filesystem::path& file);
+
+  // Writes the cache; failing to is no error, the next run reads the files again.
+  void Save();
+
+  size_t hashed() const { return hashed_; }  // files that had to be read
+
+ private:
+  struct Entry {
+    FileStamp stamp;
+    std::string hash;
+    bool used = false;
+  };
+
+  std::filesystem::path file_;
+  std::mutex mutex_;
+  std::map<std::string, Entry> entries_;  // by absolute path
+  size_t hashed_ = 0;
+  bool changed_ = false;
+};
+
+}  // namespace stucco

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "pipeline/photos.h"
+#include "pipeline/stages.h"
+
+namespace stucco {
+
+// Creates a survey folder with a survey.toml that names the photo folder, relative when it lies
+// inside the survey. Returns what is in the photo folder. Throws Error (kBadInput), having
+// created nothing, when there already is a survey, when the photo folder is not there or holds the
+// survey, or when the survey cannot be written.
+PhotoFolder InitSurvey(const std::filesystem::path& survey, const std::filesystem::path& photos,
+                       const StageTable& table);
+
+}  // namespace stucco

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/outputs.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+
+#include "pipeline/work_folder.h"
+#include "survey/error.h"
+
+namespace stucco {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kOldSuffix[] = ".old";
+
+std::atomic<bool> exchange_forbidden = false;
+
+[[noreturn]] void Fail(const fs::path& path, const std::string& what, int error) {
+  const bool full = error == ENOSPC || error == EDQUOT;
+  throw Error(full ? ErrorKind::kOutOfResource : ErrorKind::kBadInput,
+              fmt::format("{}: {} ({})", path.string(), what, std::strerror(error)),
+              full ? "free some space on this disk and run again"
+                   : "check the permissions of the survey folder");
+}
+
+void Flush(const fs::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) {
+    Fail(path, "cannot be opened to flush it to disk", errno);
+  }
+  const int result = fsync(file);
+  const int error = errno;
+  close(file);
+  // EINVAL, EROFS: a file system that has nothing to flush.
+  if (result != 0 && error != EINVAL && error != EROFS) {
+    Fail(path, "cannot be flushed to disk", error);
+  }
+}
+
+void FlushTree(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_symlink()) {
+      Flush(entry.path());
+    }
+  }
+  Flush(folder);
+}
+
+void Rename(const fs::path& from, const fs::path& to) {
+  if (rename(from.c_str(), to.c_str()) != 0) {
+    Fail(to, "cannot be put in place", errno);
+  }
+}
+
+}  // namespace
+
+bool ExchangeFolders(const fs::path& a, const fs::path& b) {
+  return !exchange_forbidden &&
+         renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
+}
+
+void ForbidFolderExchange(bool forbidden) {
+  exchange_forbidden = forbidden;
+}
+
+ScratchFolder::ScratchFolder(const fs::path& survey, const std::string& stage)
+    : path_(WorkFolder(survey).Scratch() / fmt::format("{}-{}", stage, getpid())),
+      target_(survey / stage) {
+  std::error_code error;
+  fs::remove_all(path_, error);
+  fs::create_directories(path_, error);
+  if (error) {
+    Fail(path_, "cannot be created", error.value());
+  }
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code error;
+  fs::remove_all(path_, error);
+}
+
+void ScratchFolder::Publish() {
+  FlushTree(path_);
+  if (!fs::exists(target_)) {
+    Rename(path_, target_);
+  } else if (!ExchangeFolders(path_, target_)) {
+    // Two steps. A kill between them leaves no target but its old content with this suffix, which
+    // CleanScratch puts back.
+    const fs::path old = path_.string() + kOldSuffix;
+    fs::remove_all(old);
+    Rename(target_, old);
+    Rename(path_, target_);
+    Flush(target_.parent_path());
+    fs::remove_all(old);
+    return;
+  }
+  Flush(target_.parent_path());
+  fs::remove_all(path_);  // holds the old outputs after an exchange
+}
+
+void CleanScratch(const fs::path& survey) {
+  const fs::path scratch = WorkFolder(survey).Scratch();
+  std::error_code error;
+  if (!fs::exists(scratch, error)) {
+    return;
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(scratch, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(kOldSuffix)) {
+      const fs::path target = survey / name.substr(0, name.find_last_of('-'));
+      if (!fs::exists(target, error)) {
+        fs::rename(entry.path(), target, error);
+        continue;
+      }
+    }
+    fs::remove_all(entry.path(), error);
+  }
+}
+
+}  // namespace stucco

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace stucco {
+
+// The folder in which a stage writes: `.stucco/scratch/<stage>-<pid>`. Removed with all that is in
+// it unless it was published.
+class ScratchFolder {
+ public:
+  // Throws Error (kBadInput) when the survey cannot be written.
+  ScratchFolder(const std::filesystem::path& survey, const std::string& stage);
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  // Flushes every file to disk and puts the folder in the place of survey/<stage> in one step: at
+  // any moment there is the whole old folder or the whole new one. Throws Error.
+  void Publish();
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path target_;
+};
+
+// Removes what killed runs left behind, and restores outputs that a kill caught half way of being
+// replaced on a file system that cannot exchange two folders. Call it with the lock held.
+void CleanScratch(const std::filesystem::path& survey);
+
+// Exchanges two folders; tried by ScratchFolder::Publish first. False when the kernel or the file
+// system cannot.
+bool ExchangeFolders(const std::filesystem::path& a, const std::filesystem::path& b);
+
+// For tests: behave as on a file system without the exchange operation.
+void ForbidFolderExchange(bool forbidden);
+
+}  // namespace stucco

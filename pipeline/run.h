@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/console.h"
+#include "pipeline/manifest.h"
+#include "pipeline/stages.h"
+
+namespace stucco {
+
+struct RunOptions {
+  std::string until;             // last stage; empty: the table's last
+  std::string from;              // first stage; those before it are taken as they are
+  std::string goal;              // this stage with all that it needs, and nothing else
+  bool force = false;            // run again what is up to date (with a goal: only the goal)
+  std::vector<std::string> set;  // "calib.max_image_px=1600", for this run only
+  int threads = 0;               // 0: as survey.toml says
+  double memory_limit_gb = 0;    // 0: as survey.toml says
+  std::string command = "run";   // for the lock and the event log
+};
+
+enum class StageAction {
+  kUpToDate,  // nothing to do
+  kRan,       // and succeeded
+  kFailed,
+  kBlocked,  // not run, because a stage that it needs failed
+  kSkipped,  // not asked for
+};
+
+std::string Name(StageAction action);  // "up_to_date", "ran", "failed", "blocked", "skipped"
+
+struct StageOutcome {
+  std::string stage;
+  StageAction action = StageAction::kSkipped;
+  std::vector<std::string> reasons;  // why it ran, or why it could not
+  std::optional<Failure> failure;
+  Usage usage;  // of this run; zero when it did not run
+  std::map<std::string, UnitCount> units;
+};
+
+struct RunResult {
+  std::vector<StageOutcome> stages;  // of the whole table
+  int exit_code = 0;
+  bool interrupted = false;
+};
+
+// Brings a survey up to date: every selected stage whose manifest no longer describes its options,
+// inputs and outputs runs again, in order. After a failure only stages that report failures still
+// run. Throws Error for everything that is wrong before work starts: another run, settings, photos,
+// disk.
+RunResult Run(const std::filesystem::path& survey, const StageTable& table,
+              const RunOptions& options, Console& console);
+
+}  // namespace stucco
