@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "cli/library_logs.h"
+#include "cli/program.h"
+#include "cli/suggest.h"
+#include "pipeline/default_stages.h"
+#include "pipeline/exit_code.h"
+#include "pipeline/run_stage.h"
+#include "pipeline/shell.h"
+
+namespace {
+
+constexpr char kAbout[] =
+    "Stucco turns a folder of building photos into a textured planar 3D model with a quality\n"
+    "report for every facade. It continues where it was stopped and repeats only what changed.";
+
+constexpr char kFooter[] =
+    "Start here:\n"
+    "  stucco init my-survey --photos my-photos    create a survey\n"
+    "  stucco run my-survey                        make everything\n"
+    "  stucco status my-survey                     see what is done and what to do next\n"
+    "\n"
+    "stucco VERB --help explains a verb. Exit codes: 0 done, 1 a stage failed, 2 wrong usage,\n"
+    "3 bad input, 4 a quality gate was not met, 5 out of disk or memory, 130 interrupted.";
+
+void AddVerbs(CLI::App& app, stucco::Program& program) {
+  stucco::AddInit(app, program);
+  stucco::AddCheck(app, program);
+  stucco::AddRun(app, program);
+  stucco::AddStatus(app, program);
+  stucco::AddStageVerbs(app, program);
+  stucco::AddImport(app, program);
+  stucco::AddExport(app, program);
+  stucco::AddOptions(app, program);
+  stucco::AddCompletion(app, program);
+  for (CLI::App* verb : app.get_subcommands(nullptr)) {
+    stucco::AddCommonOptions(*verb, program.common);
+  }
+}
+
+bool AsksForJson(const std::vector<std::string>& words) {
+  return std::find(words.begin(), words.end(), "--json") != words.end();
+}
+
+std::string CommandLine(const std::vector<std::string>& words) {
+  std::string text = "stucco";
+  for (const std::string& word : words) {
+    text += " " + stucco::ShellWord(word);
+  }
+  return text;
+}
+
+int Main(const std::vector<std::string>& words) {
+  stucco::SilenceLibraryLogs();
+  stucco::Program program;
+  program.table = stucco::DefaultStages();
+  program.command_line = CommandLine(words);
+  CLI::App app(kAbout, "stucco");
+  app.footer(kFooter);
+  app.set_help_flag("-h,--help", "Print this help and end");
+  app.set_version_flag("-V,--version", "stucco " + stucco::ProgramVersion());
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  app.get_formatter()->label("SUBCOMMAND", "VERB");
+  AddVerbs(app, program);
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them reversed
+  } catch (const CLI::Success& e) {
+    return app.exit(e);  // --help, --version
+  } catch (const CLI::ParseError& e) {
+    if (words.empty()) {
+      std::cout << app.help();
+      return stucco::ExitCode(stucco::ErrorKind::kUsage);
+    }
+    throw stucco::Error(stucco::ErrorKind::kUsage, e.what(), stucco::SuggestUsage(app, words));
+  }
+  return program.action();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  try {
+    return Main(words);
+  } catch (...) {
+    const stucco::Error error = stucco::AsError(std::current_exception());
+    stucco::PrintError(error, AsksForJson(words));
+    return stucco::ExitCode(error.kind());
+  }
+}

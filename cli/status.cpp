@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/status.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "cli/json_output.h"
+#include "cli/program.h"
+
+namespace stucco {
+namespace {
+
+Json ToJson(const StageReport& report) {
+  const StageStatus status = ToStatus(report.stage, report.assessment);
+  Json json = {{"stage", report.stage},
+               {"state", status.state},
+               {"reasons", report.assessment.reasons},
+               {"remedy", status.remedy}};
+  if (status.wall_s >= 0) {
+    json["wall_s"] = status.wall_s;
+    json["cpu_s"] = status.cpu_s;
+    json["peak_memory_mb"] = status.peak_memory_mb;
+  }
+  if (report.assessment.manifest) {
+    const Manifest& manifest = *report.assessment.manifest;
+    json["imported_from"] = manifest.imported_from;
+    Json units = Json::object();
+    for (const auto& [kind, count] : manifest.units) {
+      units[kind] = {{"computed", count.computed}, {"reused", count.reused}};
+    }
+    json["units"] = units;
+  }
+  return json;
+}
+
+Json ToJson(const SurveyStatus& status, const std::string& survey) {
+  Json stages = Json::array();
+  for (const StageReport& report : status.stages) {
+    stages.push_back(ToJson(report));
+  }
+  Json json = {{"survey", survey}, {"stages", stages}, {"running", nullptr}, {"next", status.next}};
+  if (status.running) {
+    json["running"] = {{"pid", status.running->pid},
+                       {"host", status.running->host},
+                       {"started", status.running->started},
+                       {"command", status.running->command}};
+  }
+  return json;
+}
+
+std::string Why(const StageReport& report) {
+  const auto& manifest = report.assessment.manifest;
+  if (manifest && !manifest->imported_from.empty()) {
+    return "imported from " + manifest->imported_from;
+  }
+  return JoinReasons(report.assessment.reasons);
+}
+
+void Print(const SurveyStatus& status) {
+  std::cout << "stage    state    time          CPU           memory\n";
+  for (const StageReport& report : status.stages) {
+    const StageStatus row = ToStatus(report.stage, report.assessment);
+    const bool measured = row.wall_s > 0;
+    std::cout << fmt::format("{:<8} {:<8} {:<13} {:<13} {}\n", report.stage, row.state,
+                             measured ? DurationText(row.wall_s) : "-",
+                             measured ? DurationText(row.cpu_s) : "-",
+                             measured ? MemoryText(row.peak_memory_mb) : "-");
+    if (const std::string why = Why(report); !why.empty()) {
+      std::cout << "         " << why << "\n";
+    }
+  }
+  std::cout << "Next: " << status.next << "\n";
+}
+
+}  // namespace
+
+void AddStatus(CLI::App& app, Program& program) {
+  CLI::App& verb = AddVerb(
+      app, {"status", "Say what is done, stale (and why), missing or failed; what to do next",
+            "stucco status castle\nstucco status castle --json", kEverydayGroup});
+  AddSurveyArgument(verb, program);
+  verb.callback([&program] {
+    program.action = [&program] {
+      const SurveyStatus status = GetStatus(program.common.survey, program.table);
+      if (program.common.json) {
+        PrintJson(ToJson(status, program.common.survey));
+      } else {
+        Print(status);
+      }
+      return 0;
+    };
+  });
+}
+
+}  // namespace stucco

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "cli/json_output.h"
+#include "cli/program.h"
+#include "pipeline/export.h"
+#include "pipeline/import_colmap.h"
+#include "pipeline/shell.h"
+
+namespace stucco {
+namespace {
+
+int Import(const Program& program, const std::string& model) {
+  const CommonOptions& common = program.common;
+  const ImportReport report = ImportColmap(common.survey, model, program.table);
+  const std::string next = "stucco run " + ShellWord(common.survey);
+  if (common.json) {
+    const Json json = {{"photos", report.photos},
+                       {"points", report.points},
+                       {"cameras", report.cameras},
+                       {"notes", report.notes},
+                       {"next", next}};
+    PrintJson(json);
+  } else if (!common.quiet) {
+    std::cout << fmt::format("Imported {} photos, {} points, {} cameras as calib.\n", report.photos,
+                             report.points, report.cameras);
+    for (const std::string& note : report.notes) {
+      std::cout << "  " << note << "\n";
+    }
+    std::cout << "Next: " << next << "\n";
+  }
+  return 0;
+}
+
+std::string FormatHelp() {
+  std::string text = "One of";
+  for (const ExportFormat& format : ExportFormats()) {
+    text += fmt::format("\n{} ({})", format.name, format.help);
+  }
+  return text;
+}
+
+}  // namespace
+
+void AddImport(CLI::App& app, Program& program) {
+  CLI::App& verb =
+      AddVerb(app, {"import", "Take camera poses that COLMAP computed in the place of calib",
+                    "stucco import castle ~/colmap/sparse/0 && stucco run castle\n"
+                    "stucco calib castle --force    (back to our own poses)",
+                    kTransferGroup});
+  AddSurveyArgument(verb, program);
+  auto model = std::make_shared<std::string>();
+  verb.add_option("model", *model, "Folder with cameras, images and points3D as .bin or .txt")
+      ->type_name("FOLDER")
+      ->required();
+  verb.callback([&program, model] {
+    program.action = [&program, model] { return Import(program, *model); };
+  });
+}
+
+void AddExport(CLI::App& app, Program& program) {
+  CLI::App& verb = AddVerb(app, {"export", "Write a result in another program's format",
+                                 "stucco export castle --format glb -o castle.glb\n"
+                                 "stucco export castle --format colmap-txt -o colmap",
+                                 kTransferGroup});
+  AddSurveyArgument(verb, program);
+  auto format = std::make_shared<std::string>();
+  auto out = std::make_shared<std::string>();
+  auto overwrite = std::make_shared<bool>(false);
+  verb.add_option("-f,--format", *format, FormatHelp())->type_name("FORMAT")->required();
+  verb.add_option("-o,--out", *out, "File or folder to write")->type_name("PATH")->required();
+  verb.add_flag("--overwrite", *overwrite, "Replace what is there");
+  verb.callback([&program, format, out, overwrite] {
+    program.action = [&program, format, out, overwrite] {
+      ExportSurvey(program.common.survey, *format, *out, *overwrite);
+      if (program.common.json) {
+        const Json json = {{"format", *format}, {"out", *out}};
+        PrintJson(json);
+      } else if (!program.common.quiet) {
+        std::cout << "Wrote " << *out << "\n";
+      }
+      return 0;
+    };
+  });
+}
+
+}  // namespace stucco
