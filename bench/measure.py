@@ -1,0 +1,36 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the Stucco authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs a command and writes what it cost: wall and CPU seconds, peak memory, exit code.
+
+  bench/measure.py OUT.json COMMAND...
+
+CPU time is of the command and all that it waited for; the peak is that of its largest process.
+"""
+import json
+import os
+import pathlib
+import sys
+import time
+
+
+def measure(command):
+    start = time.monotonic()
+    pid = os.spawnvp(os.P_NOWAIT, command[0], command)
+    _, status, usage = os.wait4(pid, 0)
+    return {"exit_code": os.waitstatus_to_exitcode(status),
+            "wall_s": round(time.monotonic() - start, 2),
+            "cpu_s": round(usage.ru_utime + usage.ru_stime, 2),
+            "peak_memory_mb": round(usage.ru_maxrss / 1024, 1)}
+
+
+def main():
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    result = measure(sys.argv[2:])
+    pathlib.Path(sys.argv[1]).write_text(json.dumps(result) + "\n")
+    sys.exit(result["exit_code"] if result["exit_code"] >= 0 else 128 - result["exit_code"])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the Stucco authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads the sources and says where they break the rules of the architecture.
+
+Usage: check_architecture.py ROOT     (exit code 1 when a rule is broken)
+
+CMake's link lists cannot stop an include, because all modules share one include root; so the
+includes themselves are read here.
+"""
+
+import os
+import pathlib
+import re
+import sys
+
+STAGES = {"plan", "capture_ingest", "calib", "dense", "proxy", "texture", "report"}
+
+# What the sources of a module may include besides their own module.
+ARROWS = {stage: {"survey"} for stage in STAGES}
+ARROWS["survey"] = set()
+ARROWS["pipeline"] = STAGES | {"survey"}
+ARROWS["simulate"] = {"survey", "plan"}
+ARROWS["evaluate"] = {"survey", "plan"}
+ARROWS["cli"] = {"pipeline", "survey", "simulate", "evaluate"}
+MODULES = set(ARROWS)
+
+# The virtual drone and the measuring of results may serve any test.
+FOR_TESTS = {"survey", "simulate", "evaluate"}
+
+# Headers that cost seconds in every file that sees them. Public headers do without.
+HEAVY = re.compile(
+    r"CGAL/|opencv2/(?!core[./])|ceres/|pcl/|assimp/|embree3/|nlohmann/"
+    r"|gdal|ogr_|ogrsf_|cpl_")
+
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]', re.M)
+
+MAX_LINES = 500
+SOURCES = {".h", ".cpp"}
+SPDX_SUFFIXES = {".h", ".cpp", ".cmake", ".py", ".sh"}
+SPDX_MARKS = ("SPDX-FileCopyrightText:", "SPDX-License-Identifier:")
+SPDX_WITHIN_LINES = 3  # the first may be #!
+
+
+def find_files(root):
+    """Files of the repository by path, without hidden folders and build trees."""
+    found = []
+    for folder, folders, names in os.walk(root):
+        if "CMakeCache.txt" in names:
+            folders.clear()
+            continue
+        folders[:] = sorted(
+            name for name in folders
+            if not name.startswith(".") and name not in {"build", "node_modules", "__pycache__"})
+        found += [pathlib.Path(folder, name).relative_to(root) for name in sorted(names)]
+    return found
+
+
+def may_include(path):
+    """The modules that a source file may include, or None where every module is allowed."""
+    top = path.parts[0]
+    if top in MODULES:
+        return ARROWS[top] | {top}
+    if top == "tests" and path.parts[1] in MODULES:
+        return ARROWS[path.parts[1]] | {path.parts[1]} | FOR_TESTS
+    return None
+
+
+def owner(path):
+    """The module that a source file belongs to; a module's tests count as its own."""
+    top = path.parts[0]
+    return path.parts[1] if top == "tests" and len(path.parts) > 2 else top
+
+
+def include_problems(path, text):
+    allowed = may_include(path)
+    is_public = path.suffix == ".h" and path.parts[0] in MODULES and "internal" not in path.parts
+    for quote, include in INCLUDE.findall(text):
+        target = include.split("/")[0]
+        if quote == '"' and target not in MODULES | {"tests"}:
+            yield f'{path}: write #include "module/file.h" instead of "{include}"'
+            continue
+        if target in MODULES and allowed is not None and target not in allowed:
+            yield f"{path}: {owner(path)} may not include {include}"
+        if target == "tests" and path.parts[0] != "tests":
+            yield f"{path}: only tests may include {include}"
+        if target in MODULES and "/internal/" in include and target != owner(path):
+            yield f"{path}: {include} is internal to {target}"
+        if is_public and target in MODULES and "/internal/" in include:
+            yield f"{path}: public header includes {include}"
+        if is_public and HEAVY.match(include):
+            yield f"{path}: public header includes heavy {include}"
+
+
+def size_problems(path, text):
+    lines = len(text.splitlines())
+    if lines > MAX_LINES:
+        yield f"{path}: {lines} lines, {MAX_LINES} are the limit"
+
+
+def spdx_problems(path, text):
+    head = text.splitlines()[:SPDX_WITHIN_LINES]
+    if not all(any(mark in line for line in head) for mark in SPDX_MARKS):
+        yield f"{path}: does not begin with the two SPDX lines"
+
+
+def readme_problems(root):
+    for module in sorted(MODULES):
+        if (root / module / "CMakeLists.txt").exists() and not (root / module / "README.md").exists():
+            yield f"{module}: has no README.md"
+
+
+def problems(root):
+    """Every broken rule below `root`, as lines to print."""
+    root = pathlib.Path(root)
+    found = list(readme_problems(root))
+    for path in find_files(root):
+        is_source = path.suffix in SOURCES
+        if not is_source and path.suffix not in SPDX_SUFFIXES and path.name != "CMakeLists.txt":
+            continue
+        text = (root / path).read_text(encoding="utf-8", errors="replace")
+        found += spdx_problems(path, text)
+        found += size_problems(path, text)
+        if is_source:
+            found += include_problems(path, text)
+    return found
+
+
+def main(arguments):
+    if len(arguments) != 2:
+        print(__doc__, file=sys.stderr)
+        return 2
+    found = problems(arguments[1])
+    print("\n".join(found) or "The architecture holds.")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv))

@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the Stucco authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Feeds check_architecture.py broken trees and proves that each of its rules fires."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import check_architecture
+
+SPDX = ("// SPDX-FileCopyrightText: 2026 the Stucco authors\n"
+        "// SPDX-License-Identifier: GPL-3.0-or-later\n")
+
+
+class CheckArchitectureTest(unittest.TestCase):
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+
+    def write(self, path, text, spdx=SPDX):
+        file = self.root / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(spdx + text)
+
+    def include(self, path, *includes):
+        self.write(path, "".join(f"#include {include}\n" for include in includes))
+
+    def assert_clean(self):
+        self.assertEqual(check_architecture.problems(self.root), [])
+
+    def assert_problem(self, *parts):
+        """Exactly one problem, which holds every part."""
+        found = check_architecture.problems(self.root)
+        self.assertEqual(len(found), 1, found)
+        for part in parts:
+            self.assertIn(part, found[0])
+
+    def assert_refused(self, path, include, *parts):
+        self.include(path, include)
+        self.assert_problem(path, *parts)
+        (self.root / path).unlink()
+
+    def test_a_good_tree_is_clean(self):
+        self.include("survey/pose.h", "<Eigen/Core>", "<vector>", '"survey/ids.h"')
+        self.include("calib/adjust.h", "<opencv2/core.hpp>", "<opencv2/core/types.hpp>")
+        self.include("calib/adjust.cpp", '"calib/adjust.h"', "<ceres/ceres.h>",
+                     '"calib/internal/costs.h"', '"survey/pose.h"')
+        self.include("calib/internal/costs.h", "<ceres/ceres.h>")
+        self.include("pipeline/run.cpp", '"calib/adjust.h"', '"texture/texture.h"')
+        self.include("cli/main.cpp", '"pipeline/run.h"', '"survey/error.h"', '"simulate/fly.h"')
+        self.include("simulate/fly.cpp", '"survey/pose.h"', '"plan/views.h"')
+        self.include("evaluate/poses.cpp", '"survey/pose.h"', '"plan/views.h"')
+        self.include("tests/calib/adjust_test.cpp", '"calib/internal/costs.h"',
+                     '"tests/calib/scene.h"', '"simulate/fly.h"', "<gtest/gtest.h>")
+        self.include("tests/end_to_end/run_test.cpp", '"calib/adjust.h"', '"pipeline/run.h"')
+        self.write("calib/CMakeLists.txt", "", SPDX.replace("//", "#"))
+        (self.root / "calib/README.md").write_text("Calibration")
+        self.write("scripts/a.py", "", "#!/usr/bin/env python3\n" + SPDX.replace("//", "#"))
+        self.assert_clean()
+
+    def test_arrows_point_one_way(self):
+        may_not = "may not include"
+        self.assert_refused("survey/pose.cpp", '"calib/adjust.h"', may_not)
+        self.assert_refused("survey/pose.h", '"pipeline/run.h"', may_not)
+        self.assert_refused("calib/adjust.cpp", '"dense/densify.h"', may_not)
+        self.assert_refused("calib/adjust.cpp", "<dense/densify.h>", may_not)
+        self.assert_refused("calib/internal/a.h", '"texture/texture.h"', may_not)
+        self.assert_refused("texture/texture.cpp", '"pipeline/run.h"', may_not)
+        self.assert_refused("calib/adjust.cpp", '"simulate/fly.h"', may_not)
+        self.assert_refused("pipeline/run.cpp", '"simulate/fly.h"', may_not)
+        self.assert_refused("pipeline/run.cpp", '"cli/arguments.h"', may_not)
+        self.assert_refused("cli/main.cpp", '"calib/adjust.h"', may_not)
+        self.assert_refused("simulate/fly.cpp", '"calib/adjust.h"', may_not)
+        self.assert_refused("evaluate/poses.cpp", '"simulate/fly.h"', may_not)
+        self.assert_refused("tests/calib/a_test.cpp", '"dense/densify.h"', may_not)
+        self.assert_refused("calib/adjust.cpp", '"tests/calib/scene.h"', "only tests")
+
+    def test_arrows_cannot_be_walked_around(self):
+        self.assert_refused("calib/adjust.cpp", '"../dense/densify.h"', '"module/file.h"')
+        self.assert_refused("calib/adjust.cpp", '"adjust.h"', '"module/file.h"')
+        self.write("calib/adjust.cpp", "  #  include   \"dense/densify.h\"\n")
+        self.assert_problem("may not include")
+
+    def test_internal_headers_stay_inside(self):
+        self.assert_refused("calib/a.cpp", '"survey/internal/json.h"', "internal to survey")
+        self.assert_refused("tests/calib/a_test.cpp", '"survey/internal/json.h"', "internal to")
+        self.assert_refused("bench/a.cpp", '"survey/internal/json.h"', "internal to survey")
+        self.assert_refused("survey/a.h", '"survey/internal/json.h"', "public header")
+
+    def test_public_headers_are_light(self):
+        for header in ("CGAL/Simple_cartesian.h", "opencv2/imgproc.hpp", "opencv2/opencv.hpp",
+                       "ceres/ceres.h", "pcl/point_types.h", "assimp/scene.h", "embree3/rtcore.h",
+                       "nlohmann/json.hpp", "gdal_priv.h", "gdal/gdal.h", "ogrsf_frmts.h",
+                       "cpl_conv.h"):
+            self.assert_refused("proxy/abstract.h", f"<{header}>", "heavy", header)
+            self.include("proxy/internal/a.h", f"<{header}>")
+            self.include("proxy/a.cpp", f"<{header}>")
+            self.include("tests/proxy/support.h", f"<{header}>")
+            self.assert_clean()
+
+    def test_files_are_short(self):
+        for name in ("calib/a.cpp", "calib/a.h", "scripts/a.py", "scripts/a.sh", "cmake/a.cmake",
+                     "tests/calib/a.cpp", "CMakeLists.txt"):
+            self.write(name, "\n" * 498)
+            self.assert_clean()
+            self.write(name, "\n" * 499)
+            self.assert_problem(name, "501 lines")
+            (self.root / name).unlink()
+
+    def test_files_begin_with_spdx(self):
+        for name in ("calib/a.cpp", "calib/a.h", "scripts/a.py", "scripts/a.sh", "cmake/a.cmake",
+                     "calib/internal/CMakeLists.txt"):
+            self.write(name, "", spdx="")
+            self.assert_problem(name, "SPDX")
+            self.write(name, "", spdx=SPDX.splitlines()[0])
+            self.assert_problem(name, "SPDX")
+            self.write(name, "", spdx="\n\n" + SPDX)
+            self.assert_problem(name, "SPDX")
+            (self.root / name).unlink()
+
+    def test_modules_have_a_readme(self):
+        self.write("dense/CMakeLists.txt", "")
+        self.assert_problem("dense", "README.md")
+
+    def test_build_trees_and_hidden_folders_are_left_alone(self):
+        for name in ("build/dev/a.cpp", ".cache/a.cpp", "calib/node_modules/a.py", "out/x/a.cpp"):
+            self.write(name, "", spdx="")
+        self.write("out/CMakeCache.txt", "")
+        self.assert_clean()
+
+    def test_the_program_reports_by_text_and_exit_code(self):
+        def run(*arguments):
+            return subprocess.run([sys.executable, check_architecture.__file__, *arguments],
+                                  capture_output=True, text=True, check=False)
+        self.assertEqual(run(str(self.root)).returncode, 0)
+        self.include("survey/pose.cpp", '"calib/adjust.h"')
+        result = run(str(self.root))
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(result.stdout,
+                         "survey/pose.cpp: survey may not include calib/adjust.h\n")
+        self.assertEqual(run().returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
