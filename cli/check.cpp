@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "cli/json_output.h"
+#include "cli/internal/json_output.h"
 #include "cli/program.h"
 #include "pipeline/exit_code.h"
 #include "pipeline/shell.h"

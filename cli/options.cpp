@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "cli/json_output.h"
+#include "cli/internal/json_output.h"
 #include "cli/program.h"
 #include "pipeline/settings.h"
 

@@ -8,7 +8,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "cli/json_output.h"
+#include "cli/internal/json_output.h"
 #include "pipeline/exit_code.h"
 
 namespace stucco {

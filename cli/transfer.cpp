@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "cli/json_output.h"
+#include "cli/internal/json_output.h"
 #include "cli/program.h"
 #include "pipeline/export.h"
 #include "pipeline/import_colmap.h"
