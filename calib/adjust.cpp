@@ -8,6 +8,7 @@
 #include <ceres/solver.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -23,6 +24,13 @@ constexpr double kPrincipalPointSigma = 0.02;  // of the longer side
 constexpr double kRadialSigma = 0.5;
 constexpr double kTangentialSigma = 0.01;
 constexpr double kRationalSigma = 0.2;
+
+// Position priors beyond this many standard deviations lose weight.
+constexpr double kPriorLossScale = 1;
+
+constexpr double kLeastNoise = 0.05;
+// Median of the length of a two-dimensional normal vector with unit variances: sqrt(2 ln 2).
+constexpr double kRayleighMedian = 1.17741;
 
 struct PoseBlocks {
   Eigen::Quaterniond rotation;
@@ -104,7 +112,7 @@ class Adjustment {
     if (is_new) pose = {photo.pose->rotation, photo.pose->translation};
     used_cameras_.insert(photo.camera);
     const Eigen::Vector2d& keypoint = photo.keypoints[element.keypoint];
-    const double sigma = photo.keypoint_sigma_px[element.keypoint];
+    const double sigma = options_.noise * photo.keypoint_sigma_px[element.keypoint];
     problem_.AddResidualBlock(CreateCost(camera, keypoint, sigma), &loss_, camera.params.data(),
                               pose.rotation.coeffs().data(), pose.translation.data(), point.data());
     if (!is_new) return;
@@ -191,7 +199,7 @@ class Adjustment {
       has_priors = true;
       const Eigen::Vector3d sigma(prior->sigma_horizontal_m, prior->sigma_horizontal_m,
                                   prior->sigma_vertical_m);
-      problem_.AddResidualBlock(PositionCost::Create(prior->position, sigma), &loss_,
+      problem_.AddResidualBlock(PositionCost::Create(prior->position, sigma), &prior_loss_,
                                 pose.rotation.coeffs().data(), pose.translation.data());
     }
     if (!has_priors) HoldFrame();
@@ -240,6 +248,7 @@ class Adjustment {
   ceres::EigenQuaternionManifold quaternion_;
   std::vector<std::unique_ptr<ceres::SubsetManifold>> subsets_;
   ceres::CauchyLoss loss_{options_.loss_scale};
+  ceres::CauchyLoss prior_loss_{kPriorLossScale};
   ceres::Problem problem_;  // last: refers to the members above
 };
 
@@ -263,6 +272,22 @@ double PriorSigma(const SceneCamera& camera, int i) {
 
 AdjustReport Adjust(const AdjustOptions& options, Scene& scene) {
   return Adjustment(options, scene).Solve();
+}
+
+double MeasureNoise(const Scene& scene) {
+  std::vector<double> errors;
+  for (const SceneTrack& track : scene.tracks) {
+    if (!track.position) continue;
+    for (const SceneElement& element : track.elements) {
+      if (!element.used) continue;
+      const double sigma = scene.photos[element.photo].keypoint_sigma_px[element.keypoint];
+      errors.push_back(ReprojectionError(scene, element, *track.position) / sigma);
+    }
+  }
+  if (errors.empty()) return 1;
+  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+  std::nth_element(errors.begin(), middle, errors.end());
+  return std::max(kLeastNoise, *middle / kRayleighMedian);
 }
 
 std::string Brief(const AdjustReport& report) {

@@ -18,6 +18,8 @@ struct AdjustOptions {
   RefineIntrinsics refine = RefineIntrinsics::kDistortion;
   // Residuals beyond this many standard deviations lose weight (Cauchy loss).
   double loss_scale = 2;
+  // Standard deviation of the keypoints as measured, in units of the one they came with.
+  double noise = 1;
   bool use_priors = false;  // position priors of the photos; the scene must be in their frame
   int threads = 1;          // more than one is faster but not reproducible
   int max_iterations = 50;
@@ -39,6 +41,10 @@ std::string Brief(const AdjustReport& report);
 // determine stays where it was: focal length by SceneCamera::focal_sigma_ratio, principal point
 // within a few per cent of the image, square pixels, small tangential distortion.
 AdjustReport Adjust(const AdjustOptions& options, Scene& scene);
+
+// Standard deviation of the keypoints per axis as their residuals show it, in units of the one they
+// came with: from the median, so that wrong matches do not count. At least 0.05; 1 without points.
+double MeasureNoise(const Scene& scene);
 
 // Standard deviation of the plausibility term of parameter `i`, or 0 when there is none. In the
 // parameter's own unit.

@@ -250,6 +250,7 @@ AdjustReport RefineAll(const MapperOptions& options, bool use_priors, const Stag
                        Scene& scene) {
   AdjustReport report;
   AdjustReport last;
+  double last_noise = -1;
   for (int round = 0; round < kMaxRounds; ++round) {
     context.ThrowIfCancelled();
     CompleteTracks(options, scene);
@@ -263,13 +264,15 @@ AdjustReport RefineAll(const MapperOptions& options, bool use_priors, const Stag
     adjust.max_iterations = 100;
     adjust.tolerance = 1e-6;
     adjust.loss_scale = 1;
+    adjust.noise = MeasureNoise(scene);
     report = Adjust(adjust, scene);
     FilterScene(options, options.max_error_px, scene);
     const bool same_observations = std::abs(report.num_observations - last.num_observations) <=
                                    0.001 * report.num_observations;
-    const bool same_fit = std::abs(report.rms_after - last.rms_after) <= 1e-3 * report.rms_after;
-    if (!report.usable || (same_observations && same_fit)) break;
+    const bool same_noise = std::abs(adjust.noise - last_noise) <= 0.01 * adjust.noise;
+    if (!report.usable || (same_observations && same_noise)) break;
     last = report;
+    last_noise = adjust.noise;
   }
   return report;
 }
