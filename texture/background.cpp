@@ -8,6 +8,9 @@
 namespace stucco {
 namespace {
 
+// Rays that fall by more than this per length hit the ground, not the sky; poses and up are a
+// little off.
+constexpr double kClearFall = 0.02;
 constexpr float kSkyBrightness = 130;
 constexpr float kSkyContrast = 8;    // largest difference to a neighbour
 constexpr float kSkyWarmth = 2;      // red over blue
@@ -132,14 +135,27 @@ void GrowDropped(const TexelGrid& raster, std::span<const RasterPicture> picture
 
 }  // namespace
 
-void MarkSky(const TexelGrid& raster, const std::vector<uint8_t>& no_points,
-             const std::vector<float>& rgb, std::vector<Sight>& sight) {
-  const std::vector<const float*> wall = SampleWall(no_points, rgb, sight);
+std::vector<uint8_t> FindSkyward(const TexelGrid& raster, const Eigen::Vector3d& camera,
+                                 const Eigen::Vector3d& up) {
+  std::vector<uint8_t> skyward;
+  skyward.reserve(raster.size());
+  for (int y = 0; y < raster.height; ++y) {
+    for (int x = 0; x < raster.width; ++x) {
+      const Eigen::Vector3d way = raster.Center(x, y) - camera;
+      skyward.push_back(way.dot(up) > -kClearFall * way.norm());
+    }
+  }
+  return skyward;
+}
+
+void MarkSky(const TexelGrid& raster, const SkyClues& clues, const std::vector<float>& rgb,
+             std::vector<Sight>& sight) {
+  const std::vector<const float*> wall = SampleWall(clues.no_points, rgb, sight);
   if (wall.empty()) return;
   for (int y = 0; y < raster.height; ++y) {
     for (int x = 0; x < raster.width; ++x) {
       const size_t i = static_cast<size_t>(y) * raster.width + x;
-      if (!no_points[i] || sight[i] == Sight::kNot) continue;
+      if (!clues.no_points[i] || !clues.skyward[i] || sight[i] == Sight::kNot) continue;
       if (LooksLikeSky(raster, rgb, x, y) && !LooksLikeWall(wall, &rgb[3 * i])) {
         sight[i] = Sight::kBeyond;
       }

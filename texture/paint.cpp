@@ -65,9 +65,10 @@ RasterPicture MakeRasterPicture(const RasterView& view, const TexelGrid& raster,
   for (const TexelView& seen : view.texels) picture.sight.push_back(seen.sight);
   picture.cost = CostsOf(view, raster.texel, texel, photo.sharpness);
   picture.rgb = SampleRaster(photo, raster, *scene.cache);
-  std::vector<uint8_t> no_points;
-  for (const TexelView& seen : view.texels) no_points.push_back(seen.no_points);
-  MarkSky(raster, no_points, picture.rgb, picture.sight);
+  SkyClues clues;
+  for (const TexelView& seen : view.texels) clues.no_points.push_back(seen.no_points);
+  clues.skyward = FindSkyward(raster, photo.cam_from_world.Center(), scene.up);
+  MarkSky(raster, clues, picture.rgb, picture.sight);
   ApplyGain(gain, picture.rgb);
   return picture;
 }

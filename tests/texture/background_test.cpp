@@ -34,11 +34,13 @@ std::vector<float> Above(Rgb above, Rgb wall = {150, 110, 80}) {
 }
 
 // Sight of the upper left texel.
-Sight Marked(const std::vector<float>& rgb, bool no_points = true) {
-  std::vector<uint8_t> empty(kSide * kSide, 0);
-  std::fill_n(empty.begin(), kSide * (kSide - kWallRows), no_points);
+Sight Marked(const std::vector<float>& rgb, bool no_points = true, bool skyward = true) {
+  SkyClues clues;
+  clues.no_points.assign(kSide * kSide, 0);
+  std::fill_n(clues.no_points.begin(), kSide * (kSide - kWallRows), no_points);
+  clues.skyward.assign(kSide * kSide, skyward);
   std::vector<Sight> sight(kSide * kSide, Sight::kFree);
-  MarkSky(Raster(), empty, rgb, sight);
+  MarkSky(Raster(), clues, rgb, sight);
   return sight[0];
 }
 
@@ -48,6 +50,28 @@ TEST(MarkSky, TakesWhatIsBrightBlueAndWithoutPoints) {
   EXPECT_EQ(Marked(Above({170, 200, 250}), false), Sight::kFree);
   EXPECT_EQ(Marked(Above({230, 220, 200})), Sight::kFree);  // sunlit plaster
   EXPECT_EQ(Marked(Above({60, 70, 90})), Sight::kFree);     // slate
+}
+
+TEST(MarkSky, LeavesWhiteRoofsSeenFromAboveAlone) {
+  EXPECT_EQ(Marked(Above({255, 255, 255}), true, false), Sight::kFree);
+}
+
+TEST(FindSkyward, IsFalseWhereRaysGoDownClearly) {
+  const Eigen::Vector3d up(0, 0, 1);
+  TexelGrid roof = Raster();  // level, 20 x 20 m
+  roof.v_axis = -Eigen::Vector3d::UnitY();
+  const auto from_above = FindSkyward(roof, {10, -10, 30}, up);
+  EXPECT_EQ(std::count(from_above.begin(), from_above.end(), 1), 0);
+
+  TexelGrid wall = Raster();  // from z = 20 down to 0
+  wall.origin.z() = 20;
+  wall.v_axis = -up;
+  const auto level = FindSkyward(wall, {10, -30, 10}, up);
+  for (int row = 0; row < kSide; ++row) {
+    EXPECT_EQ(level[row * kSide + 10], row <= 10) << row;  // row 10 is 0.5 m down in 30 m
+  }
+  const auto turned = FindSkyward(wall, {10, -30, 10}, -up);
+  EXPECT_EQ(turned[0], 0);
 }
 
 TEST(MarkSky, LeavesWallsAloneThatHaveItsColour) {

@@ -203,6 +203,30 @@ TEST(RunTexture, AvoidsWhatTheCloudHasInFront) {
   EXPECT_LT(RedShare(survey.Picture(survey.Run().facets.at(0))), 0.001);
 }
 
+TEST(RunTexture, KeepsAWhiteRoofWithoutPoints) {
+  Survey survey;
+  Facet roof = MakeWall(4, 3);  // laid flat: x to 4, y to 3
+  roof.facet_class = FacetClass::kRoof;
+  roof.normal = Eigen::Vector3d::UnitZ();
+  for (auto& vertex : roof.outer) vertex = {vertex.x(), vertex.z(), 0};
+  survey.SetProxy(MakeProxy({roof}));
+  // The left quarter is a smooth white membrane, of which stereo gives no points.
+  const testing::Scene scene = [](const Eigen::Vector3d& from, const Eigen::Vector3d& way) {
+    const Eigen::Vector3d point = from - from.z() / way.z() * way;
+    return std::optional<testing::Colour>(
+        point.x() < 1 ? testing::Colour(240, 240, 240)
+                      : testing::Colour(0.6 * testing::WallColour(point.x(), point.y())));
+  };
+  survey.Add("a.jpg", {2, 1.4, 4.2}, {2, 1.5, 0}, 1, scene);
+  PointCloud cloud;
+  for (double x = 1.0; x <= 4; x += 0.04) {
+    for (double y = 0; y <= 3; y += 0.04) cloud.positions.push_back({x, y, 0});
+  }
+  fs::create_directories(survey.Folder() / "dense");
+  WritePly(cloud, survey.Folder() / kCloudFile);
+  EXPECT_NEAR(survey.Run().facets.at(0).painted, 1, 0.01);
+}
+
 TEST(RunTexture, MeasuresAndRemovesMisregistration) {
   Survey survey;
   survey.Add("left.jpg", {1.3, -3.2, 1.5}, {1.3, 0, 1.5});
