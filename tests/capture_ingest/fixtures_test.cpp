@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Photos of real cameras, with what exiftool reads from them. They lie beside a developer's
-// checkout and not in the repository.
+// Photos of real cameras, with what exiftool reads from them. They are not part of the repository:
+// they are looked for in the folder that STUCCO_DATA names, else in ../shared/data beside it.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "capture_ingest/camera_groups.h"
@@ -12,7 +13,13 @@
 namespace stucco {
 namespace {
 
-const std::filesystem::path kData = STUCCO_REAL_DATA;
+std::filesystem::path DataFolder() {
+  if (const char* named = std::getenv("STUCCO_DATA")) return named;
+  const auto tests = std::filesystem::path(__FILE__).parent_path().parent_path();
+  return tests.parent_path().parent_path() / "shared" / "data";
+}
+
+const std::filesystem::path kData = DataFolder();
 
 PhotoRecord Inspect(const std::string& folder, const std::string& name) {
   StageContext context;
@@ -25,7 +32,11 @@ PhotoRecord Inspect(const std::string& folder, const std::string& name) {
 class RealPhotos : public testing::Test {
  protected:
   void SetUp() override {
-    if (!std::filesystem::exists(kData / "ingest_fixtures")) GTEST_SKIP() << "no " << kData;
+    for (const char* folder : {"ingest_fixtures", "mirafiori/images"}) {
+      if (!std::filesystem::is_directory(kData / folder)) {
+        GTEST_SKIP() << kData / folder << " is not here";
+      }
+    }
   }
 
   static CapturedCamera CameraOf(const PhotoRecord& record) {
