@@ -23,8 +23,8 @@ void Describe(OptionTable& table, ProxyOptions& options) {
             "Gaps of a facet up to about this width are closed (windows, occluded strips). 0: five "
             "times level_of_detail.");
   table.Add("vertical_tolerance_deg", options.vertical_tolerance_deg, 0, 20,
-            "Planes this near to vertical become walls, exactly vertical; planes half as near to "
-            "horizontal become horizontal.");
+            "Planes this near to vertical become walls, exactly vertical where that moves no point "
+            "by more than level_of_detail; planes half as near to horizontal become horizontal.");
   table.Add("align_tolerance_deg", options.align_tolerance_deg, 0, 20,
             "Directions this near to parallel or perpendicular become so, as far as no point "
             "moves by more than level_of_detail.");

@@ -57,25 +57,38 @@ double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-bool IsWall(const Samples& samples, const Tolerances& tolerances, const Eigen::Vector3d& up,
-            const RegulariseOptions& options, const Plane& plane) {
-  constexpr double kLeansOut = 25 * kDegree;  // roofs do not lean outwards: fronts of dormers do
-  const double elevation = std::asin(std::clamp(plane.normal.dot(up), -1.0, 1.0));
-  if (std::abs(elevation) < options.vertical_tolerance_deg * kDegree) return true;
-  if (elevation < 0 && elevation > -kLeansOut) return true;
+// How far a plane looks above the horizon, in radians.
+double Elevation(const Plane& plane, const Eigen::Vector3d& up) {
+  return std::asin(std::clamp(plane.normal.dot(up), -1.0, 1.0));
+}
+
+bool MayStandUpright(const Samples& samples, const Tolerances& tolerances,
+                     const Eigen::Vector3d& up, double tolerance, const Plane& plane) {
   const Eigen::Vector3d axis = up.cross(plane.normal).normalized();
-  return MayTurn(samples, tolerances, plane, axis, elevation,
-                 options.vertical_tolerance_deg * kDegree);
+  return MayTurn(samples, tolerances, plane, axis, Elevation(plane, up), tolerance);
+}
+
+// A wall stands upright when that moves none of its points too far; one that leans keeps its lean.
+bool MakeWall(const Samples& samples, const Tolerances& tolerances, const Eigen::Vector3d& up,
+              double tolerance, Plane& plane) {
+  constexpr double kLeansOut = 25 * kDegree;  // roofs do not lean outwards: fronts of dormers do
+  const double elevation = Elevation(plane, up);
+  const bool upright = MayStandUpright(samples, tolerances, up, tolerance, plane);
+  const bool leans = elevation > -kLeansOut && elevation < tolerance;
+  if (!upright && !leans) return false;
+  plane.role = PlaneRole::kWall;
+  if (upright) plane.normal = (plane.normal - up * plane.normal.dot(up)).normalized();
+  return true;
 }
 
 void AssignRoles(const Samples& samples, const Tolerances& tolerances, const Eigen::Vector3d& up,
                  const RegulariseOptions& options, std::vector<Plane>& planes) {
-  const double flat = options.vertical_tolerance_deg * kDegree / 2;
+  const double vertical = options.vertical_tolerance_deg * kDegree;
+  const double flat = vertical / 2;
   for (Plane& plane : planes) {
-    const double elevation = std::asin(std::clamp(plane.normal.dot(up), -1.0, 1.0));
-    if (IsWall(samples, tolerances, up, options, plane)) {
-      plane.role = PlaneRole::kWall;
-      plane.normal = (plane.normal - up * plane.normal.dot(up)).normalized();
+    const double elevation = Elevation(plane, up);
+    if (MakeWall(samples, tolerances, up, vertical, plane)) {
+      // Its role is set.
     } else if (std::abs(elevation) > kPi / 2 - 4 * flat) {
       plane.role = elevation > 0 ? PlaneRole::kHorizontal : PlaneRole::kCeiling;
       const Eigen::Vector3d level = elevation > 0 ? up : Eigen::Vector3d(-up);

@@ -20,9 +20,10 @@ struct RegulariseOptions {
 // parallel or perpendicular so, equal pitches equal, and puts parallel planes nearer than
 // level_of_detail into one (after Verdie, Lafarge, Alliez, "LOD generation for urban scenes", 2015,
 // section 4). A direction is only turned as far as its points move by at most level_of_detail;
-// planes within the tolerance of vertical, and those that lean outwards a little, become walls in
-// any case. Points that end up farther than level_of_detail from their plane leave it. Sets the
-// planes' roles. Returns the main horizontal direction.
+// planes within the tolerance of vertical, and those that lean outwards a little, are walls in any
+// case, but keep their lean where standing upright would move their points farther. Points that end
+// up farther than level_of_detail from their plane leave it. Sets the planes' roles. Returns the
+// main horizontal direction.
 Eigen::Vector3d Regularise(const Samples& samples, const Tolerances& tolerances,
                            const Eigen::Vector3d& up, const RegulariseOptions& options,
                            std::vector<Plane>& planes);

@@ -162,6 +162,15 @@ std::vector<BoundaryFacet> BoundaryOf(const Partition& partition, const std::vec
   return facets;
 }
 
+// The role of a facet by its normal alone; the sides nobody saw have no other.
+PlaneRole RoleOf(double upwards) {
+  constexpr double kSinOfWall = 0.035;   // 2 degrees
+  constexpr double kSinOfLevel = 0.998;  // within 4 degrees of level
+  if (std::abs(upwards) < kSinOfWall) return PlaneRole::kWall;
+  if (upwards < 0) return PlaneRole::kCeiling;
+  return upwards > kSinOfLevel ? PlaneRole::kHorizontal : PlaneRole::kSlope;
+}
+
 // A facet of the world, with figures from the view of its plane (null: a plane without points).
 Facet ToFacet(const SolidScene& scene, const Setting& setting, const Partition& partition,
               const BoundaryFacet& boundary, const PlaneView* view) {
@@ -179,16 +188,14 @@ Facet ToFacet(const SolidScene& scene, const Setting& setting, const Partition& 
     plane.normal = -plane.normal;
     plane.offset = -plane.offset;
   }
-  const double elevation = plane.normal.dot(scene.up);
-  plane.role = std::abs(elevation) < 0.035 ? PlaneRole::kWall
-               : elevation < 0             ? PlaneRole::kCeiling
-               : elevation > 0.998         ? PlaneRole::kHorizontal
-                                           : PlaneRole::kSlope;
+  const bool seen = view != nullptr && boundary.outwards;
+  const bool wall = view != nullptr && view->plane->role == PlaneRole::kWall;  // it may lean
+  plane.role = wall ? PlaneRole::kWall : RoleOf(plane.normal.dot(scene.up));
   PlaneView blank;
   blank.plane = &plane;
   blank.raster.frame =
       FrameOf(plane, scene.up, scene.main_direction, world_from_local.translation());
-  const PlaneView& used = view != nullptr && boundary.outwards ? *view : blank;
+  const PlaneView& used = seen ? *view : blank;
   const auto flatten = [&](const std::vector<int>& ring) {
     std::vector<Eigen::Vector2d> points;
     for (const auto& p : to_world(ring)) points.push_back(used.raster.frame.ToPlane(p));
@@ -197,7 +204,7 @@ Facet ToFacet(const SolidScene& scene, const Setting& setting, const Partition& 
   Polygon2 polygon{.outer = flatten(boundary.polygon.outer), .holes = {}};
   for (const auto& hole : boundary.polygon.holes) polygon.holes.push_back(flatten(hole));
   Facet facet = MakeFacet(scene.samples, used, polygon);
-  if (view == nullptr || !boundary.outwards) facet.source = "extruded";
+  if (!seen) facet.source = "extruded";
   // The exact corners, so that neighbouring facets share them.
   facet.outer = to_world(boundary.polygon.outer);
   for (size_t h = 0; h < facet.holes.size(); ++h) {

@@ -109,6 +109,21 @@ TEST(AbstractCloud, AnLShapeIsClosed) {
   ExpectTruth(house, building, 0.2, 0.02, 0.01);
 }
 
+TEST(AbstractCloud, AFacadeThatLeansKeepsItsLean) {
+  auto house = testing::BoxHouse(14, 10, 12);
+  constexpr double kSetback = 1.2;  // of its top: 5.7 degrees
+  for (auto& polygon : house.polygons) {
+    for (Vector3d& p : polygon.ring) {
+      if (p.y() < 0 && p.z() > 6) p.y() += kSetback;
+    }
+  }
+  const Proxy proxy = Abstract(Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.02}));
+  const Building& building = proxy.buildings[0];
+  EXPECT_TRUE(building.watertight);
+  EXPECT_EQ(Count(building, FacetClass::kWall), 4);
+  ExpectTruth(house, building, 0.2, 0.03, 0.02);
+}
+
 TEST(AbstractCloud, BearsNoiseStraysAndTrees) {
   const auto house = testing::GableHouse();
   for (const double noise : {0.03, 0.08}) {

@@ -76,6 +76,27 @@ TEST(Regularise, MakesWallsVerticalAndPerpendicular) {
   EXPECT_NEAR(AngleDeg(p.planes[1].normal, p.planes[2].normal), 180, 1e-9);
 }
 
+TEST(Regularise, KeepsTheLeanOfATallWall) {
+  for (const double lean_deg : {6.0, -6.0, -20.0}) {
+    Planes p;
+    p.Add({0, -5, 6}, Leaning(-90, lean_deg), 14, 12);  // upright, its rim would move by 0.6 m
+    const size_t points = p.planes[0].points.size();
+    p.Run();
+    ASSERT_EQ(p.planes.size(), 1u) << lean_deg;
+    EXPECT_EQ(p.planes[0].role, PlaneRole::kWall) << lean_deg;
+    EXPECT_NEAR(AngleDeg(p.planes[0].normal, Leaning(-90, lean_deg)), 0, 0.01) << lean_deg;
+    EXPECT_EQ(p.planes[0].points.size(), points) << lean_deg;
+  }
+}
+
+TEST(Regularise, ALowFrontThatLeansOutStandsUpright) {
+  Planes p;
+  p.Add({0, -5, 6}, Leaning(-90, -15), 3, 1);
+  p.Run();
+  ASSERT_EQ(p.planes.size(), 1u);
+  EXPECT_NEAR(p.planes[0].normal.z(), 0, 1e-12);
+}
+
 TEST(Regularise, LeavesALongWallOfItsOwnDirectionAlone) {
   Planes p;
   p.Add({0, -5, 3}, Leaning(-90, 0), 20, 6);
