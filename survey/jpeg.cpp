@@ -35,15 +35,15 @@ constexpr size_t kSniffedBytes = 512;
 // made to exhaust memory.
 constexpr uint64_t kMaxPixelsPerByte = 5000;
 
-// Warnings that say nothing about the pixels.
-bool IsHarmless(int code, bool pixels_begun) {
+// Warnings that say nothing about the pixels; `in_pixels` while rows are still to come.
+bool IsHarmless(int code, bool in_pixels) {
   switch (code) {
     case JWRN_ADOBE_XFORM:
     case JWRN_JFIF_MAJOR:
     case JWRN_BOGUS_ICC:
       return true;
-    case JWRN_EXTRANEOUS_DATA:  // padding between header segments
-      return !pixels_begun;
+    case JWRN_EXTRANEOUS_DATA:  // padding between header segments, or before the end (DJI)
+      return !in_pixels;
     default:
       return false;
   }
@@ -88,8 +88,10 @@ class Decoder {
   static void OnMessage(j_common_ptr info, int level) {
     if (level >= 0) return;  // trace output
     const auto* decoder = static_cast<Decoder*>(info->client_data);
-    if (!IsHarmless(info->err->msg_code, decoder->pixels_begun_)) OnError(info);
+    if (!IsHarmless(info->err->msg_code, decoder->InPixels())) OnError(info);
   }
+
+  bool InPixels() const { return pixels_begun_ && info_.output_scanline < info_.output_height; }
 
   const std::string& name_;
   jpeg_decompress_struct info_{};

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <string>
 
 #include "survey/files.h"
 #include "tests/survey/support.h"
@@ -14,6 +15,7 @@
 namespace stucco {
 namespace {
 
+using std::string_literals::operator""s;
 using test::ErrorOf;
 using test::ExpectBadInput;
 using test::TemporaryFolder;
@@ -185,6 +187,24 @@ TEST(Image, TakesWhatCamerasAddBehindThePicture) {
   const std::string bytes = JpegBytes(false);
   WriteFile(folder / "a.jpg", bytes + std::string(1000, '\0') + bytes);  // padding and a preview
   EXPECT_EQ(ReadJpeg(folder / "a.jpg").width_px, 200);
+}
+
+TEST(Image, TakesPaddingBetweenThePictureAndItsEnd) {
+  const TemporaryFolder folder;
+  const std::string bytes = JpegBytes(false);
+  WriteFile(folder / "a.jpg", bytes);
+  const Image picture = ReadJpeg(folder / "a.jpg");
+  const std::string end = bytes.substr(bytes.size() - 2);
+  ASSERT_EQ(end, "\xff\xd9");
+  for (const std::string& padding : {std::string(1, '\0'), std::string(5000, '\0'), "junk"s}) {
+    WriteFile(folder / "a.jpg", bytes.substr(0, bytes.size() - 2) + padding + end);
+    EXPECT_EQ(ReadJpeg(folder / "a.jpg").data, picture.data);
+    EXPECT_EQ(ReadJpeg(folder / "a.jpg", 1, 25).width_px, 25);
+  }
+  // Too many bytes are no excuse for too few rows.
+  const std::string half = bytes.substr(0, bytes.size() / 2);
+  WriteFile(folder / "a.jpg", half + end);
+  ExpectBadInput([&] { ReadJpeg(folder / "a.jpg"); }, "damaged JPEG");
 }
 
 TEST(Image, RefusesASizeThatTheBytesCannotHold) {
