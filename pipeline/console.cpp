@@ -32,11 +32,15 @@ Console Console::ForStderr(Verbosity verbosity) {
 
 void Console::Print(std::string_view text) {
   const std::lock_guard lock(mutex_);
-  if (!bar_.empty()) {
-    fmt::print(file_, "{}", kEraseLine);
+  Write(fmt::format("{}{}\n{}", bar_.empty() ? "" : kEraseLine, text, bar_));
+}
+
+// A terminal that was closed or a full disk must not end hours of work.
+void Console::Write(const std::string& text) {
+  if (!lost_) {
+    lost_ =
+        std::fwrite(text.data(), 1, text.size(), file_) != text.size() || std::fflush(file_) != 0;
   }
-  fmt::print(file_, "{}\n{}", text, bar_);
-  std::fflush(file_);
 }
 
 void Console::Line(std::string_view text) {
@@ -62,8 +66,7 @@ void Console::Bar(std::string_view text) {
   const std::lock_guard lock(mutex_);
   // A bar longer than the line would leave its head behind at every redraw.
   bar_ = text.substr(0, TerminalWidth(file_) - 1);
-  fmt::print(file_, "{}{}", kEraseLine, bar_);
-  std::fflush(file_);
+  Write(kEraseLine + bar_);
 }
 
 std::string DurationText(double seconds) {

@@ -12,7 +12,8 @@ namespace stucco {
 enum class Verbosity { kQuiet, kNormal, kVerbose };
 
 // Where a run tells people what it does: stderr, usually. On a terminal the last line is a bar that
-// is drawn over in place; elsewhere there are only whole lines. Thread-safe.
+// is drawn over in place; elsewhere there are only whole lines. What cannot be written is
+// dropped, and after the first failure nothing more is tried. Thread-safe.
 class Console {
  public:
   Console(std::FILE* file, bool is_terminal, Verbosity verbosity);
@@ -31,12 +32,14 @@ class Console {
 
  private:
   void Print(std::string_view text);
+  void Write(const std::string& text);
 
   std::FILE* file_;
   bool is_terminal_;
   Verbosity verbosity_;
   std::mutex mutex_;
   std::string bar_;
+  bool lost_ = false;
 };
 
 // "12 s", "3 min 05 s", "2 h 07 min".

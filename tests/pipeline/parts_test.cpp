@@ -144,6 +144,23 @@ TEST(Console, FormatsForPeople) {
   EXPECT_EQ(GroupedDigits(1234567), "1 234 567");
 }
 
+TEST(Console, ThatCannotBeWrittenStopsNothing) {
+  std::FILE* file = std::fopen("/dev/full", "w");
+  if (file == nullptr) {
+    GTEST_SKIP() << "there is no /dev/full here";
+  }
+  Console console(file, true, Verbosity::kVerbose);
+  EventLog no_events;
+  {
+    StageProgress progress("calib", console, no_events);
+    progress.Begin("matching", 3);
+    progress.Warn("a warning");
+    EXPECT_NO_THROW(console.Bar("a bar"));
+  }
+  EXPECT_NO_THROW(console.Line(std::string(100'000, 'x')));
+  std::fclose(file);
+}
+
 TEST(Progress, TextSaysCountsRateAndTimeLeft) {
   EXPECT_THAT(ProgressText("calib", "matching", 120, 480, 12),
               HasSubstr("matching 120/480 (25 %)"));
