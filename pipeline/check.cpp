@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "pipeline/console.h"
+#include "pipeline/layout.h"
 #include "pipeline/resources.h"
 
 namespace stucco {
@@ -53,23 +54,24 @@ StageNeed Estimate(const Stage& stage, const BoundStage& bound, const PhotoFolde
 
 class Checker {
  public:
-  Checker(const fs::path& survey, const Settings& settings) : survey_(survey), settings_(settings) {
+  Checker(const fs::path& survey, const StageTable& table, const Settings& settings)
+      : survey_(survey), table_(table), settings_(settings) {
     result_.threads = ResolvedThreads(settings.run);
     result_.memory_limit_mb = settings.run.memory_limit_gb * 1024;
     result_.available_memory_mb = AvailableMemoryMb();
     result_.free_disk_mb = FreeDiskMb(survey);
   }
 
-  CheckResult Run(const StageTable& table, const std::vector<std::string>& stages) {
+  CheckResult Run(const std::vector<std::string>& stages) {
     CheckSurveyFolder();
     const bool opens_photos = std::any_of(stages.begin(), stages.end(), [&](const auto& name) {
-      return GetStage(table, name).opens_photos;
+      return GetStage(table_, name).opens_photos;
     });
     if (opens_photos) {
       CheckPhotos();
     }
     for (const std::string& name : stages) {
-      result_.needs.push_back(Estimate(GetStage(table, name), settings_.stages.at(name),
+      result_.needs.push_back(Estimate(GetStage(table_, name), settings_.stages.at(name),
                                        result_.photos, result_.threads));
     }
     CheckDisk();
@@ -93,14 +95,10 @@ class Checker {
              fmt::format("{}: the survey folder cannot be written", survey_.string()),
              "make it writable, or create the survey on another disk");
     }
-    // Photos are never written to; a survey among them would be, and its pictures would count as
-    // photos.
-    const std::string inside =
-        fs::weakly_canonical(survey_).lexically_relative(fs::weakly_canonical(settings_.photos));
-    if (!inside.empty() && inside.substr(0, 2) != "..") {
-      Refuse(ErrorKind::kBadInput,
-             fmt::format("{}: the survey lies inside its photo folder", survey_.string()),
-             "create the survey beside the photo folder; photos are never written to");
+    try {
+      RequireApart(survey_, settings_.photos, table_);
+    } catch (const Error& e) {
+      Refuse(e.kind(), e.what(), e.remedy());
     }
   }
 
@@ -169,6 +167,7 @@ class Checker {
   }
 
   const fs::path& survey_;
+  const StageTable& table_;
   const Settings& settings_;
   CheckResult result_;
 };
@@ -185,7 +184,7 @@ int ResolvedThreads(const RunSettings& settings) {
 
 CheckResult Check(const fs::path& survey, const StageTable& table, const Settings& settings,
                   const std::vector<std::string>& stages) {
-  return Checker(survey, settings).Run(table, stages);
+  return Checker(survey, table, settings).Run(stages);
 }
 
 void ThrowIfFatal(const CheckResult& result) {

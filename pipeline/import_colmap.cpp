@@ -10,6 +10,7 @@
 #include <set>
 
 #include "pipeline/fingerprint.h"
+#include "pipeline/layout.h"
 #include "pipeline/lock.h"
 #include "pipeline/outputs.h"
 #include "pipeline/run_stage.h"
@@ -190,6 +191,7 @@ void WriteCalib(const Reconstruction& model, const Calibration& calibration, con
 
 ImportReport ImportColmap(const fs::path& survey, const fs::path& source, const StageTable& table) {
   const Settings settings = LoadSettings(survey, table, {});
+  RequireApart(survey, settings.photos, table);
   Reconstruction model = ReadColmapModel(source);
   if (const auto problem = FindProblem(model)) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", source.string(), *problem),
@@ -204,7 +206,10 @@ ImportReport ImportColmap(const fs::path& survey, const fs::path& source, const 
   const Calibration calibration = DescribeModel(model, survey, absolute);
   ScratchFolder scratch(survey, kCalibStage);
   WriteCalib(model, calibration, scratch.path());
-  scratch.Publish();
+  if (const auto moved = scratch.Publish()) {
+    report.notes.push_back(fmt::format("a folder {} that stucco did not make is now {}",
+                                       kCalibStage, moved->string()));
+  }
 
   const WorkFolder work(survey);
   HashCache hashes(work.Hashes());

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/layout.h"
 #include "pipeline/resources.h"
 #include "pipeline/settings.h"
 #include "survey/error.h"
@@ -15,10 +16,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// True for a folder itself and for all that is below it.
-bool IsInside(const fs::path& path, const fs::path& folder) {
-  const std::string relative = path.lexically_relative(folder).string();
-  return !relative.empty() && relative.substr(0, 2) != "..";
+// A run replaces what is named like a stage.
+void RequireNoStageNames(const fs::path& survey, const StageTable& table) {
+  for (const Stage& stage : table) {
+    std::error_code error;
+    if (fs::exists(fs::symlink_status(survey / stage.name, error))) {
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("{}: already has an entry {}, where a run would put its results",
+                              survey.string(), stage.name),
+                  "choose a new folder for the survey");
+    }
+  }
 }
 
 }  // namespace
@@ -36,20 +44,15 @@ PhotoFolder InitSurvey(const fs::path& survey, const fs::path& photos, const Sta
                 "choose another name for the survey");
   }
   const PhotoFolder found = InspectPhotos(photos, AvailableCores());
-  const fs::path real_survey = fs::weakly_canonical(survey);
-  const fs::path real_photos = fs::canonical(photos);
-  if (IsInside(real_survey, real_photos)) {
-    throw Error(
-        ErrorKind::kBadInput,
-        fmt::format("{}: lies inside the photo folder {}", survey.string(), photos.string()),
-        "choose a folder beside the photos; the photo folder is never written to");
-  }
+  RequireApart(survey, photos, table);
+  RequireNoStageNames(survey, table);
   fs::create_directories(survey, error);
   if (error) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: cannot be created ({})", survey.string(), error.message()),
                 "choose a folder that you may write to");
   }
+  const fs::path real_survey = RealPath(survey), real_photos = RealPath(photos);
   const std::string written = IsInside(real_photos, real_survey)
                                   ? real_photos.lexically_relative(real_survey).generic_string()
                                   : real_photos.string();

@@ -11,8 +11,9 @@ namespace stucco {
 
 // Creates a survey folder with a survey.toml that names the photo folder, relative when it lies
 // inside the survey. Returns what is in the photo folder. Throws Error (kBadInput), having
-// created nothing, when there already is a survey, when the photo folder is not there or holds the
-// survey, or when the survey cannot be written.
+// created nothing, when there already is a survey, when the photo folder is not there, holds
+// the survey or lies where a stage would replace it, when the folder has entries named like a
+// stage, or when the survey cannot be written.
 PhotoFolder InitSurvey(const std::filesystem::path& survey, const std::filesystem::path& photos,
                        const StageTable& table);
 

@@ -11,8 +11,10 @@
 #include <cerrno>
 #include <cstring>
 
+#include "pipeline/manifest.h"
 #include "pipeline/work_folder.h"
 #include "survey/error.h"
+#include "survey/files.h"
 
 namespace stucco {
 namespace {
@@ -60,7 +62,37 @@ void Rename(const fs::path& from, const fs::path& to) {
   }
 }
 
+bool IsOurs(const fs::path& survey, const std::string& stage) {
+  const WorkFolder work(survey);
+  std::error_code error;
+  return fs::exists(work.Mark(stage), error) || ReadManifest(work.Manifest(stage)).manifest;
+}
+
+// The first of <target>.old-1, <target>.old-2 ... that is free.
+fs::path FreeNameBeside(const fs::path& target) {
+  for (int number = 1;; ++number) {
+    const fs::path name = fmt::format("{}{}-{}", target.string(), kOldSuffix, number);
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(name, error))) {
+      return name;
+    }
+  }
+}
+
 }  // namespace
+
+void MarkAsOurs(const fs::path& survey, const std::string& stage) {
+  const fs::path mark = WorkFolder(survey).Mark(stage);
+  std::error_code error;
+  if (fs::exists(mark, error)) {
+    return;
+  }
+  fs::create_directories(mark.parent_path(), error);
+  if (error) {
+    Fail(mark.parent_path(), "cannot be created", error.value());
+  }
+  WriteFileAtomically(mark, "survey/" + stage + " is made by stucco and replaced by its runs\n");
+}
 
 bool ExchangeFolders(const fs::path& a, const fs::path& b) {
   return !exchange_forbidden &&
@@ -72,7 +104,9 @@ void ForbidFolderExchange(bool forbidden) {
 }
 
 ScratchFolder::ScratchFolder(const fs::path& survey, const std::string& stage)
-    : path_(WorkFolder(survey).Scratch() / fmt::format("{}-{}", stage, getpid())),
+    : survey_(survey),
+      stage_(stage),
+      path_(WorkFolder(survey).Scratch() / fmt::format("{}-{}", stage, getpid())),
       target_(survey / stage) {
   std::error_code error;
   fs::remove_all(path_, error);
@@ -87,8 +121,16 @@ ScratchFolder::~ScratchFolder() {
   fs::remove_all(path_, error);
 }
 
-void ScratchFolder::Publish() {
+std::optional<fs::path> ScratchFolder::Publish() {
   FlushTree(path_);
+  std::optional<fs::path> moved;
+  if (fs::exists(fs::symlink_status(target_)) && !IsOurs(survey_, stage_)) {
+    moved = FreeNameBeside(target_);
+    Rename(target_, *moved);
+  }
+  // Before the outputs are in place: a kill between them and their manifest does not make them
+  // somebody else's.
+  MarkAsOurs(survey_, stage_);
   if (!fs::exists(target_)) {
     Rename(path_, target_);
   } else if (!ExchangeFolders(path_, target_)) {
@@ -100,10 +142,11 @@ void ScratchFolder::Publish() {
     Rename(path_, target_);
     Flush(target_.parent_path());
     fs::remove_all(old);
-    return;
+    return moved;
   }
   Flush(target_.parent_path());
   fs::remove_all(path_);  // holds the old outputs after an exchange
+  return moved;
 }
 
 void CleanScratch(const fs::path& survey) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace stucco {
@@ -20,13 +21,21 @@ class ScratchFolder {
   const std::filesystem::path& path() const { return path_; }
 
   // Flushes every file to disk and puts the folder in the place of survey/<stage> in one step: at
-  // any moment there is the whole old folder or the whole new one. Throws Error.
-  void Publish();
+  // any moment there is the whole old folder or the whole new one. What was there is removed when
+  // this program made it; anything else is the user's and is moved to survey/<stage>.old-N, which
+  // is returned. Throws Error.
+  std::optional<std::filesystem::path> Publish();
 
  private:
+  std::filesystem::path survey_;
+  std::string stage_;
   std::filesystem::path path_;
   std::filesystem::path target_;
 };
+
+// Notes that survey/<stage> is made by this program, as its manifest does: for outputs whose
+// manifest is not yet written or not there any more. Throws Error.
+void MarkAsOurs(const std::filesystem::path& survey, const std::string& stage);
 
 // Removes what killed runs left behind, and restores outputs that a kill caught half way of being
 // replaced on a file system that cannot exchange two folders. Call it with the lock held.

@@ -44,7 +44,13 @@ void ComputeAndPublish(const StageJob& job, Console& console, EventLog& events, 
     job.bound.run(context);
     context.ThrowIfCancelled();
   }
-  scratch.Publish();
+  if (const auto moved = scratch.Publish()) {
+    const std::string text =
+        fmt::format("{} was not made by stucco and is now {}; remove it when you do not need it",
+                    (job.paths.survey / job.stage.name).string(), moved->string());
+    console.Warning(fmt::format("  {}: warning: {}", job.stage.name, text));
+    events.Write("warning", {{"stage", job.stage.name}, {"text", text}});
+  }
 }
 
 void RecordFailure(const Failure& failure, const SurveyPaths& paths, EventLog& events) {

@@ -10,7 +10,8 @@
 namespace stucco {
 
 // What the orchestrator keeps in a survey's `.stucco` folder. All of it may be deleted while no
-// run is going on: the price is that the stages run again.
+// run is going on: the price is that the stages run again, and that outputs which are there are
+// moved aside instead of replaced.
 struct WorkFolder {
   explicit WorkFolder(const std::filesystem::path& survey) : root(survey / kWorkFolder) {}
 
@@ -20,6 +21,8 @@ struct WorkFolder {
   std::filesystem::path Failure(const std::string& stage) const {
     return root / "failures" / (stage + ".json");
   }
+  // Says that survey/<stage> was made by this program, even where its manifest is missing.
+  std::filesystem::path Mark(const std::string& stage) const { return root / "made" / stage; }
   std::filesystem::path Units(const std::string& stage) const { return root / "units" / stage; }
   std::filesystem::path Scratch() const { return root / "scratch"; }
   std::filesystem::path Hashes() const { return root / "hashes.txt"; }

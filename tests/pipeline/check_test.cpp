@@ -68,7 +68,19 @@ TEST_F(CheckTest, RefusesAFolderWithoutEnoughPhotos) {
 
 TEST_F(CheckTest, RefusesASurveyAmongItsPhotos) {
   WriteFile(fake.survey / "survey.toml", "photos = \"..\"\n");
-  EXPECT_THAT(Check().problems.at(0).what, HasSubstr("inside its photo folder"));
+  EXPECT_THAT(Check().problems.at(0).what, HasSubstr("inside the photo folder"));
+}
+
+TEST_F(CheckTest, RefusesPhotosWhereAStageWouldReplaceThem) {
+  for (const std::string folder : {"calib", "dense/photos", ".stucco/photos"}) {
+    fs::create_directories(fake.survey / folder);
+    fs::copy(fake.photos, fake.survey / folder);
+    WriteFile(fake.survey / "survey.toml", "photos = \"" + folder + "\"\n");
+    EXPECT_THAT(Check().problems.at(0).what, HasSubstr("which a run replaces"));
+    const auto before = fake.Outputs();
+    EXPECT_THROW(fake.Run(), Error);
+    EXPECT_EQ(fake.Outputs(), before);
+  }
 }
 
 TEST_F(CheckTest, SaysWhenDiskOrMemoryWillNotDo) {

@@ -158,6 +158,36 @@ TEST(Outputs, AreRestoredAfterAKillInTheMiddleOfAReplacement) {
   EXPECT_TRUE(FilesBelow(scratch).empty());
 }
 
+TEST(Outputs, NeverReplaceAFolderOfTheUser) {
+  for (const bool forbidden : {false, true}) {
+    FakeSurvey fake;
+    ForbidFolderExchange(forbidden);
+    fs::create_directories(fake.survey / "calib/mine");
+    WriteFile(fake.survey / "calib/mine/thesis.txt", "years of work");
+    fs::create_directories(fake.survey / "calib.old-1");
+    WriteFile(fake.survey / "report", "a file");
+    EXPECT_EQ(fake.Run().exit_code, 0);
+    auto outputs = fake.Outputs();
+    EXPECT_EQ(outputs.at("calib.old-2/mine/thesis.txt"), "years of work");
+    EXPECT_EQ(outputs.at("report.old-1"), "a file");
+    EXPECT_EQ(outputs.count("calib/mine/thesis.txt"), 0u);
+    EXPECT_THAT(fake.log, HasSubstr("calib was not made by stucco and is now"));
+    fake.SetOption("calib.size", "2");
+    EXPECT_EQ(fake.Run().exit_code, 0);
+    EXPECT_FALSE(fs::exists(fake.survey / "calib.old-3"));
+    ForbidFolderExchange(false);
+  }
+}
+
+TEST(Outputs, OfARunThatWasKilledBeforeItsManifestAreReplaced) {
+  FakeSurvey fake;
+  fake.Run();
+  const auto outputs = fake.Outputs();
+  fs::remove(WorkFolder(fake.survey).Manifest("calib"));
+  EXPECT_EQ(FakeSurvey::Ran(fake.Run()), (Stages{"calib"}));
+  EXPECT_EQ(fake.Outputs(), outputs);
+}
+
 // A file system of 200 KiB. Needs the right to mount, as in a container's root.
 class TinyDisk {
  public:

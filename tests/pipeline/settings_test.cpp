@@ -183,6 +183,16 @@ TEST(Init, RefusesWithoutLeavingAnythingBehind) {
   EXPECT_THAT(refused(fake.photos / "a", fake.photos), HasSubstr("inside the photo folder"));
   EXPECT_THAT(refused(fake.photos, fake.photos), HasSubstr("inside the photo folder"));
   EXPECT_THAT(refused(fake.photos / "p0.jpg", fake.photos), HasSubstr("is a file"));
+  for (const char* taken : {"own/ingest", "own/calib/deep", "own/.stucco"}) {
+    fs::create_directories(fake.root / taken);
+    fs::copy(fake.photos, fake.root / taken);
+    EXPECT_THAT(refused(fake.root / "own", fake.root / taken), HasSubstr("which a run replaces"));
+    fs::create_directory_symlink(fake.root / taken, fake.root / "link");
+    EXPECT_THAT(refused(fake.root / "own", fake.root / "link"), HasSubstr("which a run replaces"));
+    fs::remove(fake.root / "link");
+  }
+  EXPECT_THAT(refused(fake.root / "own", fake.photos), HasSubstr("already has an entry ingest"));
+  EXPECT_FALSE(fs::exists(fake.root / "own/survey.toml"));
   EXPECT_FALSE(fs::exists(fake.root / "a"));
   EXPECT_FALSE(fs::exists(fake.photos / "survey.toml"));
 }
