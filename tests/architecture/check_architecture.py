@@ -106,7 +106,8 @@ def spdx_problems(path, text):
 
 def readme_problems(root):
     for module in sorted(MODULES):
-        if (root / module / "CMakeLists.txt").exists() and not (root / module / "README.md").exists():
+        folder = root / module
+        if (folder / "CMakeLists.txt").exists() and not (folder / "README.md").exists():
             yield f"{module}: has no README.md"
 
 
