@@ -7,8 +7,8 @@
 #   bench/compare_colmap.sh SET [--size PX] [--known] [--out DIR] [--stucco PROGRAM]
 #
 # SET holds images/ and gt_dense_cameras/ (Strecha's format) or truth/ (a COLMAP text model) beside
-# photos/. With --known both are given the camera matrix of the first true camera and hold it. Results
-# stay in DIR; a second call with the same DIR measures again only what was deleted there.
+# photos/. With --known both are given the camera matrix of the first true camera and hold it.
+# Results stay in DIR; a second call with the same DIR measures again only what was deleted there.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 stucco=$here/../build/dev/cli/stucco
@@ -45,20 +45,25 @@ if [ -n "$known" ]; then
   matrix=$(tr -s ' \n' ' ' <"$first" | awk '{print $1 "," $5 "," $3 "," $6}')
 fi
 
+# For a shell of its own, so that the three steps are measured as one command. It gets photos,
+# folder, size and matrix as $1 to $4: pasted into the text, an apostrophe in a path would break it.
+# shellcheck disable=SC2016  # that shell expands them
+colmap_steps='
+set -e
+colmap feature_extractor --database_path "$2/db" --image_path "$1" \
+  --ImageReader.single_camera 1 --SiftExtraction.use_gpu 0 --SiftExtraction.max_image_size "$3" \
+  ${4:+--ImageReader.camera_model PINHOLE --ImageReader.camera_params "$4"}
+colmap exhaustive_matcher --database_path "$2/db" --SiftMatching.use_gpu 0
+colmap mapper --database_path "$2/db" --image_path "$1" --output_path "$2/sparse" \
+  ${4:+--Mapper.ba_refine_focal_length 0 --Mapper.ba_refine_principal_point 0 \
+  --Mapper.ba_refine_extra_params 0}
+'
+
 run_colmap() {
   rm -rf "$out/colmap"
   mkdir -p "$out/colmap/sparse"
-  cat >"$out/colmap/run.sh" <<EOF
-set -e
-colmap feature_extractor --database_path '$out/colmap/db' --image_path '$photos' \
-  --ImageReader.single_camera 1 --SiftExtraction.use_gpu 0 --SiftExtraction.max_image_size $size \
-  ${known:+--ImageReader.camera_model PINHOLE --ImageReader.camera_params $matrix}
-colmap exhaustive_matcher --database_path '$out/colmap/db' --SiftMatching.use_gpu 0
-colmap mapper --database_path '$out/colmap/db' --image_path '$photos' \
-  --output_path '$out/colmap/sparse' ${known:+--Mapper.ba_refine_focal_length 0 \
-  --Mapper.ba_refine_principal_point 0 --Mapper.ba_refine_extra_params 0}
-EOF
-  "$here/measure.py" "$out/colmap.new" sh "$out/colmap/run.sh" >"$out/colmap/log" 2>&1
+  "$here/measure.py" "$out/colmap.new" sh -c "$colmap_steps" colmap_steps \
+    "$photos" "$out/colmap" "$size" "$matrix" >"$out/colmap/log" 2>&1
   mkdir -p "$out/colmap/text"
   colmap model_converter --input_path "$out/colmap/sparse/0" --output_path "$out/colmap/text" \
     --output_type TXT >>"$out/colmap/log" 2>&1
@@ -91,7 +96,8 @@ print(f"| {sys.argv[1]} | {errors['posed']} / {errors['total']} "
 EOF
 }
 echo "$(basename "$set_dir") at $size px${known:+, known camera matrix held}:"
-echo "| program | posed | position mean mm | max mm | rotation mean deg | wall s | CPU s | memory MB |"
+printf '| %s | %s |\n' "program | posed | position mean mm | max mm" \
+  "rotation mean deg | wall s | CPU s | memory MB"
 echo "| --- | --- | --- | --- | --- | --- | --- | --- |"
 row "COLMAP" "$out/colmap/text" "$out/colmap.json"
 row "Stucco" "$out/text" "$out/stucco.json"

@@ -7,8 +7,8 @@
 
 MODEL holds images.txt. TRUTH holds either images.txt (COLMAP) or one <photo>.camera file per photo
 (Strecha et al., "On Benchmarking Camera Calibration and Multi-View Stereo", CVPR 2008). Positions
-are compared after the least-squares similarity of the camera centres (Umeyama 1991), so that neither
-side needs to know the other's world frame; the errors are in the unit of the truth (metres).
+are compared after the least-squares similarity of the camera centres (Umeyama 1991), so that
+neither side needs to know the other's world frame; errors are in the unit of the truth (metres).
 """
 import argparse
 import dataclasses

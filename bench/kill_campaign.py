@@ -4,7 +4,8 @@
 """Kills runs of a survey at random moments, continues them, and compares the result with a run that
 nobody disturbed.
 
-  bench/kill_campaign.py PHOTOS OUT [--kills 20] [--seed 1] [--threads 2] [--stucco PROGRAM] [-- ARGS]
+  bench/kill_campaign.py PHOTOS OUT [--kills 20] [--seed 1] [--threads 2] [--stucco PROGRAM]
+                         [-- ARGS]
 
 Fails when an output differs in a byte, when a unit was computed again after its checkpoint, or when
 a file of the photo folder changed. ARGS go to `stucco run`.

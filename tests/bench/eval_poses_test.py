@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the Stucco authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests of bench/eval_poses.py: a wrong ruler would make every figure in docs/benchmarks.md wrong."""
+"""Tests of bench/eval_poses.py: a wrong ruler would make every figure in docs/benchmarks.md
+wrong."""
 import pathlib
 import sys
 import tempfile

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of what the scripts in bench/ and scripts/ decide by themselves."""
 import json
+import os
 import pathlib
 import re
 import signal
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -79,6 +81,68 @@ class KeyFigures(unittest.TestCase):
     def test_tilt_of_a_wall(self):
         self.assertAlmostEqual(key_figures.tilt_deg([1, 0, 0], [0, 0, 1]), 0)
         self.assertAlmostEqual(key_figures.tilt_deg([1, 0, 1], [0, 0, 2]), 45)
+
+
+class CompareColmap(unittest.TestCase):
+    """With a stand-in for both programs that answers with the true cameras."""
+    STAND_IN = """#!/bin/sh
+echo "$*" >>"$COMMANDS"
+case $1 in model_converter | export) ;; *) exit 0 ;; esac
+while [ $# -gt 1 ]; do
+  case $1 in --output_path | -o) mkdir -p "$2" && cp "$TRUTH/images.txt" "$2" ;; esac
+  shift
+done
+"""
+    CAMERAS = "".join(f"{i} 1 0 0 0 {i} {i * i} 0 1 photo {i}.jpg\n\n" for i in range(1, 5))
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.root = pathlib.Path(scratch.name) / "it's a \"place\" for $1"
+        for folder in ("set/photos", "set/truth", "bin"):
+            (self.root / folder).mkdir(parents=True)
+        (self.root / "set/truth/images.txt").write_text(self.CAMERAS)
+        for name in ("colmap", "stucco"):
+            program = self.root / "bin" / name
+            program.write_text(self.STAND_IN)
+            program.chmod(0o755)
+
+    def compare(self, *words):
+        environment = dict(os.environ, TRUTH=str(self.root / "set/truth"),
+                           COMMANDS=str(self.root / "commands"),
+                           PATH=f"{self.root / 'bin'}:{os.environ['PATH']}")
+        process = subprocess.run(
+            [ROOT / "bench/compare_colmap.sh", self.root / "set", "--out", self.root / "out",
+             "--stucco", self.root / "bin/stucco", *words],
+            env=environment, capture_output=True, text=True, check=False)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return process.stdout
+
+    def test_measures_in_a_folder_with_an_awkward_name(self):
+        table = self.compare()
+        self.assertIn("| COLMAP | 4 / 4 | 0.00 |", table)
+        self.assertIn("| Stucco | 4 / 4 | 0.00 |", table)
+        columns = {line.count("|") for line in table.splitlines() if line.startswith("|")}
+        self.assertEqual(columns, {9})
+        commands = (self.root / "commands").read_text()
+        self.assertIn(f"--image_path {self.root}/set/photos --output_path {self.root}/out/colmap/",
+                      commands)
+        self.assertNotIn("PINHOLE", commands)
+
+    def test_stops_when_a_program_fails(self):
+        (self.root / "bin/colmap").write_text("#!/bin/sh\nexit 1\n")
+        with self.assertRaises(AssertionError):
+            self.compare()
+        self.assertFalse((self.root / "out/colmap.json").exists())
+
+    def test_gives_and_holds_a_known_matrix(self):
+        (self.root / "set/truth/a.camera").write_text("900 0 400\n0 901 300\n0 0 1\n0 0 0\n")
+        self.compare("--known")
+        commands = (self.root / "commands").read_text()
+        self.assertIn("--ImageReader.camera_model PINHOLE "
+                      "--ImageReader.camera_params 900,901,400,300\n", commands)
+        self.assertIn("--Mapper.ba_refine_extra_params 0\n", commands)
+        self.assertIn("--set ingest.prior_camera=900,901,400,300", commands)
 
 
 class SlowestUnits(unittest.TestCase):
