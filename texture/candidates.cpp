@@ -15,6 +15,8 @@ namespace {
 constexpr double kBorderShare = 0.04;
 // Not used at all: lenses are at their worst there, and alignment may still move the picture.
 constexpr double kUnusedShare = 0.005;
+// Less than this, as a share of the facet, is no coverage worth a photo.
+constexpr double kLeastGain = 0.002;
 
 // Photo pixels per raster texel at a texel's centre, or nothing where the photo does not show it.
 std::optional<Eigen::Matrix2d> PixelsPerTexel(const TexturePhoto& photo, const TexelGrid& raster,
@@ -74,6 +76,41 @@ double RoundedToTwoDigits(double value) {
   return std::round(value / unit) * unit;
 }
 
+// The views that see something, by merit; `photo` is the index of the view.
+std::vector<Candidate> MakePool(std::span<const RasterView> views,
+                                std::span<const std::vector<float>> costs, double total) {
+  std::vector<Candidate> pool;
+  for (size_t v = 0; v < views.size(); ++v) {
+    Candidate candidate{static_cast<int>(v)};
+    for (size_t i = 0; i < costs[v].size(); ++i) {
+      if (views[v].texels[i].sight == Sight::kNot) continue;
+      candidate.seen += 1 / total;
+      candidate.merit += std::max(0.0f, 1 - costs[v][i]) / total;
+    }
+    if (candidate.seen > 0) pool.push_back(candidate);
+  }
+  std::stable_sort(pool.begin(), pool.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.merit > b.merit; });
+  return pool;
+}
+
+// What a view adds to the merit reached so far, in texels; `new_only`: where nothing was reached.
+double GainOf(const RasterView& view, const std::vector<float>& costs,
+              const std::vector<float>& reached, bool new_only) {
+  double gain = 0;
+  for (size_t i = 0; i < costs.size(); ++i) {
+    if (view.texels[i].sight == Sight::kNot || (new_only && reached[i] > 0)) continue;
+    gain += std::max(0.0f, 1 - costs[i] - reached[i]);
+  }
+  return gain;
+}
+
+void Reach(const RasterView& view, const std::vector<float>& costs, std::vector<float>& reached) {
+  for (size_t i = 0; i < costs.size(); ++i) {
+    if (view.texels[i].sight != Sight::kNot) reached[i] = std::max(reached[i], 1 - costs[i]);
+  }
+}
+
 }  // namespace
 
 RasterView MeasureView(std::span<const TexturePhoto> photos, int photo_index, const Facet& facet,
@@ -128,52 +165,41 @@ float ViewCost(const TexelView& view, double raster_texel, double texel, double 
                             0.1 * view.border);
 }
 
+std::vector<float> ViewCosts(const RasterView& view, double raster_texel, double texel,
+                             double sharpness) {
+  std::vector<float> costs(view.texels.size(), 0);
+  for (size_t i = 0; i < costs.size(); ++i) {
+    if (view.texels[i].sight == Sight::kNot) continue;
+    costs[i] = ViewCost(view.texels[i], raster_texel, texel, sharpness);
+  }
+  return costs;
+}
+
 std::vector<Candidate> RankCandidates(std::span<const RasterView> views,
                                       std::span<const uint16_t> inside,
                                       std::span<const std::vector<float>> costs, int max_count) {
   const auto total = static_cast<double>(
       std::count_if(inside.begin(), inside.end(), [](auto n) { return n > 0; }));
-  std::vector<Candidate> pool;
-  for (size_t v = 0; v < views.size(); ++v) {
-    Candidate candidate{static_cast<int>(v)};
-    for (size_t i = 0; i < inside.size(); ++i) {
-      if (views[v].texels[i].sight == Sight::kNot) continue;
-      candidate.seen += 1 / total;
-      candidate.merit += std::max(0.0f, 1 - costs[v][i]) / total;
-    }
-    if (candidate.seen > 0) pool.push_back(candidate);
-  }
-  std::stable_sort(pool.begin(), pool.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.merit > b.merit; });
+  std::vector<Candidate> pool = MakePool(views, costs, total);
   std::vector<Candidate> out;
   std::vector<float> reached(inside.size(), 0);
-  const auto take = [&](size_t k) {
-    const int v = pool[k].photo;
-    for (size_t i = 0; i < inside.size(); ++i) {
-      if (views[v].texels[i].sight == Sight::kNot) continue;
-      reached[i] = std::max(reached[i], 1 - costs[v][i]);
-    }
-    out.push_back(pool[k]);
-    pool.erase(pool.begin() + static_cast<std::ptrdiff_t>(k));
-  };
-  while (!pool.empty() && static_cast<int>(out.size()) < max_count) {
+  while (!pool.empty() && static_cast<int>(out.size()) < kMostCandidates) {
+    const bool full = static_cast<int>(out.size()) >= max_count;
     size_t best = 0;
-    double best_gain = 0.002 * total;  // less than this is no coverage worth a photo
+    double best_gain = kLeastGain * total;
     bool found = false;
     for (size_t k = 0; k < pool.size(); ++k) {
-      double gain = 0;
       const int v = pool[k].photo;
-      for (size_t i = 0; i < inside.size(); ++i) {
-        if (views[v].texels[i].sight == Sight::kNot) continue;
-        gain += std::max(0.0f, 1 - costs[v][i] - reached[i]);
-      }
-      if (gain > best_gain) {
-        best_gain = gain;
-        best = k;
-        found = true;
-      }
+      const double gain = GainOf(views[v], costs[v], reached, full);
+      if (!(gain > best_gain)) continue;
+      best_gain = gain;
+      best = k;
+      found = true;
     }
-    take(found ? best : 0);
+    if (full && !found) break;
+    Reach(views[pool[best].photo], costs[pool[best].photo], reached);
+    out.push_back(pool[best]);
+    pool.erase(pool.begin() + static_cast<std::ptrdiff_t>(best));
   }
   for (Candidate& candidate : out) candidate.photo = views[candidate.photo].photo;
   return out;

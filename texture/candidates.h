@@ -63,6 +63,13 @@ RasterView MeasureView(std::span<const TexturePhoto> photos, int photo, const Fa
 // (against one photo pixel per texel of size `texel`), 0.3 obliqueness, 0.2 sharpness, 0.1 border.
 float ViewCost(const TexelView& view, double raster_texel, double texel, double sharpness);
 
+// ViewCost of every texel, 0 where not seen.
+std::vector<float> ViewCosts(const RasterView& view, double raster_texel, double texel,
+                             double sharpness);
+
+// Of one facet: the labels that say who painted a texel are bytes, and two have other meanings.
+inline constexpr int kMostCandidates = 254;
+
 // A photo that can paint part of a facet.
 struct Candidate {
   int photo = -1;
@@ -70,9 +77,10 @@ struct Candidate {
   double merit = 0;  // mean over the raster of 1 - cost where seen
 };
 
-// The best photos for a facet, at most `max_count`: first those that bring the most merit where the
-// ones before left most to be wished for, so that every part seen by anyone stays covered, then by
-// merit. In that order.
+// The best photos for a facet: first those that bring the most merit where the ones before left
+// most to be wished for, then by merit, `max_count` in all. Photos that show what none of the
+// others does come in addition, up to kMostCandidates, so that large facets stay covered. In that
+// order.
 std::vector<Candidate> RankCandidates(std::span<const RasterView> views,
                                       std::span<const uint16_t> inside,
                                       std::span<const std::vector<float>> costs, int max_count);

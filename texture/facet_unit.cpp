@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 // Raise when the meaning of a unit or the method behind it changes.
-constexpr char kVersion[] = "1";
+constexpr char kVersion[] = "2";
 
 json FromVector(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
@@ -155,7 +155,9 @@ std::string PackLook(const FacetLook& look) {
   for (const ColourRatio& r : look.ratios) {
     ratios.push_back({r.a, r.b, r.weight, FromVector(r.log_ratio)});
   }
-  return ToBytes({{"candidates", candidates}, {"texel", look.texel}, {"ratios", ratios}});
+  const json limits = {look.limits.max_angle_deg, look.limits.tolerance, look.limits.clearance};
+  return ToBytes(
+      {{"candidates", candidates}, {"texel", look.texel}, {"ratios", ratios}, {"limits", limits}});
 }
 
 FacetLook UnpackLook(const std::string& bytes) {
@@ -166,6 +168,8 @@ FacetLook UnpackLook(const std::string& bytes) {
     for (const json& c : j.at("candidates")) {
       look.candidates.push_back({c.at(0), c.at(1), c.at(2)});
     }
+    const json& limits = j.at("limits");
+    look.limits = {limits.at(0), limits.at(1), limits.at(2)};
     for (const json& r : j.at("ratios")) {
       look.ratios.push_back({r.at(0), r.at(1), ToVector(r.at(3)), r.at(2)});
     }
@@ -239,8 +243,9 @@ std::string LookKey(const Facet& facet, const TextureInput& input, const Texture
 
 std::string FilesKey(const Facet& facet, const FacetLook& look, const TextureInput& input,
                      std::span<const Eigen::Vector3d> gains, const TextureOptions& options) {
-  std::vector<std::string> parts = {kVersion, facet.id, input.geometry_hash, OptionsText(options),
-                                    fmt::format("{}", look.texel)};
+  std::vector<std::string> parts = {
+      kVersion, facet.id, input.geometry_hash, OptionsText(options),
+      fmt::format("{} {} {}", look.texel, look.limits.tolerance, look.limits.clearance)};
   for (const Candidate& candidate : look.candidates) {
     const Eigen::Vector3d& gain = gains[candidate.photo];
     parts.push_back(PhotoText(input.photos[candidate.photo]));

@@ -13,8 +13,10 @@ void Describe(OptionTable& table, TextureOptions& options) {
   table.Add("max_angle_deg", options.max_angle_deg, 10, 89,
             "A photo is not used where it looks at the surface at more than this angle from its "
             "normal, degrees.");
-  table.Add("max_candidates", options.max_candidates, 1, 64,
-            "Photos that compete for one facet; the best are kept.");
+  table.Add(
+      "max_candidates", options.max_candidates, 1, 64,
+      "Photos that compete for one facet: the best are kept, and beyond their number only those "
+      "that show what no other does.");
   table.Add("cell_px", options.cell_px, 4, 256,
             "Side in texels of the cells between which seams may run.");
   table.Add("photo_cost", options.photo_cost, 0, 10,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "texture/align.h"
@@ -17,12 +16,12 @@
 namespace stucco {
 namespace {
 
-constexpr int kLookSide = 32;           // raster of the first look
-constexpr int kCellSplit = 4;           // raster texels per cell side
-constexpr double kMostCells = 20000;    // of one facet
-constexpr int kSelectPhotoSide = 1600;  // photos are read this small for looking and selecting
-constexpr int kAlignSide = 1600;        // longest side of the alignment raster
-constexpr int kMostPhotos = 254;        // labels are bytes
+constexpr int kCellSplit = 4;         // raster texels per cell side
+constexpr double kMostCells = 20000;  // of one facet
+// Bounds on what selection holds, about 60 bytes per view of a raster texel and 4 per seam.
+constexpr double kMostRasterViews = 1e7;  // raster texels times candidates
+constexpr double kMostSeams = 1e8;        // cells times two directions times pairs of candidates
+constexpr int kAlignSide = 1600;          // longest side of the alignment raster
 constexpr int kPatchFillSide = 512;
 constexpr double kMostPatchFilled = 0.5;  // of the facet: beyond, copies would be invention
 constexpr uint32_t kFillSeed = 20260101;
@@ -40,30 +39,13 @@ void ApplyGain(const Eigen::Vector3d& gain, std::vector<float>& rgb) {
   }
 }
 
-std::vector<float> SampleRaster(const TexturePhoto& photo, const TexelGrid& raster,
-                                PhotoCache& cache) {
-  return SamplePhoto(photo, *cache.Get(photo.name, kSelectPhotoSide), raster,
-                     {0, 0, raster.width, raster.height})
-      .rgb;
-}
-
-std::vector<float> CostsOf(const RasterView& view, double raster_texel, double texel,
-                           double sharpness) {
-  std::vector<float> costs(view.texels.size(), 0);
-  for (size_t i = 0; i < costs.size(); ++i) {
-    if (view.texels[i].sight == Sight::kNot) continue;
-    costs[i] = ViewCost(view.texels[i], raster_texel, texel, sharpness);
-  }
-  return costs;
-}
-
 RasterPicture MakeRasterPicture(const RasterView& view, const TexelGrid& raster, double texel,
                                 const Eigen::Vector3d& gain, const PaintScene& scene) {
   const TexturePhoto& photo = scene.photos[view.photo];
   RasterPicture picture;
   picture.sight.reserve(view.texels.size());
   for (const TexelView& seen : view.texels) picture.sight.push_back(seen.sight);
-  picture.cost = CostsOf(view, raster.texel, texel, photo.sharpness);
+  picture.cost = ViewCosts(view, raster.texel, texel, photo.sharpness);
   picture.rgb = SampleRaster(photo, raster, *scene.cache);
   SkyClues clues;
   for (const TexelView& seen : view.texels) clues.no_points.push_back(seen.no_points);
@@ -73,9 +55,12 @@ RasterPicture MakeRasterPicture(const RasterView& view, const TexelGrid& raster,
   return picture;
 }
 
-// Texels per cell: the wish, a multiple of kCellSplit, larger on large facets.
-int CellSide(const TexelGrid& grid, int wish_px) {
-  const double needed = std::sqrt(static_cast<double>(grid.size()) / kMostCells);
+// Texels per cell: the wish, a multiple of kCellSplit, larger on large facets with many candidates.
+int CellSide(const TexelGrid& grid, int wish_px, size_t candidates) {
+  const auto count = static_cast<double>(candidates);
+  const double most = std::min({kMostCells, kMostRasterViews / (kCellSplit * kCellSplit * count),
+                                kMostSeams / (2 * count * count)});
+  const double needed = std::sqrt(static_cast<double>(grid.size()) / most);
   const double side = std::max(needed, static_cast<double>(wish_px)) / kCellSplit;
   return kCellSplit * std::max(1, static_cast<int>(std::ceil(side)));
 }
@@ -93,7 +78,7 @@ void KeepUsed(std::vector<RasterView>& views, std::span<const uint16_t> inside,
   std::vector<int> number(views.size(), -1);
   std::vector<RasterView> kept;
   for (int old : order) {
-    if (area[old] == 0 || static_cast<int>(kept.size()) >= kMostPhotos) continue;
+    if (area[old] == 0 || static_cast<int>(kept.size()) >= kMostCandidates) continue;
     number[old] = static_cast<int>(kept.size());
     kept.push_back(std::move(views[old]));
   }
@@ -105,16 +90,15 @@ Selected SelectPhotos(const Facet& facet, const FacetLook& look, const PaintedFa
                       std::span<const Eigen::Vector3d> gains, const PaintScene& scene,
                       const TextureOptions& options) {
   Selected out;
-  const int cell = CellSide(canvas.grid, options.cell_px);
+  const int cell = CellSide(canvas.grid, options.cell_px, look.candidates.size());
   out.ownership.step = cell / kCellSplit;
   out.raster = Coarsened(canvas.grid, out.ownership.step);
   out.ownership.raster_width = out.raster.width;
   out.inside = CountInside(canvas.grid, canvas.mask, out.ownership.step);
-  const ViewLimits limits = LimitsFor(facet, scene.photos, options.max_angle_deg);
   std::vector<RasterPicture> pictures;
   for (const Candidate& candidate : look.candidates) {
     out.views.push_back(MeasureView(scene.photos, candidate.photo, facet, out.raster, out.inside,
-                                    scene.obstacles, limits));
+                                    scene.obstacles, look.limits));
     pictures.push_back(MakeRasterPicture(out.views.back(), out.raster, canvas.grid.texel,
                                          gains[candidate.photo], scene));
     for (size_t i = 0; i < out.raster.size(); ++i) {
@@ -224,75 +208,6 @@ void FillAndCount(const TextureOptions& options, PaintedFacet& painted) {
 }
 
 }  // namespace
-
-ViewLimits LimitsFor(const Facet& facet, std::span<const TexturePhoto> photos,
-                     double max_angle_deg) {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& vertex : facet.outer) center += vertex;
-  center /= static_cast<double>(facet.outer.size());
-  std::vector<double> facing;
-  std::vector<double> all;
-  for (const TexturePhoto& photo : photos) {
-    const double distance = (photo.cam_from_world.Center() - center).norm();
-    all.push_back(distance);
-    if (ProjectIntoPhoto(photo, center)) facing.push_back(distance);
-  }
-  std::vector<double>& distances = facing.empty() ? all : facing;
-  std::sort(distances.begin(), distances.end());
-  const double typical = distances.empty() ? 0 : distances[distances.size() / 2];
-  ViewLimits limits;
-  limits.max_angle_deg = max_angle_deg;
-  limits.tolerance = std::max(2 * facet.rms, 0.003 * typical);
-  limits.clearance = std::max(4 * facet.rms, 0.02 * typical);
-  return limits;
-}
-
-FacetLook LookAtFacet(const Facet& facet, const PaintScene& scene, const TextureOptions& options) {
-  const double tiny = std::numeric_limits<double>::min();
-  const TexelGrid raster = MakeGrid(facet, scene.up, tiny, kLookSide);
-  const std::vector<uint8_t> mask = RasterizeFacet(facet, raster);
-  const std::vector<uint16_t> inside(mask.begin(), mask.end());
-  const ViewLimits limits = LimitsFor(facet, scene.photos, options.max_angle_deg);
-  std::vector<RasterView> views;
-  for (size_t p = 0; p < scene.photos.size(); ++p) {
-    RasterView view = MeasureView(scene.photos, static_cast<int>(p), facet, raster, inside,
-                                  scene.obstacles, limits);
-    const bool any = std::any_of(view.texels.begin(), view.texels.end(),
-                                 [](const TexelView& t) { return t.sight != Sight::kNot; });
-    if (any) views.push_back(std::move(view));
-  }
-  FacetLook look;
-  look.texel = options.texel_size > 0 ? options.texel_size : FinestTexel(views, raster.texel);
-  if (views.empty()) return look;
-  std::vector<std::vector<float>> costs;
-  for (const RasterView& view : views) {
-    costs.push_back(CostsOf(view, raster.texel, look.texel, scene.photos[view.photo].sharpness));
-  }
-  look.candidates = RankCandidates(views, inside, costs, options.max_candidates);
-  if (!options.colour) return look;
-
-  std::vector<std::vector<float>> colours;
-  std::vector<const RasterView*> sights;
-  for (const Candidate& candidate : look.candidates) {
-    colours.push_back(SampleRaster(scene.photos[candidate.photo], raster, *scene.cache));
-    sights.push_back(&*std::find_if(views.begin(), views.end(), [&](const RasterView& view) {
-      return view.photo == candidate.photo;
-    }));
-  }
-  std::vector<uint8_t> both(raster.size());
-  for (size_t a = 0; a < colours.size(); ++a) {
-    for (size_t b = a + 1; b < colours.size(); ++b) {
-      for (size_t i = 0; i < both.size(); ++i) {
-        both[i] = sights[a]->texels[i].sight == Sight::kFree &&
-                  sights[b]->texels[i].sight == Sight::kFree;
-      }
-      const auto ratio = MeasureRatio(look.candidates[a].photo, look.candidates[b].photo,
-                                      colours[a], colours[b], both);
-      if (ratio) look.ratios.push_back(*ratio);
-    }
-  }
-  return look;
-}
 
 PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
                         std::span<const Eigen::Vector3d> gains, const PaintScene& scene,

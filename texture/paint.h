@@ -9,38 +9,12 @@
 
 #include "survey/image.h"
 #include "survey/proxy.h"
-#include "texture/candidates.h"
-#include "texture/colour.h"
 #include "texture/grid.h"
-#include "texture/photo.h"
-#include "texture/photo_cache.h"
+#include "texture/look.h"
 #include "texture/quality.h"
 #include "texture/texture.h"
 
 namespace stucco {
-
-// What painting one facet needs to know of the survey.
-struct PaintScene {
-  std::span<const TexturePhoto> photos;
-  Obstacles obstacles;
-  PhotoCache* cache = nullptr;
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-};
-
-// A first look at a facet over a raster of at most 32 texels a side: who sees it, how fine its
-// picture can be, and how bright the photos show it.
-struct FacetLook {
-  std::vector<Candidate> candidates;  // best first; empty: no photo sees it
-  double texel = 0;                   // world units; 0 without candidates
-  std::vector<ColourRatio> ratios;    // between candidates; indices are photos
-};
-
-FacetLook LookAtFacet(const Facet& facet, const PaintScene& scene, const TextureOptions& options);
-
-// How near things in front of a facet belong to it; distances in proportion to how far the photos
-// are from it (0.3 % and 2 %) and to how far its own points are from the plane.
-ViewLimits LimitsFor(const Facet& facet, std::span<const TexturePhoto> photos,
-                     double max_angle_deg);
 
 struct PaintedFacet {
   TexelGrid grid;

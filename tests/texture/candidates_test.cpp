@@ -126,6 +126,35 @@ TEST(RankCandidates, KeepsCoverageWithFewPhotos) {
   EXPECT_TRUE(RankCandidates({}, inside, {}, 10).empty());
 }
 
+// Twenty photos that each show a twentieth, and twenty worse ones of the same places.
+TEST(RankCandidates, TakesMoreThanWishedWhereNobodyElseSees) {
+  const std::vector<uint16_t> inside(200, 1);
+  std::vector<RasterView> views(40);
+  std::vector<std::vector<float>> costs;
+  for (int v = 0; v < 40; ++v) {
+    views[v].photo = v;
+    views[v].texels.resize(200);
+    for (int i = 0; i < 10; ++i) views[v].texels[10 * (v % 20) + i].sight = Sight::kFree;
+    costs.push_back(std::vector<float>(200, v < 20 ? 0.2f : 0.4f));
+  }
+  const auto ranked = RankCandidates(views, inside, costs, 16);
+  ASSERT_EQ(ranked.size(), 20u);
+  for (const Candidate& candidate : ranked) EXPECT_LT(candidate.photo, 20);
+  EXPECT_EQ(RankCandidates(views, inside, costs, 24).size(), 24u);
+}
+
+TEST(RankCandidates, NeverTakesMoreThanLabelsCanSay) {
+  const std::vector<uint16_t> inside(300, 1);
+  std::vector<RasterView> views(300);
+  for (int v = 0; v < 300; ++v) {
+    views[v].photo = v;
+    views[v].texels.resize(300);
+    views[v].texels[v].sight = Sight::kFree;
+  }
+  const std::vector<std::vector<float>> costs(300, std::vector<float>(300, 0.1f));
+  EXPECT_EQ(RankCandidates(views, inside, costs, 16).size(), 254u);
+}
+
 TEST(FinestTexel, IsTheLowQuartileOfTheBestViews) {
   std::vector<RasterView> views(2);
   for (auto& view : views) view.texels.resize(100);

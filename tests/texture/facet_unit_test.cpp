@@ -16,11 +16,15 @@ TEST(FacetLook, SurvivesPacking) {
   look.texel = 0.0123;
   look.candidates = {{3, 0.5, 0.25}, {1, 1, 0.75}};
   look.ratios = {{1, 3, {0.1, -0.2, 0.3}, 99}};
+  look.limits = {77, 0.03, 0.2};
   const FacetLook again = UnpackLook(PackLook(look));
   EXPECT_EQ(again.texel, look.texel);
   ASSERT_EQ(again.candidates.size(), 2u);
   EXPECT_EQ(again.candidates[0].photo, 3);
   EXPECT_EQ(again.candidates[1].merit, 0.75);
+  EXPECT_EQ(again.limits.max_angle_deg, 77);
+  EXPECT_EQ(again.limits.tolerance, 0.03);
+  EXPECT_EQ(again.limits.clearance, 0.2);
   ASSERT_EQ(again.ratios.size(), 1u);
   EXPECT_EQ(again.ratios[0].log_ratio, look.ratios[0].log_ratio);
   EXPECT_EQ(again.ratios[0].weight, 99);
@@ -76,6 +80,13 @@ TEST(FilesKey, ChangesWithWhatTheFacetDependsOnOnly) {
   input.photos[0].cam_from_world.translation.x() += 1e-9;
   EXPECT_NE(key(), original);
   input.photos[0].cam_from_world.translation.x() -= 1e-9;
+  look.limits.tolerance += 1e-9;  // other photos have moved
+  EXPECT_NE(key(), original);
+  look.limits.tolerance -= 1e-9;
+  look.limits.clearance += 1e-9;
+  EXPECT_NE(key(), original);
+  look.limits = {};
+  EXPECT_EQ(key(), original);
   options.seam_cost = 2;
   EXPECT_NE(key(), original);
 }

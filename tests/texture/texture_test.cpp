@@ -175,6 +175,26 @@ TEST(RunTexture, JoinsPhotosThatEachSeeAPart) {
   EXPECT_GT(facet.painted, 0.6);
 }
 
+TEST(RunTexture, PaintsALongWallWithTheTwentyPhotosItNeeds) {
+  Survey survey;
+  survey.SetProxy(MakeProxy({MakeWall(20, 0.6)}));
+  const testing::Scene bricks = [](const Eigen::Vector3d& from, const Eigen::Vector3d& way) {
+    const Eigen::Vector3d point = from - from.y() / way.y() * way;
+    const bool dark = (std::lround(6 * point.x()) + std::lround(9 * point.z())) % 2 == 0;
+    return std::optional<testing::Colour>(testing::Colour::Constant(dark ? 90 : 150));
+  };
+  for (int i = 0; i < 20; ++i) {
+    const double x = i + 0.5;  // each shows 1.1 m
+    survey.Add("p" + std::to_string(i) + ".jpg", {x, -1, 0.3}, {x, 0, 0.3}, 1, bricks);
+  }
+  TextureOptions options;
+  options.texel_size = 0.01;
+  const TexturedFacet facet = survey.Run(options).facets.at(0);
+  EXPECT_EQ(facet.photos.size(), 20u);
+  EXPECT_GT(facet.painted, 0.99);
+  EXPECT_EQ(facet.inpainted, 1 - facet.painted);
+}
+
 TEST(RunTexture, DoesNotPaintAnOccluderThatOthersSeeBehind) {
   Survey survey;
   const auto scene = DiscScene({2, -1, 1.5}, 0.25, WallScene(4, 3));
