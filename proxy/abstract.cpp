@@ -7,6 +7,7 @@
 #include "proxy/export_cityjson.h"
 #include "proxy/export_obj.h"
 #include "proxy/facets.h"
+#include "proxy/ground.h"
 #include "proxy/plane_view.h"
 #include "proxy/scene.h"
 #include "proxy/solid.h"
@@ -76,8 +77,9 @@ std::vector<Solid> CloseBuildings(const Scene& scene, const Stations& stations,
     for (size_t p = 0; p < views.size(); ++p) {
       if (table.building[p] == static_cast<int>(b)) own.push_back(&views[p]);
     }
+    const Plane* ground = GroundBelow(scene.samples, scene.up, scene.ground, scene.buildings[b]);
     solids[b] =
-        CloseBuilding(solid_scene, own, scene.ground.empty() ? nullptr : &scene.ground.front(),
+        CloseBuilding(solid_scene, own, ground,
                       {.max_planes = options.max_planes, .least_support = options.solid_support});
   });
   return solids;

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <utility>
 
+#include "proxy/ground.h"
+
 namespace stucco {
 namespace {
 
@@ -62,7 +64,7 @@ Extent ExtentOf(const Samples& samples, const Eigen::Vector3d& up, const Plane* 
 }  // namespace
 
 Clusters SplitIntoBuildings(const Samples& samples, const Tolerances& tolerances,
-                            const Eigen::Vector3d& up, const Plane* ground,
+                            const Eigen::Vector3d& up, std::span<const Plane> ground,
                             const std::vector<Plane>& planes) {
   constexpr double kFewestAreas = 12;   // of min_area
   constexpr double kFewestDetails = 6;  // height in levels of detail
@@ -99,7 +101,7 @@ Clusters SplitIntoBuildings(const Samples& samples, const Tolerances& tolerances
   Clusters clusters;
   std::vector<std::pair<double, std::vector<Plane>>> sized;
   for (auto& [label, group] : groups) {
-    const Extent extent = ExtentOf(samples, up, ground, group);
+    const Extent extent = ExtentOf(samples, up, GroundBelow(samples, up, ground, group), group);
     if (extent.area < kFewestAreas * tolerances.min_area ||
         std::max(extent.high - extent.low, extent.above_ground) <
             kFewestDetails * tolerances.level_of_detail) {

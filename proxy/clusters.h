@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "proxy/plane.h"
@@ -18,10 +19,10 @@ struct Clusters {
 };
 
 // Splits planes into buildings: what stands together in the ground plan, seen from above on a grid
-// of `fill_gap`. Used where there is no map. `ground` may be null; with it a lone roof counts as
-// high as it lies above the ground.
+// of `fill_gap`. Used where there is no map. With ground a lone roof counts as high as it lies
+// above it.
 Clusters SplitIntoBuildings(const Samples& samples, const Tolerances& tolerances,
-                            const Eigen::Vector3d& up, const Plane* ground,
+                            const Eigen::Vector3d& up, std::span<const Plane> ground,
                             const std::vector<Plane>& planes);
 
 }  // namespace stucco

@@ -2,15 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "proxy/ground.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "proxy/terrain.h"
+
 namespace stucco {
 namespace {
 
-constexpr double kCosOfLevel = 0.966;  // 15 degrees
+constexpr double kCosOfTerrain = 0.94;  // 20 degrees: steeper is a bank or a roof
 
 struct HeightRange {
   double low = 0, high = 0;
@@ -32,19 +35,16 @@ double MeanHeight(const Samples& samples, const Eigen::Vector3d& up, const Plane
   return sum / std::max<double>(1, double(plane.points.size()));
 }
 
-// Mean height of the points above the main ground's plane.
-double HeightAbove(const Samples& samples, const Plane& main, const Plane& plane) {
+// Mean height of the plane's points above another plane.
+double HeightAbove(const Samples& samples, const Plane& base, const Plane& plane) {
   double sum = 0;
-  for (const int i : plane.points) sum += main.DistanceTo(samples.positions[i]);
+  for (const int i : plane.points) sum += base.DistanceTo(samples.positions[i]);
   return sum / std::max<double>(1, double(plane.points.size()));
 }
 
-}  // namespace
-
-std::vector<int> FindGround(const Samples& samples, const Tolerances& tolerances,
-                            const Eigen::Vector3d& up, const std::vector<Plane>& planes) {
-  constexpr double kLowPart = 0.3;     // of the scene's height: higher is a roof
-  constexpr double kTerrace = 0.1;     // of the scene's height above the main ground
+// The main ground: much area, at the foot of the scene. -1: none.
+int MainGround(const Samples& samples, const Tolerances& tolerances, const Eigen::Vector3d& up,
+               const std::vector<Plane>& planes, const std::vector<bool>& lowest) {
   constexpr double kFewestAreas = 10;  // of min_area
   std::vector<int> all;
   for (const Plane& plane : planes) {
@@ -55,35 +55,94 @@ std::vector<int> FindGround(const Samples& samples, const Tolerances& tolerances
   int main = -1;
   double best = 0;
   for (size_t p = 0; p < planes.size(); ++p) {
-    if (planes[p].normal.dot(up) < kCosOfLevel) continue;
-    if (planes[p].area < kFewestAreas * tolerances.min_area) continue;
+    if (!lowest[p] || planes[p].area < kFewestAreas * tolerances.min_area) continue;
     const double above = MeanHeight(samples, up, planes[p]) - range.low;
-    if (above > kLowPart * height + 2 * tolerances.level_of_detail) continue;
     const double score = planes[p].area * std::exp(-std::max(0.0, above) /
                                                    (0.1 * height + tolerances.level_of_detail));
     if (score <= best) continue;
     best = score;
     main = static_cast<int>(p);
   }
+  return main;
+}
+
+}  // namespace
+
+std::vector<int> FindGround(const Samples& samples, const Tolerances& tolerances,
+                            const Eigen::Vector3d& up, const std::vector<Plane>& planes) {
+  constexpr double kHighestYard = 5;  // levels of detail above the ground next to it
+  const Terrain terrain(samples, tolerances, up, planes);
+  std::vector<bool> lowest(planes.size());
+  for (size_t p = 0; p < planes.size(); ++p) {
+    lowest[p] = planes[p].normal.dot(up) > kCosOfTerrain && !planes[p].points.empty() &&
+                terrain.IsLowest(static_cast<int>(p));
+  }
   std::vector<int> ground;
+  const int main = MainGround(samples, tolerances, up, planes, lowest);
   if (main < 0) return ground;
   ground.push_back(main);
+  lowest[main] = false;
+  // From ground to ground, until nothing more joins on.
+  for (size_t next = 0; next < ground.size(); ++next) {
+    for (size_t p = 0; p < planes.size(); ++p) {
+      if (!lowest[p] || !terrain.Continues(static_cast<int>(p), ground[next])) continue;
+      ground.push_back(static_cast<int>(p));
+      lowest[p] = false;
+    }
+  }
+  // Yards and terraces apart from the rest, by their height over the ground next to them.
+  const size_t joined = ground.size();
   for (size_t p = 0; p < planes.size(); ++p) {
-    if (static_cast<int>(p) == main || planes[p].normal.dot(up) < kCosOfLevel) continue;
-    const double above = HeightAbove(samples, planes[main], planes[p]);
-    if (above < std::max(2 * tolerances.level_of_detail, kTerrace * height) &&
-        above < 5 * tolerances.level_of_detail) {
+    if (!lowest[p]) continue;
+    const std::span<const int> known(ground.data(), joined);
+    const int base = terrain.Nearest(static_cast<int>(p), known);
+    if (HeightAbove(samples, planes[base], planes[p]) < kHighestYard * tolerances.level_of_detail) {
       ground.push_back(static_cast<int>(p));
     }
   }
+  std::sort(ground.begin() + 1, ground.end());
   return ground;
+}
+
+const Plane* GroundBelow(const Samples& samples, const Eigen::Vector3d& up,
+                         std::span<const Plane> ground, const std::vector<Plane>& planes) {
+  if (ground.size() < 2) return ground.empty() ? nullptr : &ground.front();
+  const auto flat = [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(p - up * up.dot(p)); };
+  Eigen::AlignedBox3d box;
+  for (const Plane& plane : planes) {
+    for (const int i : plane.points) box.extend(flat(samples.positions[i]));
+  }
+  if (box.isEmpty()) return &ground.front();
+  // The plane with most points around the building, in a circle that grows until there are some.
+  const Plane* best = &ground.front();
+  constexpr size_t kProbes = 100000;
+  size_t points = 0;
+  for (const Plane& plane : ground) points += plane.points.size();
+  const size_t stride = 1 + points / kProbes;
+  double radius = 0.75 * box.diagonal().norm() + 1e-9;
+  for (int round = 0; round < 8; ++round, radius *= 1.5) {
+    size_t most = 0;
+    for (const Plane& plane : ground) {
+      size_t near = 0;
+      for (size_t k = 0; k < plane.points.size(); k += stride) {
+        const Eigen::Vector3d p = flat(samples.positions[plane.points[k]]);
+        near += (p - box.center()).norm() < radius;
+      }
+      if (near <= most) continue;
+      most = near;
+      best = &plane;
+    }
+    if (most > 0) break;
+  }
+  return best;
 }
 
 std::optional<Plane> FitFloor(const Samples& samples, const Tolerances& tolerances,
                               const Eigen::Vector3d& up) {
   constexpr double kCosOfUp = 0.9;
-  constexpr double kLowPart = 0.15;    // of the scene's height
-  constexpr double kFewestAreas = 10;  // of min_area
+  constexpr double kCosOfLevel = 0.966;  // 15 degrees
+  constexpr double kLowPart = 0.15;      // of the scene's height
+  constexpr double kFewestAreas = 10;    // of min_area
   constexpr int kRounds = 3;
   std::vector<int> all(samples.size());
   std::iota(all.begin(), all.end(), 0);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "proxy/plane.h"
@@ -12,11 +13,16 @@
 
 namespace stucco {
 
-// Indices of the planes that are ground, the main one first: large, near horizontal, looking up and
-// at the foot of the scene (height scored against the lowest 2 % of all points on planes), and
-// terraces and slopes near its height. Empty when the cloud shows no ground.
+// Indices of the planes that are ground, the main one first: within 20 degrees of level, lowest
+// around themselves (terrain.h), and going on in one another from the main one, which is large and
+// at the foot of the scene; apart from the rest also yards and terraces near the height of the
+// ground next to them. Empty when the cloud shows no ground.
 std::vector<int> FindGround(const Samples& samples, const Tolerances& tolerances,
                             const Eigen::Vector3d& up, const std::vector<Plane>& planes);
+
+// The ground plane that a building stands on: the one with most points around it. Null without any.
+const Plane* GroundBelow(const Samples& samples, const Eigen::Vector3d& up,
+                         std::span<const Plane> ground, const std::vector<Plane>& planes);
 
 // Ground seen in patches too small for planes of their own (gravel, lawn): the level at the foot of
 // the scene at which most samples look up, as a plane through them. Nothing when they cover too

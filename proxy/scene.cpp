@@ -150,8 +150,7 @@ Scene UnderstandCloud(const PointCloud& cloud, const Stations& stations, const G
     if (!is_ground[p]) above.push_back(std::move(planes[p]));
   }
   Clusters clusters =
-      SplitIntoBuildings(scene.samples, scene.tolerances, scene.up,
-                         scene.ground.empty() ? nullptr : &scene.ground.front(), above);
+      SplitIntoBuildings(scene.samples, scene.tolerances, scene.up, scene.ground, above);
   scene.buildings = std::move(clusters.buildings);
   findings.notes.push_back(
       fmt::format("{} planes: {} ground, {} buildings; {} small objects left out", is_ground.size(),

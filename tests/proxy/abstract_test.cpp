@@ -217,6 +217,32 @@ TEST(AbstractCloud, TwoHousesAreTwoBuildings) {
   }
 }
 
+TEST(AbstractCloud, HousesOnASlopeStandOnIt) {
+  constexpr double kSlope = 0.158;  // 9 degrees
+  auto ground = testing::GroundSquare(24);
+  for (Vector3d& p : ground.ring) p.z() = kSlope * p.x();
+  std::vector<testing::House> houses;
+  for (const double x : {-13.0, 0.0, 13.0}) {
+    auto house = testing::BoxHouse(6, 8, 6, {x, 0, kSlope * x});
+    for (auto& polygon : house.polygons) {
+      for (Vector3d& p : polygon.ring) {
+        if (p.z() < kSlope * x + 1) p.z() = kSlope * p.x();
+      }
+    }
+    houses.push_back(house);
+  }
+  const Proxy proxy = Abstract(Capture(houses, {ground}, {.noise = 0.02}));
+  ASSERT_EQ(proxy.buildings.size(), 4u);
+  const Building* site = Find(proxy, "G0");
+  ASSERT_NE(site, nullptr);
+  EXPECT_LT(AngleDeg(site->facets[0].normal, testing::PlaneOf(ground).head<3>()), 0.3);
+  for (int b = 0; b < 3; ++b) {
+    EXPECT_TRUE(proxy.buildings[b].watertight);
+    EXPECT_EQ(proxy.buildings[b].facets.size(), 6u);
+    EXPECT_EQ(Count(proxy.buildings[b], FacetClass::kWall), 4);
+  }
+}
+
 TEST(AbstractCloud, AHouseWithoutGroundClosesAtItsFoot) {
   const auto house = testing::BoxHouse(10, 8, 6);
   const Proxy proxy = Abstract(Capture({house}, {}, {.noise = 0.02}));

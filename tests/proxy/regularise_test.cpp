@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -160,6 +161,77 @@ TEST(FindGround, KnowsThatThereIsNone) {
   EXPECT_TRUE(FindGround(p.samples, p.tolerances, Vector3d::UnitZ(), {}).empty());
 }
 
+// A sloping site 120 m long with houses of 8 m on it, ten degrees down to the south.
+Planes HillSite() {
+  constexpr double kSlope = 0.1763;
+  Planes p;
+  p.Add({0, 0, 0}, Leaning(-90, 80), 40, 120 / std::cos(10 * kDegree));
+  for (const double y : {-45.0, 0.0, 45.0}) {
+    const double foot = kSlope * y, eaves = foot + 8;
+    p.Add({0, y, eaves}, Vector3d::UnitZ(), 12, 10);
+    for (const double side : {-1.0, 1.0}) {
+      p.Add({0, y + 5 * side, (foot + 5 * side * kSlope + eaves) / 2}, side * Vector3d::UnitY(), 12,
+            8 - 5 * side * kSlope);
+      p.Add({6 * side, y, foot + 4}, side * Vector3d::UnitX(), 10, 8);
+    }
+  }
+  return p;
+}
+
+TEST(FindGround, TakesASlopeAndNoneOfTheRoofsOnIt) {
+  const Planes p = HillSite();
+  EXPECT_EQ(FindGround(p.samples, p.tolerances, Vector3d::UnitZ(), p.planes),
+            (std::vector<int>{0}));
+}
+
+TEST(FindGround, FollowsTerrainThatRollsUpAndDown) {
+  Planes p;
+  double x = 0, z = 0;
+  for (const double pitch_deg : {0.0, 8.0, 14.0, 6.0, -5.0, -12.0}) {
+    const double run = 15 * std::cos(pitch_deg * kDegree),
+                 rise = 15 * std::sin(pitch_deg * kDegree);
+    p.Add({x + run / 2, 0, z + rise / 2}, Leaning(180, 90 - pitch_deg), 30, 15);
+    x += run;
+    z += rise;
+  }
+  const size_t pieces = p.planes.size();
+  p.Add({20, 0, 9}, Vector3d::UnitZ(), 8, 8);  // a roof as high as the hill
+  p.Add({20, -4, 5}, -Vector3d::UnitY(), 8, 8);
+  p.Add({24, 0, 5}, Vector3d::UnitX(), 8, 8);
+  auto ground = FindGround(p.samples, p.tolerances, Vector3d::UnitZ(), p.planes);
+  std::sort(ground.begin(), ground.end());
+  ASSERT_EQ(ground.size(), pieces);
+  for (size_t i = 0; i < pieces; ++i) EXPECT_EQ(ground[i], static_cast<int>(i));
+}
+
+TEST(FindGround, AYardBetweenHousesIsGroundAndASunkenRoofIsNot) {
+  Planes p;
+  p.Add({0, -40, 0}, Vector3d::UnitZ(), 60, 20);
+  p.Add({0, 0, 0.5}, Vector3d::UnitZ(), 10, 10);
+  p.Add({30, 0, 6}, Vector3d::UnitZ(), 10, 10);
+  for (const double x : {0.0, 30.0}) {  // higher wings around both
+    for (const double side : {-1.0, 1.0}) {
+      p.Add({x + 8 * side, 0, 12}, Vector3d::UnitZ(), 6, 22);
+      p.Add({x, 8 * side, 12}, Vector3d::UnitZ(), 10, 6);
+    }
+  }
+  EXPECT_EQ(FindGround(p.samples, p.tolerances, Vector3d::UnitZ(), p.planes),
+            (std::vector<int>{0, 1}));
+}
+
+TEST(GroundBelow, IsThePlaneAroundTheBuilding) {
+  Planes p;
+  p.Add({0, 0, 0}, Vector3d::UnitZ(), 30, 30);
+  p.Add({40, 0, 6}, Leaning(180, 80), 30, 30);
+  p.Add({40, 0, 14}, Vector3d::UnitZ(), 10, 10);
+  const std::vector<Plane> roof = {p.planes[2]};
+  p.planes.pop_back();
+  const Vector3d up = Vector3d::UnitZ();
+  EXPECT_EQ(GroundBelow(p.samples, up, p.planes, roof), &p.planes[1]);
+  EXPECT_EQ(GroundBelow(p.samples, up, {}, roof), nullptr);
+  EXPECT_EQ(GroundBelow(p.samples, up, p.planes, {}), &p.planes[0]);
+}
+
 TEST(FitFloor, FindsGroundSeenInPatches) {
   Planes p;
   p.Add({0, -10, 4}, -Vector3d::UnitY(), 20, 8);
@@ -189,7 +261,7 @@ TEST(SplitIntoBuildings, SplitsWhatStandsApartAndDropsCars) {
   p.Add({30, 0, 3}, -Vector3d::UnitY(), 8, 6);
   p.Add({15, -8, 0.7}, -Vector3d::UnitY(), 4.5, 1.4);
   const Clusters clusters =
-      SplitIntoBuildings(p.samples, p.tolerances, Vector3d::UnitZ(), nullptr, p.planes);
+      SplitIntoBuildings(p.samples, p.tolerances, Vector3d::UnitZ(), {}, p.planes);
   ASSERT_EQ(clusters.buildings.size(), 2u);
   EXPECT_EQ(clusters.buildings[0].size(), 2u);
   EXPECT_EQ(clusters.buildings[1].size(), 1u);
@@ -203,7 +275,7 @@ TEST(SplitIntoBuildings, SplitsAWallPlaneThatTwoHousesShare) {
   Plane joined = p.planes[0];
   joined.points.insert(joined.points.end(), p.planes[1].points.begin(), p.planes[1].points.end());
   const Clusters clusters =
-      SplitIntoBuildings(p.samples, p.tolerances, Vector3d::UnitZ(), nullptr, {joined});
+      SplitIntoBuildings(p.samples, p.tolerances, Vector3d::UnitZ(), {}, {joined});
   ASSERT_EQ(clusters.buildings.size(), 2u);
   EXPECT_EQ(clusters.buildings[0][0].points, p.planes[0].points);
 }
@@ -211,10 +283,10 @@ TEST(SplitIntoBuildings, SplitsAWallPlaneThatTwoHousesShare) {
 TEST(SplitIntoBuildings, KeepsALoneRoofHighAboveTheGround) {
   Planes p;
   p.Add({0, 0, 6}, Vector3d::UnitZ(), 10, 8);
-  Plane ground;
-  EXPECT_TRUE(SplitIntoBuildings(p.samples, p.tolerances, Vector3d::UnitZ(), nullptr, p.planes)
+  const std::vector<Plane> ground(1);
+  EXPECT_TRUE(SplitIntoBuildings(p.samples, p.tolerances, Vector3d::UnitZ(), {}, p.planes)
                   .buildings.empty());
-  EXPECT_EQ(SplitIntoBuildings(p.samples, p.tolerances, Vector3d::UnitZ(), &ground, p.planes)
+  EXPECT_EQ(SplitIntoBuildings(p.samples, p.tolerances, Vector3d::UnitZ(), ground, p.planes)
                 .buildings.size(),
             1u);
 }
