@@ -8,7 +8,9 @@ target_compile_options(project_warnings INTERFACE
 # Third-party headers find asserts that GCC 12 cannot see through at -O2; ours are checked by tests.
 target_compile_options(project_warnings INTERFACE
   -Wno-maybe-uninitialized -Wno-stringop-overflow -Wno-array-bounds)
-# The same sums on every processor and at every optimisation level.
+# A product and a sum are never merged into one rounding, so that our own sums are the same at every
+# optimisation level. Libraries that choose their code by processor, such as OpenCV, may still give
+# other digits on another machine.
 add_compile_options(-ffp-contract=off)
 
 if(STUCCO_SANITIZE)
