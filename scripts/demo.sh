@@ -11,6 +11,8 @@ scripts/build.sh dev cli
 stucco=build/dev/cli/stucco
 survey=build/demo/survey
 mkdir -p build/demo
+# A copy, so that you can add and remove photos and run again without changing the repository. The
+# second step makes it whole or not there at all.
 [ -d build/demo/photos ] || {
   rm -rf build/demo/photos.new
   cp -r data/sample/photos build/demo/photos.new
