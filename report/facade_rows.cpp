@@ -4,13 +4,20 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include "report/numbers.h"
 
 namespace stucco {
 namespace {
+
+// How far a picture may be from a facet's plane and outline: its outermost texels stick out.
+constexpr double kFitSlack_px = 2;
+constexpr double kFitCosine = 0.9999;
 
 // A measure that is bad when it is high, or, with `low_is_bad`, when it is low.
 struct Limit {
@@ -33,6 +40,10 @@ class Judge {
   explicit Judge(const ReportOptions& options) : options_(options) {}
 
   void Fill(FacadeRow& row) const {
+    if (row.texture_outdated) {
+      row.findings = {{Verdict::kUnknown, "its picture is of an older model; texture it again"}};
+      return;
+    }
     if (!row.IsPainted()) {
       row.findings.push_back({Verdict::kRed, "no photo paints it"});
     } else {
@@ -86,6 +97,38 @@ class Judge {
   const ReportOptions& options_;
 };
 
+// Whether the textures may be of another model than the proxy: texturing was not finished since.
+bool TexturesMayBeOld(const SurveyData& data) {
+  return data.proxy && std::any_of(data.statuses.begin(), data.statuses.end(), [](const auto& s) {
+           return s.stage == "texture" && s.state != "done";
+         });
+}
+
+// Whether a picture lies on the facet's plane, faces the same way and fits around its outline.
+bool Fits(const TexturedFacet& texture, const Facet& facet) {
+  const double slack = kFitSlack_px * texture.metres_per_texel;
+  if (!(std::abs(facet.normal.dot(texture.origin) - facet.offset) <= slack)) return false;
+  if (!(texture.u_axis.cross(texture.v_axis).dot(facet.normal) <= -kFitCosine)) return false;
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::max());
+  Eigen::Vector2d high = -low;
+  for (const Eigen::Vector3d& vertex : facet.outer) {
+    const Eigen::Vector3d offset = vertex - texture.origin;
+    const Eigen::Vector2d uv(offset.dot(texture.u_axis), offset.dot(texture.v_axis));
+    low = low.cwiseMin(uv);
+    high = high.cwiseMax(uv);
+  }
+  const Eigen::Vector2d size =
+      texture.metres_per_texel * Eigen::Vector2d(texture.width_px, texture.height_px);
+  return low.cwiseAbs().maxCoeff() <= slack && (high - size).cwiseAbs().maxCoeff() <= slack;
+}
+
+// The picture of a facet, or a note that the one of this id is of another model.
+void Join(const TexturedFacet& texture, bool may_be_old, FacadeRow& row) {
+  const bool has_picture = !texture.image.empty();
+  row.texture_outdated = may_be_old && !(has_picture && Fits(texture, *row.facet));
+  if (!row.texture_outdated) row.texture = &texture;
+}
+
 std::vector<FacadeRow> ListFacets(const SurveyData& data) {
   std::map<std::string, const TexturedFacet*> texture_by_id;
   if (data.textures) {
@@ -93,6 +136,7 @@ std::vector<FacadeRow> ListFacets(const SurveyData& data) {
       texture_by_id.emplace(texture.id, &texture);
     }
   }
+  const bool may_be_old = TexturesMayBeOld(data);
   std::vector<FacadeRow> rows;
   if (data.proxy) {
     for (const Building& building : data.proxy->buildings) {
@@ -104,14 +148,16 @@ std::vector<FacadeRow> ListFacets(const SurveyData& data) {
         row.facet = &facet;
         row.facet_class = facet.facet_class;
         if (found != texture_by_id.end()) {
-          row.texture = found->second;
+          Join(*found->second, may_be_old, row);
           texture_by_id.erase(found);
+        } else {
+          row.texture_outdated = may_be_old;
         }
         rows.push_back(std::move(row));
       }
     }
   }
-  if (!data.textures) return rows;
+  if (!data.textures || may_be_old) return rows;
   for (const TexturedFacet& texture : data.textures->facets) {
     if (texture_by_id.erase(texture.id) == 0) continue;
     FacadeRow row;

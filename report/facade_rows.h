@@ -27,6 +27,7 @@ struct FacadeRow {
   std::string building;
   const Facet* facet = nullptr;            // nullptr: only textured
   const TexturedFacet* texture = nullptr;  // nullptr: not textured
+  bool texture_outdated = false;           // there is a picture, but of an older model
   FacetClass facet_class = FacetClass::kWall;
   double gsd_ratio = 0;  // size of a photo pixel on it over the survey's median; 0: not known
   Verdict verdict = Verdict::kUnknown;
@@ -36,7 +37,8 @@ struct FacadeRow {
 };
 
 // A row per facet in the order of the proxy, then of the textures; the rows point into `data`.
-// Verdicts are kUnknown as long as there are no textures.
+// Verdicts are kUnknown as long as there are no textures. Facets have the pictures of their id;
+// where texturing has not been finished since the proxy, only those that still fit.
 std::vector<FacadeRow> MakeFacadeRows(const SurveyData& data, const ReportOptions& options);
 
 // "Wall", "Roof", ... for people.

@@ -148,6 +148,65 @@ TEST(MakeFacadeRows, TexturesWithoutProxyAreRated) {
   EXPECT_EQ(rows[0].facet, nullptr);
 }
 
+// Walls with an outline and with pictures that fit.
+SurveyData WallsInPlace() {
+  SurveyData data = GoodWalls();
+  for (int i = 0; i < 3; ++i) {
+    Facet& facet = data.proxy->buildings[0].facets[i];
+    facet.normal = -Eigen::Vector3d::UnitY();
+    facet.offset = -10.0 * i;
+    facet.outer = {{0, 10.0 * i, 0}, {4, 10.0 * i, 0}, {4, 10.0 * i, 3}, {0, 10.0 * i, 3}};
+    TexturedFacet& texture = data.textures->facets[i];
+    texture.origin = {0, 10.0 * i, 3};
+    texture.v_axis = -Eigen::Vector3d::UnitZ();
+    texture.metres_per_texel = 0.01;
+    texture.width_px = 400;
+    texture.height_px = 300;
+  }
+  return data;
+}
+
+void SetTextureState(SurveyData& data, const char* state) {
+  StageStatus status;
+  status.stage = "texture";
+  status.state = state;
+  data.statuses = {status};
+}
+
+// After a new proxy and a failed texture stage the old pictures are still there, under ids that
+// may now be other walls'.
+TEST(MakeFacadeRows, OldPicturesAreJoinedOnlyWhereTheyFit) {
+  const std::function<void(SurveyData&)> changes[] = {
+      [](SurveyData& d) { d.proxy->buildings[0].facets[0].offset += 0.1; },
+      [](SurveyData& d) { d.proxy->buildings[0].facets[0].normal *= -1; },
+      [](SurveyData& d) { d.proxy->buildings[0].facets[0].outer[1].x() += 1; },
+      [](SurveyData& d) { d.textures->facets[0].image.clear(); }};
+  for (const auto& change : changes) {
+    SurveyData data = WallsInPlace();
+    SetTextureState(data, "failed");
+    EXPECT_EQ(FirstRow(data).verdict, Verdict::kGreen);
+    change(data);
+    const auto rows = MakeFacadeRows(data, {});
+    EXPECT_EQ(rows[0].texture, nullptr);
+    EXPECT_EQ(rows[0].verdict, Verdict::kUnknown);
+    ASSERT_EQ(rows[0].findings.size(), 1U);
+    EXPECT_THAT(rows[0].findings[0].text, HasSubstr("older model"));
+    EXPECT_EQ(rows[1].verdict, Verdict::kGreen);
+    SetTextureState(data, "done");
+    EXPECT_NE(FirstRow(data).texture, nullptr);
+  }
+}
+
+TEST(MakeFacadeRows, OldPicturesOfFacetsThatAreGoneAreNotListed) {
+  SurveyData data = WallsInPlace();
+  SetTextureState(data, "stale");
+  data.proxy->buildings[0].facets.pop_back();
+  EXPECT_EQ(MakeFacadeRows(data, {}).size(), 2U);
+  data.proxy->buildings[0].facets.push_back(data.proxy->buildings[0].facets[0]);
+  data.proxy->buildings[0].facets.back().id = "B0001/W09";  // never textured
+  EXPECT_EQ(MakeFacadeRows(data, {}).back().verdict, Verdict::kUnknown);
+}
+
 TEST(MakeFacadeRows, NothingFromNothing) {
   EXPECT_THAT(MakeFacadeRows({}, {}), IsEmpty());
   EXPECT_EQ(CountVerdicts({}, true).Total(), 0);
