@@ -11,6 +11,7 @@
 #include "proxy/plane_view.h"
 #include "proxy/scene.h"
 #include "proxy/solid.h"
+#include "proxy/soundness.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
 #include "survey/files.h"
@@ -43,8 +44,10 @@ PlaneTable TableOf(const Scene& scene) {
 
 // The open facets of each plane, cut along the planes of its own building and the ground.
 std::vector<std::vector<Facet>> OpenFacets(const Scene& scene, const PlaneTable& table,
-                                           const std::vector<PlaneView>& views, int threads) {
+                                           const std::vector<PlaneView>& views, int threads,
+                                           ProxyFindings& findings) {
   std::vector<std::vector<Facet>> facets(views.size());
+  std::vector<std::vector<std::string>> warnings(views.size());
   ParallelFor(views.size(), threads, [&](size_t p) {
     const bool ground = table.building[p] < 0;
     std::vector<const PlaneView*> others;
@@ -54,10 +57,18 @@ std::vector<std::vector<Facet>> OpenFacets(const Scene& scene, const PlaneTable&
         others.push_back(&views[q]);
       }
     }
-    const auto creases =
-        Creases(views[p], others, scene.tolerances.fill_gap, 3 * scene.tolerances.level_of_detail);
-    facets[p] = OutlineFacets(scene.samples, views[p], creases, scene.tolerances, ground);
+    const auto outline = [&] {
+      const auto creases = Creases(views[p], others, scene.tolerances.fill_gap,
+                                   3 * scene.tolerances.level_of_detail);
+      return OutlineFacets(scene.samples, views[p], creases, scene.tolerances, ground);
+    };
+    facets[p] = OutlineOrWarn(outline, warnings[p]);
   });
+  for (size_t p = 0; p < views.size(); ++p) {
+    const std::string owner =
+        table.building[p] < 0 ? "G0" : fmt::format("B{:04}", table.building[p] + 1);
+    for (const auto& warning : warnings[p]) findings.warnings.push_back(owner + ": " + warning);
+  }
   return facets;
 }
 
@@ -78,9 +89,11 @@ std::vector<Solid> CloseBuildings(const Scene& scene, const Stations& stations,
       if (table.building[p] == static_cast<int>(b)) own.push_back(&views[p]);
     }
     const Plane* ground = GroundBelow(scene.samples, scene.up, scene.ground, scene.buildings[b]);
-    solids[b] =
-        CloseBuilding(solid_scene, own, ground,
-                      {.max_planes = options.max_planes, .least_support = options.solid_support});
+    solids[b] = CloseOrExplain([&] {
+      return CloseBuilding(
+          solid_scene, own, ground,
+          {.max_planes = options.max_planes, .least_support = options.solid_support});
+    });
   });
   return solids;
 }
@@ -94,7 +107,7 @@ Proxy AbstractCloud(const PointCloud& cloud, const Stations& stations, const Geo
   const auto views = ViewPlanes(scene.samples, stations, table.planes, scene.witnesses, scene.up,
                                 scene.main_direction, scene.tolerances,
                                 table.planes.size() - scene.ground.size(), threads);
-  auto facets = OpenFacets(scene, table, views, threads);
+  auto facets = OpenFacets(scene, table, views, threads, findings);
   Proxy proxy;
   proxy.up = scene.up;
   proxy.metric = georef.metric;

@@ -19,7 +19,10 @@ namespace stucco {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
+struct VertexNumber {
+  int value = -1;  // index into Triangulation::vertices; -1: a crossing of two edges
+};
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexNumber, Kernel>;
 // Info of a face: how many borders lie between it and the outside; -1 while not known.
 using FaceBase =
     CGAL::Triangulation_face_base_with_info_2<int, Kernel,
@@ -63,7 +66,7 @@ Triangulation Triangulate(const Facet& facet) {
     std::vector<Delaunay::Vertex_handle> handles;
     for (const auto& p : ring) {
       const auto handle = delaunay.insert(Kernel::Point_2(u.dot(p), v.dot(p)));
-      handle->info() = static_cast<int>(result.vertices.size());
+      handle->info().value = static_cast<int>(result.vertices.size());
       result.vertices.push_back(p);
       handles.push_back(handle);
     }
@@ -75,10 +78,17 @@ Triangulation Triangulate(const Facet& facet) {
   add_ring(facet.outer);
   for (const auto& hole : facet.holes) add_ring(hole);
   CountBorders(delaunay);
+  for (auto vertex = delaunay.finite_vertices_begin(); vertex != delaunay.finite_vertices_end();
+       ++vertex) {
+    if (vertex->info().value >= 0) continue;
+    vertex->info().value = static_cast<int>(result.vertices.size());
+    result.vertices.push_back(vertex->point().x() * u + vertex->point().y() * v +
+                              facet.offset * facet.normal);
+  }
   for (auto face = delaunay.finite_faces_begin(); face != delaunay.finite_faces_end(); ++face) {
     if (face->info() % 2 == 0) continue;
-    result.triangles.push_back(
-        {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    const auto number = [&](int corner) { return face->vertex(corner)->info().value; };
+    result.triangles.push_back({number(0), number(1), number(2)});
   }
   return result;
 }

@@ -11,11 +11,12 @@
 namespace stucco {
 
 struct Triangulation {
-  std::vector<Eigen::Vector3d> vertices;      // the outer ring, then the holes
+  std::vector<Eigen::Vector3d> vertices;      // the outer ring, the holes, crossings
   std::vector<std::array<int, 3>> triangles;  // counter-clockwise seen from the facet's normal
 };
 
-// Constrained Delaunay triangulation of a facet's polygon, adding no vertices.
+// Constrained Delaunay triangulation of a facet's polygon. Adds no vertices but where its edges
+// cross.
 Triangulation Triangulate(const Facet& facet);
 
 }  // namespace stucco

@@ -74,6 +74,20 @@ TEST(Triangulate, TrianglesFaceTheNormal) {
   }
 }
 
+TEST(Triangulate, EdgesThatCrossMeetInAVertexOfTheirOwn) {
+  Facet facet = Model(false).buildings[0].facets[1];
+  const Vector3d origin = facet.outer[0];
+  const auto at = [&](double x, double y) { return Vector3d(origin + Vector3d(x, y, 0)); };
+  facet.outer = {at(0, 0), at(4, 0), at(0, 4), at(4, 4)};  // an hourglass
+  const Triangulation crossed = Triangulate(facet);
+  ASSERT_EQ(crossed.vertices.size(), 5u);
+  EXPECT_LT((crossed.vertices[4] - at(2, 2)).norm(), 1e-9);
+  EXPECT_NEAR(AreaOf(crossed), 8, 1e-9);
+  // A ring that touches itself in a corner.
+  facet.outer = {at(0, 0), at(2, 2), at(4, 0), at(4, 4), at(2, 2), at(0, 4)};
+  EXPECT_NEAR(AreaOf(Triangulate(facet)), 8, 1e-9);
+}
+
 TEST(ObjText, HasAGroupPerFacetAndSharedVertices) {
   std::istringstream text(ObjText(Model(false)));
   std::set<std::string> groups;
