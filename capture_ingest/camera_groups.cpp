@@ -12,6 +12,7 @@
 
 #include "capture_ingest/focal.h"
 #include "survey/error.h"
+#include "survey/photo_files.h"
 
 namespace stucco {
 namespace {

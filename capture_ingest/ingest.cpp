@@ -11,12 +11,12 @@
 #include "capture_ingest/camera_groups.h"
 #include "capture_ingest/consensus.h"
 #include "capture_ingest/contact_sheet.h"
-#include "capture_ingest/photo_files.h"
 #include "capture_ingest/photo_record.h"
 #include "survey/captures.h"
 #include "survey/error.h"
 #include "survey/image.h"
 #include "survey/parallel.h"
+#include "survey/photo_files.h"
 
 namespace stucco {
 namespace {

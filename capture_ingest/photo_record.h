@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "capture_ingest/photo_files.h"
 #include "capture_ingest/tags.h"
 #include "survey/captures.h"
+#include "survey/photo_files.h"
 #include "survey/stage.h"
 
 namespace stucco {

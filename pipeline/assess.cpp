@@ -70,8 +70,10 @@ Assessment Assess(const Stage& stage, const SurveyPaths& paths, const Fingerprin
     result.reasons.emplace_back("not made yet");
   }
   if (result.state != StageState::kDone) {
-    result.failure = ReadFailure(work.Failure(stage.name));
-    if (result.failure) {
+    std::optional<Failure> failure = ReadFailure(work.Failure(stage.name));
+    // One of other options or inputs says nothing about what is there now.
+    if (failure && failure->fingerprint == now) {
+      result.failure = std::move(failure);
       result.state = StageState::kFailed;
       result.reasons = {result.failure->why};
     }

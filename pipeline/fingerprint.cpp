@@ -7,9 +7,9 @@
 #include <algorithm>
 
 #include "pipeline/internal/json.h"
-#include "pipeline/photos.h"
 #include "survey/error.h"
 #include "survey/parallel.h"
+#include "survey/photo_files.h"
 
 namespace stucco {
 namespace {
@@ -30,28 +30,70 @@ std::string ManifestName(const std::string& name) {
   }
 }
 
-void AddPhotos(const SurveyPaths& paths, int threads, HashCache& hashes,
-               std::map<std::string, std::string>& inputs) {
-  const std::vector<std::string> files = PhotoFiles(paths.photos);
-  const std::vector<std::string> contents = HashFiles(paths.photos, files, threads, hashes);
-  for (size_t i = 0; i < files.size(); ++i) {
-    // Wherever the photo folder is: moving it changes nothing.
-    inputs["photos/" + ManifestName(files[i])] = contents[i];
+std::string HashOrUnreadable(const std::filesystem::path& file, HashCache& hashes) {
+  try {
+    return hashes.Hash(file);
+  } catch (const Error&) {
+    // The stage that opens the file says what is wrong with it.
+    return kUnreadableInput;
   }
 }
 
-void AddInput(const std::string& input, const SurveyPaths& paths, int threads, HashCache& hashes,
+// Reads the photos that the cache does not know, which can take long: many gigabytes, a slow disk.
+void ReadNewPhotos(const std::vector<PhotoFile>& files, const FingerprintContext& context) {
+  std::vector<std::filesystem::path> unknown;
+  for (const PhotoFile& file : files) {
+    const std::filesystem::path path = context.paths.photos / file.file;
+    if (file.problem.empty() && !context.hashes.Remembers(path)) {
+      unknown.push_back(path);
+    }
+  }
+  if (unknown.empty()) {
+    return;
+  }
+  context.progress.Begin("hashing photos", unknown.size());
+  ParallelFor(unknown.size(), context.threads, [&](size_t i) {
+    if (context.progress.Cancelled()) {
+      throw Error(ErrorKind::kInterrupted, "interrupted while hashing photos");
+    }
+    HashOrUnreadable(unknown[i], context.hashes);
+    context.progress.Advance();
+  });
+}
+
+// None when the folder is not there or cannot be read; `check` says what is wrong with it.
+std::vector<PhotoFile> PhotosOrNone(const std::filesystem::path& folder) {
+  try {
+    return FindPhotoFiles(folder);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+void AddPhotos(const FingerprintContext& context, std::map<std::string, std::string>& inputs) {
+  const std::vector<PhotoFile> files = PhotosOrNone(context.paths.photos);
+  ReadNewPhotos(files, context);
+  for (const PhotoFile& file : files) {
+    // Wherever the photo folder is: moving it changes nothing.
+    inputs["photos/" + ManifestName(file.file.generic_string())] =
+        file.problem.empty() ? HashOrUnreadable(context.paths.photos / file.file, context.hashes)
+                             : kUnreadInput;
+  }
+}
+
+void AddInput(const std::string& input, const FingerprintContext& context,
               std::map<std::string, std::string>& inputs) {
-  const std::filesystem::path path = paths.survey / input;
+  const std::filesystem::path path = context.paths.survey / input;
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     const std::vector<std::string> files = FilesBelow(path);
-    const std::vector<std::string> contents = HashFiles(path, files, threads, hashes);
+    const std::vector<std::string> contents =
+        HashFiles(path, files, context.threads, context.hashes);
     for (size_t i = 0; i < files.size(); ++i) {
       inputs[input + "/" + files[i]] = contents[i];
     }
   } else if (std::filesystem::exists(path, error)) {
-    inputs[input] = HashFiles(paths.survey, {input}, 1, hashes).front();
+    inputs[input] = HashOrUnreadable(path, context.hashes);
   } else {
     inputs[input] = kMissingInput;
   }
@@ -78,20 +120,13 @@ std::vector<std::string> HashFiles(const std::filesystem::path& base,
                                    const std::vector<std::string>& files, int threads,
                                    HashCache& hashes) {
   std::vector<std::string> contents(files.size());
-  ParallelFor(files.size(), threads, [&](size_t i) {
-    try {
-      contents[i] = hashes.Hash(base / files[i]);
-    } catch (const Error&) {
-      // The stage that opens the file says what is wrong with it.
-      contents[i] = kUnreadableInput;
-    }
-  });
+  ParallelFor(files.size(), threads,
+              [&](size_t i) { contents[i] = HashOrUnreadable(base / files[i], hashes); });
   return contents;
 }
 
-Fingerprint TakeFingerprint(const Stage& stage, const BoundStage& bound, const SurveyPaths& paths,
-                            const std::vector<StageStatus>& statuses, int threads,
-                            HashCache& hashes) {
+Fingerprint TakeFingerprint(const Stage& stage, const BoundStage& bound,
+                            const FingerprintContext& context) {
   Fingerprint fingerprint;
   fingerprint.stage_version = stage.version;
   for (const Option& option : bound.options.options()) {
@@ -100,13 +135,13 @@ Fingerprint TakeFingerprint(const Stage& stage, const BoundStage& bound, const S
     }
   }
   if (stage.photos_are_input) {
-    AddPhotos(paths, threads, hashes, fingerprint.inputs);
+    AddPhotos(context, fingerprint.inputs);
   }
   for (const std::string& input : stage.inputs) {
-    AddInput(input, paths, threads, hashes, fingerprint.inputs);
+    AddInput(input, context, fingerprint.inputs);
   }
   if (stage.reports_failures) {
-    for (const StageStatus& status : statuses) {
+    for (const StageStatus& status : context.statuses) {
       fingerprint.inputs[StateInput(status.stage)] =
           status.state + (status.why.empty() ? "" : ": " + status.why);
     }

@@ -23,6 +23,8 @@ struct Fingerprint {
 // Content of an input that is not there or cannot be read.
 inline constexpr char kMissingInput[] = "missing";
 inline constexpr char kUnreadableInput[] = "unreadable";
+// Of one that counts only by its name, such as a picture that is no JPEG.
+inline constexpr char kUnreadInput[] = "not read";
 
 // Where a stage's inputs are.
 struct SurveyPaths {
@@ -30,11 +32,21 @@ struct SurveyPaths {
   std::filesystem::path photos;
 };
 
-// Files are hashed on `threads` threads. `statuses` (of the other stages) count as inputs of a
-// stage that reports failures: their state and reasons, not their times.
-Fingerprint TakeFingerprint(const Stage& stage, const BoundStage& bound, const SurveyPaths& paths,
-                            const std::vector<StageStatus>& statuses, int threads,
-                            HashCache& hashes);
+// What fingerprints are taken of, and how.
+struct FingerprintContext {
+  const SurveyPaths& paths;
+  // Of the other stages; inputs of a stage that reports failures: their state and reasons, not
+  // their times.
+  const std::vector<StageStatus>& statuses;
+  int threads;
+  HashCache& hashes;
+  Progress& progress;  // shows the photos that have to be read
+};
+
+// Photos are hashed as far as ingest looks at them. Throws Error (kInterrupted) between two of them
+// once `progress` is cancelled.
+Fingerprint TakeFingerprint(const Stage& stage, const BoundStage& bound,
+                            const FingerprintContext& context);
 
 // Name of the input that holds another stage's state.
 std::string StateInput(const std::string& stage);

@@ -93,11 +93,32 @@ std::string HashCache::Hash(const std::filesystem::path& file) {
   } else {
     entries_.erase(key);
   }
+  if (interval_ && std::chrono::steady_clock::now() - saved_ >= *interval_) {
+    SaveLocked();
+  }
   return hash;
+}
+
+bool HashCache::Remembers(const std::filesystem::path& file) {
+  const std::optional<FileStamp> stamp = Stamp(file);
+  const std::lock_guard lock(mutex_);
+  const auto entry = entries_.find(Key(file));
+  return stamp && entry != entries_.end() && entry->second.stamp == *stamp;
+}
+
+void HashCache::SaveEvery(std::chrono::seconds interval) {
+  const std::lock_guard lock(mutex_);
+  interval_ = interval;
+  saved_ = std::chrono::steady_clock::now();
 }
 
 void HashCache::Save() {
   const std::lock_guard lock(mutex_);
+  SaveLocked();
+}
+
+void HashCache::SaveLocked() {
+  saved_ = std::chrono::steady_clock::now();
   if (!changed_) {
     return;
   }

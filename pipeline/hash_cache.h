@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace stucco {
@@ -26,8 +28,14 @@ class HashCache {
  public:
   explicit HashCache(std::filesystem::path file);
 
+  // From here on Hash also saves, at most this often: what a killed run read is not read again.
+  void SaveEvery(std::chrono::seconds interval);
+
   // Hash of the file's content. Throws Error (kBadInput) when it cannot be read.
   std::string Hash(const std::filesystem::path& file);
+
+  // True when Hash will not have to read the file.
+  bool Remembers(const std::filesystem::path& file);
 
   // Writes the cache; failing to is no error, the next run reads the files again.
   void Save();
@@ -41,7 +49,11 @@ class HashCache {
     bool used = false;
   };
 
+  void SaveLocked();
+
   std::filesystem::path file_;
+  std::optional<std::chrono::seconds> interval_;
+  std::chrono::steady_clock::time_point saved_;
   std::mutex mutex_;
   std::map<std::string, Entry> entries_;  // by absolute path
   size_t hashed_ = 0;

@@ -9,7 +9,6 @@
 #include <map>
 #include <set>
 
-#include "pipeline/fingerprint.h"
 #include "pipeline/layout.h"
 #include "pipeline/lock.h"
 #include "pipeline/outputs.h"
@@ -22,6 +21,7 @@
 #include "survey/error.h"
 #include "survey/georef.h"
 #include "survey/image.h"
+#include "survey/photo_files.h"
 #include "survey/survey_folder.h"
 
 namespace stucco {
@@ -40,11 +40,13 @@ std::string FileName(const std::string& path) {
 
 // Renames the photos of the model to paths below the photo folder.
 void MatchNames(const fs::path& photos, Reconstruction& model) {
-  const std::vector<std::string> files = FilesBelow(photos);
-  const std::set<std::string> paths(files.begin(), files.end());
+  std::set<std::string> paths;
   std::map<std::string, std::vector<std::string>> by_name;
-  for (const std::string& file : files) {
-    by_name[FileName(file)].push_back(file);
+  for (const PhotoFile& file : FindPhotoFiles(photos)) {
+    if (file.problem.empty()) {
+      paths.insert(file.path);
+      by_name[FileName(file.path)].push_back(file.path);
+    }
   }
   std::vector<std::string> unknown;
   std::set<std::string> taken;

@@ -14,6 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kManifestVersion = 1;
+constexpr int kFailureVersion = 1;
 
 // The checksum over everything else makes a changed byte that still parses visible.
 std::string Checksum(Json json) {
@@ -31,13 +32,19 @@ Usage UsageFromJson(const Json& json) {
   return {json.at("wall_s"), json.at("cpu_s"), json.at("peak_memory_mb")};
 }
 
+Fingerprint FingerprintFromJson(const Json& json) {
+  Fingerprint fingerprint;
+  fingerprint.stage_version = json.at("stage_version");
+  json.at("options").get_to(fingerprint.options);
+  json.at("inputs").get_to(fingerprint.inputs);
+  return fingerprint;
+}
+
 Manifest ManifestFromJson(const Json& json) {
   Manifest manifest;
   manifest.stage = json.at("stage");
   manifest.program = json.at("program");
-  manifest.fingerprint.stage_version = json.at("stage_version");
-  json.at("options").get_to(manifest.fingerprint.options);
-  json.at("inputs").get_to(manifest.fingerprint.inputs);
+  manifest.fingerprint = FingerprintFromJson(json);
   json.at("outputs").get_to(manifest.outputs);
   manifest.usage = UsageFromJson(json.at("usage"));
   for (const auto& [kind, count] : json.at("units").items()) {
@@ -100,19 +107,30 @@ std::optional<Failure> ReadFailure(const std::filesystem::path& path) {
   }
   try {
     const Json json = Json::parse(ReadFile(path));
-    return Failure{json.at("stage"), json.at("kind"), json.at("why"), json.at("remedy"),
-                   UsageFromJson(json.at("usage"))};
+    if (json.at("version") != kFailureVersion) {
+      return std::nullopt;
+    }
+    return Failure{json.at("stage"),
+                   json.at("kind"),
+                   json.at("why"),
+                   json.at("remedy"),
+                   UsageFromJson(json.at("usage")),
+                   FingerprintFromJson(json)};
   } catch (const std::exception&) {
     return std::nullopt;
   }
 }
 
 void WriteFailure(const Failure& failure, const std::filesystem::path& path) {
-  const Json json = {{"stage", failure.stage},
+  const Json json = {{"version", kFailureVersion},
+                     {"stage", failure.stage},
                      {"kind", failure.kind},
                      {"why", failure.why},
                      {"remedy", failure.remedy},
-                     {"usage", UsageToJson(failure.usage)}};
+                     {"usage", UsageToJson(failure.usage)},
+                     {"stage_version", failure.fingerprint.stage_version},
+                     {"options", failure.fingerprint.options},
+                     {"inputs", failure.fingerprint.inputs}};
   std::filesystem::create_directories(path.parent_path());
   WriteFileAtomically(path, Dump(json, 1) + "\n");
 }

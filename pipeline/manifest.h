@@ -39,15 +39,18 @@ struct ManifestFile {
 ManifestFile ReadManifest(const std::filesystem::path& path);
 void WriteManifest(const Manifest& manifest, const std::filesystem::path& path);
 
-// Why a stage did not finish: .stucco/failures/<stage>.json. Removed when it succeeds.
+// Why a stage did not finish: .stucco/failures/<stage>.json. Removed when it succeeds; says nothing
+// once the options or inputs are others than its fingerprint's.
 struct Failure {
   std::string stage;
   std::string kind;  // a word for ErrorKind: "stage_failed", "bad_input" ...
   std::string why;
   std::string remedy;
   Usage usage;
+  Fingerprint fingerprint;
 };
 
+// Nothing when there is none or it cannot be used.
 std::optional<Failure> ReadFailure(const std::filesystem::path& path);
 void WriteFailure(const Failure& failure, const std::filesystem::path& path);
 

@@ -4,51 +4,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <optional>
-#include <set>
 
 #include "survey/error.h"
 #include "survey/image.h"
 #include "survey/parallel.h"
+#include "survey/photo_files.h"
 
 namespace stucco {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool IsNamedLikePicture(const fs::path& path) {
-  static const std::set<std::string> extensions = {".jpg",  ".jpeg", ".jpe",  ".png",  ".tif",
-                                                   ".tiff", ".dng",  ".heic", ".heif", ".webp"};
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extensions.contains(extension);
-}
-
-void Walk(const fs::path& root, const fs::path& folder, std::set<fs::path>& visited,
-          std::vector<std::string>& files) {
-  std::error_code error;
-  if (!visited.insert(fs::canonical(folder, error)).second) {
-    return;
-  }
-  std::set<fs::path> entries;  // which way into a linked folder comes first
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (!entry->path().filename().string().starts_with('.')) {
-      entries.insert(entry->path());
-    }
-  }
-  for (const fs::path& entry : entries) {
-    std::error_code dangling;
-    if (fs::is_directory(entry, dangling)) {
-      Walk(root, entry, visited, files);
-    } else if (fs::is_regular_file(entry, dangling)) {
-      files.push_back(entry.lexically_relative(root).generic_string());
-    }
-  }
-}
 
 struct Inspected {
   std::optional<ImageSize> size;
@@ -62,9 +28,7 @@ Inspected Inspect(const fs::path& path) {
     result.size = ReadJpegSize(path);
     result.bytes = static_cast<double>(fs::file_size(path));
   } catch (const std::exception& e) {
-    if (IsNamedLikePicture(path)) {
-      result.problem = e.what();
-    }
+    result.problem = e.what();
   }
   return result;
 }
@@ -91,33 +55,30 @@ void RequireFolder(const fs::path& folder) {
 
 }  // namespace
 
-std::vector<std::string> PhotoFiles(const fs::path& folder) {
-  std::vector<std::string> files;
-  std::set<fs::path> visited;
-  Walk(folder, folder, visited, files);
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 PhotoFolder InspectPhotos(const fs::path& folder, int threads) {
   RequireFolder(folder);
-  const std::vector<std::string> files = PhotoFiles(folder);
-  std::vector<Inspected> inspected(files.size());
-  ParallelFor(files.size(), threads, [&](size_t i) { inspected[i] = Inspect(folder / files[i]); });
-  PhotoFolder result;
-  for (size_t i = 0; i < files.size(); ++i) {
-    if (inspected[i].size) {
-      const double megapixels =
-          1e-6 * inspected[i].size->width_px * static_cast<double>(inspected[i].size->height_px);
-      ++result.photos;
-      result.megapixels += megapixels;
-      result.sizes.push_back(*inspected[i].size);
-      result.bytes += inspected[i].bytes;
-    } else if (!inspected[i].problem.empty()) {
-      result.problems.push_back({files[i], inspected[i].problem});
+  const PhotoListing listing = ListPhotoFiles(folder);
+  std::vector<Inspected> inspected(listing.files.size());
+  ParallelFor(inspected.size(), threads, [&](size_t i) {
+    const PhotoFile& file = listing.files[i];
+    if (file.problem.empty()) {
+      inspected[i] = Inspect(folder / file.file);
     } else {
-      ++result.other_files;
+      inspected[i].problem = fmt::format("{}: {}", (folder / file.path).string(), file.problem);
     }
+  });
+  PhotoFolder result;
+  result.other_files = listing.other_files;
+  for (size_t i = 0; i < inspected.size(); ++i) {
+    if (!inspected[i].size) {
+      result.problems.push_back({listing.files[i].path, inspected[i].problem});
+      continue;
+    }
+    const ImageSize& size = *inspected[i].size;
+    ++result.photos;
+    result.megapixels += 1e-6 * size.width_px * static_cast<double>(size.height_px);
+    result.sizes.push_back(size);
+    result.bytes += inspected[i].bytes;
   }
   return result;
 }

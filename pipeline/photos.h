@@ -12,7 +12,7 @@ namespace stucco {
 
 struct PhotoProblem {
   std::string path;  // relative to the photo folder
-  std::string why;
+  std::string why;   // begins with the file
 };
 
 // What a look at the headers of a photo folder's files tells. `ingest` looks closer.
@@ -22,12 +22,8 @@ struct PhotoFolder {
   size_t other_files = 0;
   double megapixels = 0;
   double bytes = 0;                    // of the photos
-  std::vector<PhotoProblem> problems;  // files that are named like pictures but cannot be used
+  std::vector<PhotoProblem> problems;  // what cannot be used: damaged files, unreadable folders
 };
-
-// Every file of a photo folder that could matter, relative to it with '/' between folders, sorted.
-// As ingest sees it: hidden files and folders are left out, linked folders are entered, once each.
-std::vector<std::string> PhotoFiles(const std::filesystem::path& folder);
 
 // Throws Error (kBadInput) when the folder is missing, is no folder or cannot be read.
 PhotoFolder InspectPhotos(const std::filesystem::path& folder, int threads);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "pipeline/assess.h"
 #include "pipeline/check.h"
@@ -14,6 +15,7 @@
 #include "pipeline/interrupt.h"
 #include "pipeline/lock.h"
 #include "pipeline/outputs.h"
+#include "pipeline/progress.h"
 #include "pipeline/run_stage.h"
 #include "pipeline/selection.h"
 #include "pipeline/work_folder.h"
@@ -24,6 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kEventsVersion = 1;
+constexpr std::chrono::seconds kHashesSaved(5);
 
 Settings LoadRunSettings(const fs::path& survey, const StageTable& table,
                          const RunOptions& options) {
@@ -72,7 +75,7 @@ class Runner {
         result_.interrupted = true;
       }
       if (!result_.interrupted) {
-        Visit(stage);
+        VisitUntilInterrupted(stage);
       }
     }
     hashes_.Save();
@@ -93,6 +96,7 @@ class Runner {
                       Describe(*lock_.killed_owner())));
     }
     CleanScratch(survey_);
+    hashes_.SaveEvery(kHashesSaved);
     const CheckResult check = Check(survey_, table_, settings_, selection_.stages);
     for (const CheckProblem& problem : check.problems) {
       if (!problem.fatal) {
@@ -101,6 +105,21 @@ class Runner {
       }
     }
     ThrowIfFatal(check);
+    ForgetForced();
+  }
+
+  // From here on forced stages count as not made: a run that continues after an interruption needs
+  // no --force and repeats nothing.
+  void ForgetForced() {
+    const WorkFolder work(survey_);
+    for (const std::string& stage : selection_.forced) {
+      if (ReadManifest(work.Manifest(stage)).manifest) {
+        MarkAsOurs(survey_, stage);
+      }
+      fs::remove_all(work.Units(stage));
+      fs::remove(work.Failure(stage));
+      fs::remove(work.Manifest(stage));
+    }
   }
 
   void End() {
@@ -123,22 +142,39 @@ class Runner {
     return {};
   }
 
+  void VisitUntilInterrupted(const Stage& stage) {
+    try {
+      Visit(stage);
+    } catch (const Error& e) {
+      if (e.kind() != ErrorKind::kInterrupted) {
+        throw;
+      }
+      result_.interrupted = true;
+    }
+  }
+
+  Fingerprint FingerprintNow(const Stage& stage, const SurveyPaths& paths) {
+    StageProgress progress(stage.name, console_, events_);
+    return TakeFingerprint(stage, settings_.stages.at(stage.name),
+                           {paths, statuses_, threads_, hashes_, progress});
+  }
+
   void Visit(const Stage& stage) {
     const BoundStage& bound = settings_.stages.at(stage.name);
     const SurveyPaths paths{survey_, settings_.photos};
     const std::string blocker = stage.reports_failures ? "" : Blocker(stage);
-    const bool selected = selection_.Contains(stage.name);
-    Fingerprint now = TakeFingerprint(stage, bound, paths, statuses_, threads_, hashes_);
+    // What went wrong is reported also by a run that was asked for less.
+    const bool selected =
+        selection_.Contains(stage.name) || (stage.reports_failures && !FirstFailed().empty());
+    Fingerprint now = FingerprintNow(stage, paths);
     Assessment assessment = Assess(stage, paths, now, threads_, hashes_);
     ApplyNeeds(stage, states_, assessment);
-    if (selected && blocker.empty() &&
-        (assessment.state != StageState::kDone || selection_.IsForced(stage.name))) {
-      if (assessment.state == StageState::kDone) {
+    if (selected && blocker.empty() && assessment.state != StageState::kDone) {
+      if (selection_.IsForced(stage.name)) {
         assessment.reasons = {"asked for with --force"};
       }
       RunOne({stage, bound, paths, std::move(now), statuses_, threads_,
-              static_cast<uint64_t>(settings_.run.memory_limit_gb * (1 << 30)),
-              selection_.IsForced(stage.name)},
+              static_cast<uint64_t>(settings_.run.memory_limit_gb * (1 << 30))},
              assessment);
     } else {
       Pass(stage, selected, blocker, assessment);
@@ -195,7 +231,7 @@ class Runner {
     } catch (const Error& e) {
       console_.Warning(fmt::format("{}; what was finished is kept", e.what()));
       result_.interrupted = true;
-      outcome.action = StageAction::kFailed;
+      outcome.action = StageAction::kInterrupted;
       result_.stages.push_back(std::move(outcome));
       return;
     }
@@ -266,6 +302,8 @@ std::string Name(StageAction action) {
       return "ran";
     case StageAction::kFailed:
       return "failed";
+    case StageAction::kInterrupted:
+      return "interrupted";
     case StageAction::kBlocked:
       return "blocked";
     case StageAction::kSkipped:

@@ -29,11 +29,12 @@ enum class StageAction {
   kUpToDate,  // nothing to do
   kRan,       // and succeeded
   kFailed,
-  kBlocked,  // not run, because a stage that it needs failed
-  kSkipped,  // not asked for
+  kInterrupted,  // begun and not ended; what it finished is kept
+  kBlocked,      // not run, because a stage that it needs failed
+  kSkipped,      // not asked for
 };
 
-std::string Name(StageAction action);  // "up_to_date", "ran", "failed", "blocked", "skipped"
+std::string Name(StageAction action);  // "up_to_date", "ran", "failed", ...
 
 struct StageOutcome {
   std::string stage;
@@ -52,8 +53,9 @@ struct RunResult {
 
 // Brings a survey up to date: every selected stage whose manifest no longer describes its options,
 // inputs and outputs runs again, in order. After a failure only stages that report failures still
-// run. Throws Error for everything that is wrong before work starts: another run, settings, photos,
-// disk.
+// run, also when they were not asked for. `force` forgets the manifests and checkpoints of its
+// stages at the start, so that a run after an interruption continues without it. Throws Error for
+// everything that is wrong before work starts: another run, settings, photos, disk.
 RunResult Run(const std::filesystem::path& survey, const StageTable& table,
               const RunOptions& options, Console& console);
 

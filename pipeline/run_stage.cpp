@@ -16,15 +16,13 @@ namespace {
 
 DiskUnits MakeUnits(const StageJob& job, EventLog& events) {
   const std::string stage = job.stage.name;
-  return DiskUnits(
-      WorkFolder(job.paths.survey).Units(stage),
-      [stage, &events](std::string_view kind, std::string_view key, size_t bytes) {
-        events.Write("unit", {{"stage", stage},
-                              {"kind", std::string(kind)},
-                              {"key", std::string(key)},
-                              {"bytes", static_cast<int64_t>(bytes)}});
-      },
-      job.forget_units);
+  return DiskUnits(WorkFolder(job.paths.survey).Units(stage),
+                   [stage, &events](std::string_view kind, std::string_view key, size_t bytes) {
+                     events.Write("unit", {{"stage", stage},
+                                           {"kind", std::string(kind)},
+                                           {"key", std::string(key)},
+                                           {"bytes", static_cast<int64_t>(bytes)}});
+                   });
 }
 
 // The stage itself, up to its outputs being in place.
@@ -109,8 +107,8 @@ StageRunResult RunStage(const StageJob& job, Console& console, EventLog& events,
       throw Error(ErrorKind::kInterrupted, fmt::format("interrupted during {}", name),
                   error.remedy());
     }
-    result.failure =
-        Failure{name, KindName(error.kind()), error.what(), error.remedy(), meter.Read()};
+    result.failure = Failure{name,           KindName(error.kind()), error.what(),
+                             error.remedy(), meter.Read(),           job.fingerprint};
     RecordFailure(*result.failure, job.paths, events);
     return result;
   }

@@ -21,7 +21,6 @@ struct StageJob {
   std::vector<StageStatus> statuses;
   int threads = 1;
   uint64_t memory_limit_bytes = uint64_t{4} << 30;
-  bool forget_units = false;
 };
 
 // Runs one stage in a scratch folder and, when it succeeds, puts its outputs in place, then its

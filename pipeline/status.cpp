@@ -44,8 +44,8 @@ SurveyStatus GetStatus(const std::filesystem::path& survey, const StageTable& ta
   std::map<std::string, StageState> states;
   std::vector<StageStatus> statuses;
   for (const Stage& stage : table) {
-    const Fingerprint now =
-        TakeFingerprint(stage, settings.stages.at(stage.name), paths, statuses, threads, hashes);
+    const Fingerprint now = TakeFingerprint(stage, settings.stages.at(stage.name),
+                                            {paths, statuses, threads, hashes, SilentProgress()});
     Assessment assessment = Assess(stage, paths, now, threads, hashes);
     ApplyNeeds(stage, states, assessment);
     states[stage.name] = assessment.state;

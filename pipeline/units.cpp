@@ -33,8 +33,8 @@ std::string FileName(std::string_view key) {
 
 }  // namespace
 
-DiskUnits::DiskUnits(fs::path folder, Listener listener, bool forget)
-    : folder_(std::move(folder)), listener_(std::move(listener)), forget_(forget) {}
+DiskUnits::DiskUnits(fs::path folder, Listener listener)
+    : folder_(std::move(folder)), listener_(std::move(listener)) {}
 
 fs::path DiskUnits::Path(std::string_view kind, std::string_view key) const {
   return folder_ / FileName(kind) / FileName(key);
@@ -42,12 +42,6 @@ fs::path DiskUnits::Path(std::string_view kind, std::string_view key) const {
 
 std::optional<std::string> DiskUnits::Load(std::string_view kind, std::string_view key) {
   const fs::path path = Path(kind, key);
-  if (forget_) {
-    const std::lock_guard lock(mutex_);
-    if (!touched_.contains(path)) {
-      return std::nullopt;
-    }
-  }
   std::error_code missing;
   if (!fs::exists(path, missing)) {
     return std::nullopt;

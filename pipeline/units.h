@@ -24,8 +24,7 @@ class DiskUnits : public UnitStore {
   // Called for every unit that was computed, after it is on disk.
   using Listener = std::function<void(std::string_view kind, std::string_view key, size_t bytes)>;
 
-  // With `forget`, units of earlier runs count as absent.
-  DiskUnits(std::filesystem::path folder, Listener listener, bool forget = false);
+  DiskUnits(std::filesystem::path folder, Listener listener);
 
   std::optional<std::string> Load(std::string_view kind, std::string_view key) override;
   void Save(std::string_view kind, std::string_view key, std::string_view bytes) override;
@@ -41,7 +40,6 @@ class DiskUnits : public UnitStore {
 
   std::filesystem::path folder_;
   Listener listener_;
-  bool forget_;
   mutable std::mutex mutex_;
   std::map<std::string, UnitCount> counts_;
   std::set<std::filesystem::path> touched_;

@@ -26,7 +26,7 @@ PhotoRecord Inspect(const std::string& folder, const std::string& name) {
   context.photos = kData / folder;
   context.progress = &SilentProgress();
   context.units = &NoUnits();
-  return InspectPhoto({name, ""}, 200, context);
+  return InspectPhoto({name, name, ""}, 200, context);
 }
 
 class RealPhotos : public testing::Test {

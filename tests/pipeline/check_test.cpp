@@ -53,6 +53,17 @@ TEST_F(CheckTest, NamesEveryBadPictureAndGoesOn) {
   EXPECT_THAT(result.photos.problems[0].why, HasSubstr("empty.jpg"));
 }
 
+TEST_F(CheckTest, SeesWhatIngestSees) {
+  WriteFile(fake.photos / "p0.dng", "raw");  // beside p0.jpg
+  WriteFile(fake.photos / "p0.thm", ReadFile(fake.photos / "p0.jpg"));
+  WriteFile(fake.photos / "line\nbreak.jpg", ReadFile(fake.photos / "p0.jpg"));
+  const CheckResult result = Check();
+  EXPECT_EQ(result.photos.photos, 4u);
+  EXPECT_EQ(result.photos.other_files, 2u);
+  ASSERT_EQ(result.photos.problems.size(), 1u);
+  EXPECT_THAT(result.photos.problems[0].why, HasSubstr("line?break.jpg: the file's name"));
+}
+
 TEST_F(CheckTest, RefusesAFolderWithoutEnoughPhotos) {
   RemovePhotos();
   EXPECT_THAT(Check().problems.at(0).what, HasSubstr("is empty"));

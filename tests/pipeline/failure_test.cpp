@@ -77,6 +77,41 @@ TEST(Failure, IsRememberedAndForgottenWhenMended) {
   EXPECT_THAT(fake.Outputs().at("report/result.txt"), HasSubstr("calib done"));
 }
 
+TEST(Failure, OfOtherOptionsOrInputsIsNotBroughtBack) {
+  FakeSurvey fake;
+  fake.Run();
+  LetFail(fake, "calib", Error(ErrorKind::kStageFailed, "too few features"));
+  fake.SetOption("calib.size", "2");
+  fake.Run();
+  EXPECT_EQ(StateOf(fake.Status(), "calib"), "failed");
+  fake.SetOption("calib.size", "1");
+  EXPECT_EQ(StateOf(fake.Status(), "calib"), "done");
+  fake.SetOption("calib.size", "3");
+  EXPECT_EQ(StateOf(fake.Status(), "calib"), "stale");
+  EXPECT_EQ(ReasonsOf(fake.Status(), "calib"), "option calib.size changed from 1 to 3");
+  fake.SetOption("calib.size", "2");
+  EXPECT_EQ(StateOf(fake.Status(), "calib"), "failed");
+  WriteFile(WorkFolder(fake.survey).Failure("calib"), "{\"version\": \"x\"}");
+  EXPECT_EQ(StateOf(fake.Status(), "calib"), "stale");
+}
+
+TEST(Failure, IsReportedAlsoByARunThatWasAskedForLess) {
+  FakeSurvey fake;
+  RunOptions until, goal;
+  until.until = "dense";
+  goal.goal = "calib";
+  fake.Run(until);
+  EXPECT_EQ(fake.Outputs().count("report/result.txt"), 0u);  // not asked for, and nothing failed
+  fake.SetOption("calib.size", "2");
+  LetFail(fake, "calib", Error(ErrorKind::kStageFailed, "no overlap"));
+  EXPECT_EQ(FakeSurvey::Ran(fake.Run(until)), (Stages{"report"}));
+  EXPECT_THAT(fake.Outputs().at("report/result.txt"), HasSubstr("calib failed no overlap"));
+  fake.SetOption("calib.size", "3");
+  LetFail(fake, "calib", Error(ErrorKind::kStageFailed, "still none"));
+  EXPECT_EQ(fake.Run(goal).exit_code, 1);
+  EXPECT_THAT(fake.Outputs().at("report/result.txt"), HasSubstr("calib failed still none"));
+}
+
 TEST(Failure, EveryKindHasItsExitCode) {
   FakeSurvey fake;
   LetFail(fake, "side", Error(ErrorKind::kQualityGate, "below 0.5"));

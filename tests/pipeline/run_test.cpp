@@ -8,6 +8,7 @@
 #include <chrono>
 #include <thread>
 
+#include "pipeline/interrupt.h"
 #include "pipeline/work_folder.h"
 #include "survey/error.h"
 #include "survey/files.h"
@@ -196,6 +197,58 @@ TEST(Run, NothingIsHashedTwice) {
   EXPECT_EQ(hashes.hashed(), 0u);
 }
 
+// Cancelled after so many photos.
+class Hashing : public Progress {
+ public:
+  explicit Hashing(size_t limit) : limit_(limit) {}
+  void Begin(std::string_view step, size_t total) override {
+    steps += std::string(step) + " " + std::to_string(total) + "; ";
+  }
+  void Advance(size_t units) override { done += units; }
+  void Warn(std::string_view) override {}
+  void Note(std::string_view) override {}
+  bool Cancelled() const override { return done >= limit_; }
+
+  std::string steps;
+  size_t done = 0;
+
+ private:
+  size_t limit_;
+};
+
+TEST(Run, HashingPhotosIsShownCancelledAndKept) {
+  FakeSurvey fake;
+  WriteFile(fake.photos / "flight.mp4", "200 GB");
+  WriteFile(fake.photos / "p0.dng", "raw");
+  WriteFile(fake.photos / "alone.dng", "raw");
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));  // past the age of young stamps
+  const SurveyPaths paths{fake.survey, fake.photos};
+  const BoundStage bound = fake.table[0].bind();
+  fs::create_directories(WorkFolder(fake.survey).root);
+  const auto take = [&](Progress& progress, HashCache& hashes) {
+    return TakeFingerprint(fake.table[0], bound, {paths, {}, 1, hashes, progress});
+  };
+  {
+    HashCache hashes(WorkFolder(fake.survey).Hashes());
+    hashes.SaveEvery(std::chrono::seconds(0));
+    Hashing stopped(3);
+    EXPECT_THROW(take(stopped, hashes), Error);
+    EXPECT_EQ(stopped.steps, "hashing photos 4; ");
+    EXPECT_EQ(hashes.hashed(), 3u);
+  }
+  HashCache hashes(WorkFolder(fake.survey).Hashes());
+  Hashing rest(99);
+  const Fingerprint fingerprint = take(rest, hashes);
+  EXPECT_EQ(rest.steps, "hashing photos 1; ");
+  EXPECT_EQ(hashes.hashed(), 1u);
+  EXPECT_EQ(fingerprint.inputs.size(), 5u);
+  EXPECT_EQ(fingerprint.inputs.at("photos/alone.dng"), kUnreadInput);
+  EXPECT_EQ(fingerprint.inputs.count("photos/flight.mp4"), 0u);
+  Hashing nothing(0);
+  EXPECT_EQ(take(nothing, hashes), fingerprint);
+  EXPECT_EQ(nothing.steps, "");
+}
+
 TEST(Run, UntilFromAndGoalChooseStages) {
   FakeSurvey fake;
   RunOptions until;
@@ -234,6 +287,25 @@ TEST(Run, ForceComputesAgainWithoutOldUnits) {
   EXPECT_EQ(FakeSurvey::Ran(result), kAll);
   EXPECT_EQ(OutcomeOf(result, "calib").units.at("features").reused, 0);
   EXPECT_EQ(OutcomeOf(result, "calib").units.at("features").computed, 5);
+  EXPECT_EQ(fake.Outputs(), outputs);
+}
+
+TEST(Run, AForcedRunThatWasInterruptedGoesOnWithoutForce) {
+  FakeSurvey fake;
+  fake.Run();
+  const auto outputs = fake.Outputs();
+  fake.during = [](const std::string& stage, StageContext&) { SetInterrupted(stage == "calib"); };
+  RunOptions force;
+  force.force = true;
+  const RunResult stopped = fake.Run(force);
+  SetInterrupted(false);
+  EXPECT_EQ(OutcomeOf(stopped, "calib").action, StageAction::kInterrupted);
+  EXPECT_FALSE(OutcomeOf(stopped, "calib").failure);
+  fake.during = nullptr;
+  const RunResult result = fake.Run();
+  EXPECT_EQ(FakeSurvey::Ran(result), (Stages{"calib", "side", "dense", "report"}));
+  EXPECT_EQ(OutcomeOf(result, "calib").units.at("features").computed, 0);
+  EXPECT_EQ(OutcomeOf(result, "calib").units.at("features").reused, 5);
   EXPECT_EQ(fake.Outputs(), outputs);
 }
 
