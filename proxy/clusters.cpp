@@ -68,7 +68,6 @@ Clusters SplitIntoBuildings(const Samples& samples, const Tolerances& tolerances
                             const std::vector<Plane>& planes) {
   constexpr double kFewestAreas = 12;   // of min_area
   constexpr double kFewestDetails = 6;  // height in levels of detail
-  constexpr double kShareOfLargest = 0.01;
   const Eigen::Vector3d east = AnyPerpendicular(up);
   const Eigen::Vector3d north = up.cross(east);
   const auto cell_of = [&](int i) {
@@ -112,13 +111,7 @@ Clusters SplitIntoBuildings(const Samples& samples, const Tolerances& tolerances
   }
   std::stable_sort(sized.begin(), sized.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (auto& [area, group] : sized) {
-    if (area < kShareOfLargest * sized[0].first) {
-      ++clusters.dropped;
-    } else {
-      clusters.buildings.push_back(std::move(group));
-    }
-  }
+  for (auto& [area, group] : sized) clusters.buildings.push_back(std::move(group));
   return clusters;
 }
 

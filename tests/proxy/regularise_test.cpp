@@ -268,6 +268,18 @@ TEST(SplitIntoBuildings, SplitsWhatStandsApartAndDropsCars) {
   EXPECT_EQ(clusters.dropped, 1);
 }
 
+TEST(SplitIntoBuildings, KeepsAHouseBesideAHall) {
+  Planes p;
+  p.Add({0, 0, 12}, Vector3d::UnitZ(), 90, 75);
+  p.Add({60, 0, 2.5}, -Vector3d::UnitY(), 6, 5);  // less than one part in a hundred of the hall
+  p.Add({63, 3, 2.5}, Vector3d::UnitX(), 6, 5);
+  const std::vector<Plane> ground(1);
+  const Clusters clusters =
+      SplitIntoBuildings(p.samples, p.tolerances, Vector3d::UnitZ(), ground, p.planes);
+  EXPECT_EQ(clusters.buildings.size(), 2u);
+  EXPECT_EQ(clusters.dropped, 0);
+}
+
 TEST(SplitIntoBuildings, SplitsAWallPlaneThatTwoHousesShare) {
   Planes p;
   p.Add({0, 0, 3}, -Vector3d::UnitY(), 10, 6);
