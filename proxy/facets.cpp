@@ -70,9 +70,9 @@ char LetterOf(FacetClass facet_class) {
     case FacetClass::kGround:
       return 'G';
     case FacetClass::kOuterFloor:
-      return 'F';
+      return 'O';  // F is a facade of the map
   }
-  return 'F';
+  return 'O';
 }
 
 }  // namespace

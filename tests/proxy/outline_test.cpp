@@ -219,5 +219,29 @@ TEST(Creases, FindsTheLineWhereWallsMeet) {
   EXPECT_LT(creases[0].from, creases[0].to);
 }
 
+TEST(AssignIds, GivesEachClassItsLetterByFallingArea) {
+  Building building{.id = "B0012", .source = "cloud", .facets = {}};
+  const auto add = [&](FacetClass facet_class, double area) {
+    Facet facet;
+    facet.facet_class = facet_class;
+    facet.area = area;
+    building.facets.push_back(facet);
+  };
+  add(FacetClass::kOuterFloor, 3);
+  add(FacetClass::kWall, 20);
+  add(FacetClass::kRoof, 50);
+  add(FacetClass::kWall, 40);
+  add(FacetClass::kGround, 60);
+  AssignIds(building);
+  std::vector<std::string> ids;
+  for (const Facet& facet : building.facets) {
+    ids.push_back(facet.id);
+    EXPECT_EQ(facet.facade, facet.id);
+  }
+  // F is left to the facades of the map.
+  EXPECT_EQ(ids, (std::vector<std::string>{"B0012/W00", "B0012/W01", "B0012/R0", "B0012/G0",
+                                           "B0012/O0"}));
+}
+
 }  // namespace
 }  // namespace stucco
