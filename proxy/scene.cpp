@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "proxy/clusters.h"
@@ -88,11 +90,17 @@ void FindUp(const std::vector<Plane>& planes, const Stations& stations, const Ge
                 fmt::format("proxy.up has {} numbers; it needs 3", options.up.size()));
   }
   if (georef.up && georef.up->allFinite() && georef.up->norm() > 0) {
-    // Sensors are good to about a degree; walls are better, but only near what sensors say.
-    constexpr double kSensor_deg = 3;
+    // Gimbals are good to about a degree, and positions of a few metres from a short flight tilt
+    // the frame by more; walls are better, but only near what sensors say. RTK needs no help.
+    constexpr double kGimbal_deg = 3;
+    constexpr double kPositions_deg = 5;
     const Eigen::Vector3d given = georef.up->normalized();
-    scene.up = georef.frame == "enu" ? given : RefineUp(planes, given, kSensor_deg);
-    findings.notes.push_back("up: from calibration (" + georef.source + ")");
+    const bool exact = georef.frame == "enu" && georef.source == "rtk";
+    const double tolerance_deg = georef.frame == "enu" ? kPositions_deg : kGimbal_deg;
+    scene.up = exact ? given : RefineUp(planes, given, tolerance_deg);
+    findings.notes.push_back(fmt::format(
+        "up: from calibration ({}); walls moved it by {:.2f} deg", georef.source,
+        std::acos(std::clamp(scene.up.dot(given), -1.0, 1.0)) * 180 / std::numbers::pi));
     return;
   }
   const UpEstimate estimate = EstimateUp(planes, stations);

@@ -68,29 +68,37 @@ std::vector<Eigen::Vector3d> UpFromStations(const Stations& stations) {
 Eigen::Vector3d RefineUp(const std::vector<Plane>& planes, const Eigen::Vector3d& first_guess,
                          double tolerance_deg) {
   constexpr int kRounds = 12;
-  constexpr double kHold = 0.01;       // keeps up where walls of one direction leave it free
-  constexpr double kFlatWeight = 0.2;  // grounds and terraces slope more often than walls lean
+  constexpr double kHold = 0.01;  // keeps up where walls of one direction leave it free
+  // Grounds and terraces slope more often than walls lean: they decide only what walls leave open.
+  constexpr double kFlatWeight = 0.2;
+  constexpr double kFlatShare = 0.1;  // at most, of the walls' weight
   Eigen::Vector3d up = first_guess;
   double gate = std::sin(tolerance_deg * kDegree);
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix3d system = Eigen::Matrix3d::Zero();
-    double total = 0;
+    Eigen::Matrix3d flats = Eigen::Matrix3d::Zero();
+    double walls_total = 0, flats_total = 0;
     for (const Plane& plane : planes) {
       const double along = plane.normal.dot(up);
-      // Tukey's weights, the gate narrowing to 2 degrees: leaning planes lose their say.
+      // Tukey's weights, the gate narrowing to 3 degrees: leaning planes lose their say.
       const double lean = std::abs(along) / gate;
       if (lean < 1) {
         const double weight = plane.area * std::pow(1 - lean * lean, 2);
         system += weight * plane.normal * plane.normal.transpose();
-        total += weight;
+        walls_total += weight;
       }
       const double tilt = std::sqrt(std::max(0.0, 1 - along * along)) / gate;
       if (along > 0 && tilt < 1) {
         const double weight = kFlatWeight * plane.area * std::pow(1 - tilt * tilt, 2);
-        system += weight * (Eigen::Matrix3d::Identity() - plane.normal * plane.normal.transpose());
-        total += weight;
+        flats += weight * (Eigen::Matrix3d::Identity() - plane.normal * plane.normal.transpose());
+        flats_total += weight;
       }
     }
+    const double share = walls_total > 0 && flats_total > kFlatShare * walls_total
+                             ? kFlatShare * walls_total / flats_total
+                             : 1;
+    system += share * flats;
+    const double total = walls_total + share * flats_total;
     if (!(total > 0)) break;
     system += kHold * total * (Eigen::Matrix3d::Identity() - first_guess * first_guess.transpose());
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(system);

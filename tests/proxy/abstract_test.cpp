@@ -206,6 +206,29 @@ TEST(AbstractCloud, AWrongUpFromSensorsIsRefinedByWalls) {
   EXPECT_LT(AngleDeg(Abstract(captured, georef).up, Vector3d::UnitZ()), 0.2);
 }
 
+TEST(AbstractCloud, WallsStandUprightInAFrameThatGpsTilted) {
+  Captured captured =
+      Capture({testing::GableHouse()}, {testing::GroundSquare(20)}, {.noise = 0.02});
+  const Eigen::Matrix3d tilt =
+      Eigen::AngleAxisd(2 * std::numbers::pi / 180, Vector3d(1, 0.5, 0).normalized())
+          .toRotationMatrix();
+  testing::MoveTo(tilt, 1, Vector3d::Zero(), captured);
+  Georef georef = Metric();
+  georef.source = "gps";
+  const Proxy proxy = Abstract(captured, georef);
+  EXPECT_LT(AngleDeg(proxy.up, tilt.col(2)), 0.1);
+  const Building* building = Find(proxy, "B0001");
+  ASSERT_NE(building, nullptr);
+  EXPECT_TRUE(building->watertight);
+  for (const Facet& facet : building->facets) {
+    if (facet.facet_class == FacetClass::kWall) {
+      EXPECT_NEAR(facet.normal.dot(tilt.col(2)), 0, 0.002);
+    }
+  }
+  georef.source = "rtk";  // known to millimetres: not to be moved
+  EXPECT_EQ(Abstract(captured, georef).up, Vector3d::UnitZ());
+}
+
 TEST(AbstractCloud, TwoHousesAreTwoBuildings) {
   const Proxy proxy = Abstract(
       Capture({testing::BoxHouse(8, 6, 5, {-9, 0, 0}), testing::BoxHouse(6, 6, 7, {9, 0, 0})},

@@ -80,6 +80,13 @@ TEST(EstimateUp, LetsGoOfLeaningPlanes) {
   EXPECT_LT(AngleDeg(EstimateUp(planes, stations).up, Vector3d::UnitZ()), 1.0);
 }
 
+TEST(RefineUp, ASiteThatSlopesDoesNotTiltTheWalls) {
+  const std::vector<Plane> planes = {MakePlane({0, -1, 0}, 80), MakePlane({1, 0, 0}, 60),
+                                     MakePlane({0.03, 0.02, 1}, 40000)};
+  const Vector3d up = RefineUp(planes, Vector3d(-0.02, 0.02, 1).normalized(), 4);
+  EXPECT_LT(AngleDeg(up, Vector3d::UnitZ()), 0.35);
+}
+
 TEST(EstimateUp, UsesTheGroundBelowPhotosStraightDown) {
   // Headed north and back south, looking down: the pictures' tops cancel out.
   Stations stations = Around(-90, 90, 90);
