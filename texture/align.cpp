@@ -5,8 +5,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <utility>
 
 namespace stucco {
 namespace {
@@ -19,9 +21,24 @@ constexpr double kLeastContrast = 4;  // standard deviation of a window worth ma
 constexpr size_t kFewestMatches = 8;
 constexpr double kMatchSigma_px = 0.3;
 constexpr int kRounds = 10;
+constexpr double kHeld = 1e12;  // weight of a term that stays zero
 
-cv::Mat AsMat(const std::vector<uint8_t>& data, const GreyPicture& picture) {
-  return cv::Mat(picture.height, picture.width, CV_8UC1, const_cast<uint8_t*>(data.data()));
+cv::Rect AreaOf(const GreyPicture& picture) {
+  return {picture.x, picture.y, picture.width, picture.height};
+}
+
+// The part of a picture's layer that lies in `area` of the raster.
+cv::Mat Part(const std::vector<uint8_t>& layer, const GreyPicture& picture, const cv::Rect& area) {
+  const cv::Mat whole(picture.height, picture.width, CV_8UC1, const_cast<uint8_t*>(layer.data()));
+  return whole(area - cv::Point(picture.x, picture.y));
+}
+
+// The smallest rectangle around what a picture shows.
+GridArea ShownArea(const GreyPicture& picture) {
+  if (picture.valid.empty()) return {};
+  const cv::Rect shown = cv::boundingRect(Part(picture.valid, picture, AreaOf(picture)));
+  const Eigen::Vector2d low(picture.x + shown.x, picture.y + shown.y);
+  return {low, low + Eigen::Vector2d(shown.width, shown.height)};
 }
 
 // Vertex of the parabola through three values at -1, 0, 1.
@@ -122,8 +139,11 @@ Eigen::Matrix<double, 8, 1> PriorSigma(double limit_px) {
   return sigma;
 }
 
+// `terms_of` says how many terms each picture has; the others are held at zero.
 std::vector<GridShift> SolveShifts(std::span<const GridMatch> matches,
-                                   std::vector<GridShift> shifts, int terms, double limit_px) {
+                                   std::vector<GridShift> shifts, std::span<const int> terms_of,
+                                   double limit_px) {
+  constexpr int terms = 8;
   const auto count = static_cast<Eigen::Index>(shifts.size());
   const Eigen::Matrix<double, 8, 1> sigma = PriorSigma(limit_px);
   for (int round = 0; round < kRounds; ++round) {
@@ -132,18 +152,18 @@ std::vector<GridShift> SolveShifts(std::span<const GridMatch> matches,
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count * terms, count * terms);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(count * terms);
     for (Eigen::Index i = 0; i < count * terms; ++i) {
-      normal(i, i) = 1 / (sigma[i % terms] * sigma[i % terms]);
+      const bool is_free = i % terms < terms_of[i / terms];
+      normal(i, i) = is_free ? 1 / (sigma[i % terms] * sigma[i % terms]) : kHeld;
     }
     for (const GridMatch& match : matches) {
       const double length = Residual(match, shifts).norm() / width;
       const double root = 1 / (1 + length * length);
       const double weight = root * root / (kMatchSigma_px * kMatchSigma_px);
-      const Eigen::Matrix<double, 2, 8> full =
+      const Eigen::Matrix<double, 2, 8> basis =
           Basis(shifts[match.a], (match.in_a + match.in_b) / 2);
-      const Eigen::MatrixXd basis = full.leftCols(terms);
       const Eigen::Vector2d wanted = match.in_a - match.in_b;
-      const Eigen::MatrixXd block = weight * basis.transpose() * basis;
-      const Eigen::VectorXd pull = weight * basis.transpose() * wanted;
+      const Eigen::Matrix<double, 8, 8> block = weight * basis.transpose() * basis;
+      const Eigen::Matrix<double, 8, 1> pull = weight * basis.transpose() * wanted;
       const Eigen::Index a = match.a * terms;
       const Eigen::Index b = match.b * terms;
       normal.block(a, a, terms, terms) += block;
@@ -156,31 +176,68 @@ std::vector<GridShift> SolveShifts(std::span<const GridMatch> matches,
     const Eigen::VectorXd solution = normal.ldlt().solve(right);
     for (Eigen::Index i = 0; i < count; ++i) {
       shifts[i].terms.setZero();
-      shifts[i].terms.head(terms) = solution.segment(i * terms, terms);
+      shifts[i].terms.head(terms_of[i]) = solution.segment(i * terms, terms_of[i]);
     }
   }
   return shifts;
 }
 
-double LargestShift(std::span<const GridShift> shifts, const Eigen::Vector2d& raster_size) {
+double LargestShift(const GridShift& shift, const GridArea& area) {
   double largest = 0;
-  for (const GridShift& shift : shifts) {
-    for (int corner = 0; corner < 4; ++corner) {
-      const Eigen::Vector2d place((corner % 2) * raster_size.x(), (corner / 2) * raster_size.y());
-      largest = std::max(largest, shift.At(place).norm());
-    }
+  for (int corner = 0; corner < 4; ++corner) {
+    const Eigen::Vector2d place(corner % 2 ? area.high.x() : area.low.x(),
+                                corner / 2 ? area.high.y() : area.low.y());
+    largest = std::max(largest, shift.At(place).norm());
   }
   return largest;
+}
+
+// The matches of pairs that have enough of them.
+std::vector<GridMatch> BelievedMatches(std::span<const GridMatch> matches) {
+  std::map<std::pair<int, int>, size_t> count;
+  for (const GridMatch& match : matches) ++count[{match.a, match.b}];
+  std::vector<GridMatch> believed;
+  for (const GridMatch& match : matches) {
+    if (count[{match.a, match.b}] >= kFewestMatches) believed.push_back(match);
+  }
+  return believed;
+}
+
+// Takes terms from the pictures that move too far, or all terms from the one that moves farthest
+// when none has terms to spare; the others start anew then. False where no picture moves too far.
+bool TakeTerms(std::span<const GridShift> shifts, std::span<const GridArea> areas, double limit_px,
+               std::vector<int>& terms) {
+  size_t worst = 0;
+  double farthest = limit_px;
+  bool spared = false;
+  for (size_t i = 0; i < shifts.size(); ++i) {
+    const double shift = LargestShift(shifts[i], areas[i]);
+    if (shift <= limit_px) continue;
+    if (!(shift <= farthest)) {
+      farthest = shift;
+      worst = i;
+    }
+    if (terms[i] <= 2) continue;
+    terms[i] = terms[i] == 8 ? 6 : 2;
+    spared = true;
+  }
+  if (spared) return true;
+  if (farthest <= limit_px) return false;
+  for (int& count : terms) count = count > 0 ? 8 : 0;
+  terms[worst] = 0;
+  return true;
 }
 
 }  // namespace
 
 std::vector<GridMatch> MatchPictures(std::span<const GreyPicture> pictures, int a, int b,
                                      int reach) {
-  const cv::Mat grey_a = AsMat(pictures[a].grey, pictures[a]);
-  const cv::Mat grey_b = AsMat(pictures[b].grey, pictures[b]);
-  const cv::Mat valid_a = AsMat(pictures[a].valid, pictures[a]);
-  const cv::Mat valid_b = AsMat(pictures[b].valid, pictures[b]);
+  const cv::Rect common = AreaOf(pictures[a]) & AreaOf(pictures[b]);
+  if (common.empty()) return {};
+  const cv::Mat grey_a = Part(pictures[a].grey, pictures[a], common);
+  const cv::Mat grey_b = Part(pictures[b].grey, pictures[b], common);
+  const cv::Mat valid_a = Part(pictures[a].valid, pictures[a], common);
+  const cv::Mat valid_b = Part(pictures[b].valid, pictures[b], common);
   std::vector<GridMatch> matches;
   for (const cv::Point& spot : FindSpots(grey_a, valid_a & valid_b)) {
     const auto there = FindWindow(grey_a, grey_b, valid_b, spot, spot, reach);
@@ -192,47 +249,42 @@ std::vector<GridMatch> MatchPictures(std::span<const GreyPicture> pictures, int 
     const Eigen::Vector2d from(spot.x, spot.y);
     const Eigen::Vector2d rounding = *there - Eigen::Vector2d(near.x, near.y);
     if (!((*back + rounding - from).norm() <= kBackTolerance_px)) continue;
-    const Eigen::Vector2d half(0.5, 0.5);  // raster positions count from the texel's corner
-    matches.push_back({a, b, from + half, *there + half});
+    // Raster positions count from the texel's corner.
+    const Eigen::Vector2d first(common.x + 0.5, common.y + 0.5);
+    matches.push_back({a, b, from + first, *there + first});
   }
   return matches;
 }
 
-Alignment SolveAlignment(std::span<const GridMatch> matches, size_t pictures,
+Alignment SolveAlignment(std::span<const GridMatch> matches, std::span<const GridArea> areas,
                          const Eigen::Vector2d& raster_size, double limit_px) {
   Alignment out;
   GridShift identity;
   identity.center = raster_size / 2;
   identity.radius = std::max(1.0, raster_size.maxCoeff() / 2);
-  out.shifts.assign(pictures, identity);
-
-  std::vector<GridMatch> believed;
-  for (size_t a = 0; a < pictures; ++a) {
-    for (size_t b = a + 1; b < pictures; ++b) {
-      std::vector<GridMatch> pair;
-      for (const GridMatch& match : matches) {
-        if (match.a == static_cast<int>(a) && match.b == static_cast<int>(b)) pair.push_back(match);
-      }
-      if (pair.size() >= kFewestMatches) believed.insert(believed.end(), pair.begin(), pair.end());
-    }
-  }
+  out.shifts.assign(areas.size(), identity);
+  const std::vector<GridMatch> believed = BelievedMatches(matches);
   if (believed.empty()) return out;
   out.before_px = MedianResidual(believed, out.shifts);
   out.after_px = out.before_px;
   if (!(limit_px > 0)) return out;
-  for (int terms : {8, 6, 2}) {
-    const auto shifts = SolveShifts(believed, out.shifts, terms, limit_px);
-    if (!(LargestShift(shifts, raster_size) <= limit_px)) continue;
-    const double after = MedianResidual(believed, shifts);
-    if (!(after < out.before_px)) continue;
-    out.shifts = shifts;
-    out.after_px = after;
-    break;
-  }
+
+  std::vector<int> terms(areas.size(), 8);
+  std::vector<GridMatch> kept = believed;
+  std::vector<GridShift> shifts;
+  do {
+    std::erase_if(kept, [&](const GridMatch& m) { return terms[m.a] == 0 || terms[m.b] == 0; });
+    if (kept.empty()) return out;
+    shifts = SolveShifts(kept, out.shifts, terms, limit_px);
+  } while (TakeTerms(shifts, areas, limit_px, terms));
+  if (!(MedianResidual(kept, shifts) < MedianResidual(kept, out.shifts))) return out;
+  out.shifts = std::move(shifts);
+  out.after_px = MedianResidual(believed, out.shifts);
   return out;
 }
 
-Alignment AlignPictures(std::span<const GreyPicture> pictures, double limit_px) {
+Alignment AlignPictures(std::span<const GreyPicture> pictures, const Eigen::Vector2d& raster_size,
+                        double limit_px) {
   std::vector<GridMatch> matches;
   // Two pictures may both be off by the limit, in opposite directions.
   const int reach = std::max(4, static_cast<int>(std::ceil(2 * limit_px)) + 1);
@@ -242,10 +294,9 @@ Alignment AlignPictures(std::span<const GreyPicture> pictures, double limit_px) 
       matches.insert(matches.end(), pair.begin(), pair.end());
     }
   }
-  const Eigen::Vector2d size = pictures.empty()
-                                   ? Eigen::Vector2d(1, 1)
-                                   : Eigen::Vector2d(pictures[0].width, pictures[0].height);
-  return SolveAlignment(matches, pictures.size(), size, limit_px);
+  std::vector<GridArea> areas;
+  for (const GreyPicture& picture : pictures) areas.push_back(ShownArea(picture));
+  return SolveAlignment(matches, areas, raster_size, limit_px);
 }
 
 }  // namespace stucco

@@ -11,12 +11,20 @@
 
 namespace stucco {
 
-// One photo rectified on a facet's alignment raster.
+// One photo rectified on a rectangle of a facet's alignment raster.
 struct GreyPicture {
   int width = 0;
   int height = 0;
   std::vector<uint8_t> grey;
   std::vector<uint8_t> valid;  // the photo shows the facet here, not an occluder
+  int x = 0;                   // of the first texel on the raster
+  int y = 0;
+};
+
+// A rectangle of the raster, texels.
+struct GridArea {
+  Eigen::Vector2d low = Eigen::Vector2d::Zero();
+  Eigen::Vector2d high = Eigen::Vector2d::Zero();
 };
 
 // The same detail of the wall in two pictures, in raster texels.
@@ -41,13 +49,15 @@ struct Alignment {
 
 // One smooth shift per picture that brings matched details together, all pictures at once: least
 // squares with a prior on identity (so that no picture is the reference and errors of poses and
-// proxy are shared), reweighted by Geman-McClure's function. Tries eight terms (homography), then
-// six (affine), then two; shifts that would move any corner by more than `limit_px` are not
-// believed. Pairs with fewer than eight matches do not count.
-Alignment SolveAlignment(std::span<const GridMatch> matches, size_t pictures,
+// proxy are shared), reweighted by Geman-McClure's function. A shift that would move a corner of
+// what its picture shows (`areas`) by more than `limit_px` is not believed: the picture gets six
+// terms (affine) instead of eight (homography), then two, then stays where it is, without its
+// matches, and the others are solved anew. Pairs with fewer than eight matches do not count.
+Alignment SolveAlignment(std::span<const GridMatch> matches, std::span<const GridArea> areas,
                          const Eigen::Vector2d& raster_size, double limit_px);
 
 // MatchPictures over all pairs, then SolveAlignment.
-Alignment AlignPictures(std::span<const GreyPicture> pictures, double limit_px);
+Alignment AlignPictures(std::span<const GreyPicture> pictures, const Eigen::Vector2d& raster_size,
+                        double limit_px);
 
 }  // namespace stucco

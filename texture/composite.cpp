@@ -46,7 +46,7 @@ std::vector<uint8_t> FindPresent(const std::vector<int>& owners, size_t count) {
 
 Layer MakeLayer(const ChosenPhoto& chosen, int index, const TexelGrid& grid, const Tile& tile,
                 const Ownership& ownership) {
-  SampledTile sampled = SamplePhoto(*chosen.photo, *chosen.pyramid, grid, tile, chosen.shift);
+  SampledTile sampled = SamplePhoto(*chosen.photo, *chosen.open(), grid, tile, chosen.shift);
   for (size_t i = 0; i < tile.size(); ++i) {
     for (int k = 0; k < 3; ++k) {
       float& value = sampled.rgb[3 * i + k];

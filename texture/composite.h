@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -19,7 +20,9 @@ namespace stucco {
 // A photo that was chosen for a facet, with everything its texels depend on.
 struct ChosenPhoto {
   const TexturePhoto* photo = nullptr;
-  std::shared_ptr<const PhotoPyramid> pyramid;
+  // Opens the photo in full size. Large facets have more photos than fit into memory at once: what
+  // it returns is held only while it is read.
+  std::function<std::shared_ptr<const PhotoPyramid>()> open;
   Eigen::Vector3d gain = Eigen::Vector3d::Ones();
   GridShift shift;           // in texels of the facet's grid
   std::vector<Sight> sight;  // over the selection raster

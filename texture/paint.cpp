@@ -120,7 +120,7 @@ std::vector<ChosenPhoto> OpenChosen(const Selected& selected,
   for (const RasterView& view : selected.views) {
     ChosenPhoto photo;
     photo.photo = &scene.photos[view.photo];
-    photo.pyramid = scene.cache->Get(photo.photo->name, 0);
+    photo.open = [cache = scene.cache, name = photo.photo->name] { return cache->Get(name, 0); };
     photo.gain = gains[view.photo];
     for (const TexelView& seen : view.texels) photo.sight.push_back(seen.sight);
     chosen.push_back(std::move(photo));
@@ -128,20 +128,43 @@ std::vector<ChosenPhoto> OpenChosen(const Selected& selected,
   return chosen;
 }
 
+// The part of the raster that a chosen photo shows freely; a texel of the selection's raster is
+// `scale` of this one's.
+Tile FreeArea(const ChosenPhoto& chosen, const Ownership& ownership, const TexelGrid& raster,
+              double scale) {
+  int left = raster.width;
+  int top = raster.height;
+  int right = 0;
+  int bottom = 0;
+  for (size_t i = 0; i < chosen.sight.size(); ++i) {
+    if (chosen.sight[i] != Sight::kFree) continue;
+    const double x = scale * static_cast<double>(i % ownership.raster_width);
+    const double y = scale * static_cast<double>(i / ownership.raster_width);
+    left = std::min(left, static_cast<int>(x));
+    top = std::min(top, static_cast<int>(y));
+    right = std::max(right, static_cast<int>(std::ceil(x + scale)));
+    bottom = std::max(bottom, static_cast<int>(std::ceil(y + scale)));
+  }
+  right = std::min(right, raster.width);
+  bottom = std::min(bottom, raster.height);
+  return {left, top, std::max(0, right - left), std::max(0, bottom - top)};
+}
+
 GreyPicture MakeGreyPicture(const ChosenPhoto& chosen, const TexelGrid& raster, int step,
                             const PaintedFacet& canvas, const Ownership& ownership) {
-  const SampledTile sampled =
-      SamplePhoto(*chosen.photo, *chosen.pyramid, raster, {0, 0, raster.width, raster.height});
-  GreyPicture out{raster.width, raster.height, {}, sampled.valid};
-  out.grey.reserve(raster.size());
-  for (size_t i = 0; i < raster.size(); ++i) {
+  const Tile area = FreeArea(chosen, ownership, raster, static_cast<double>(ownership.step) / step);
+  if (area.size() == 0) return {};
+  const SampledTile sampled = SamplePhoto(*chosen.photo, *chosen.open(), raster, area);
+  GreyPicture out{area.width, area.height, {}, sampled.valid, area.x, area.y};
+  out.grey.reserve(area.size());
+  for (size_t i = 0; i < area.size(); ++i) {
     const float* rgb = &sampled.rgb[3 * i];
     out.grey.push_back(
         static_cast<uint8_t>(0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2] + 0.5f));
-    const int column =
-        std::min(canvas.grid.width - 1, static_cast<int>(i % raster.width) * step + step / 2);
-    const int row =
-        std::min(canvas.grid.height - 1, static_cast<int>(i / raster.width) * step + step / 2);
+    const int x = area.x + static_cast<int>(i % area.width);
+    const int y = area.y + static_cast<int>(i / area.width);
+    const int column = std::min(canvas.grid.width - 1, x * step + step / 2);
+    const int row = std::min(canvas.grid.height - 1, y * step + step / 2);
     if (chosen.sight[ownership.RasterIndex(column, row)] != Sight::kFree) out.valid[i] = 0;
   }
   return out;
@@ -157,7 +180,8 @@ void AlignChosen(const Selected& selected, const TextureOptions& options,
   for (const ChosenPhoto& photo : chosen) {
     pictures.push_back(MakeGreyPicture(photo, raster, step, painted, selected.ownership));
   }
-  Alignment alignment = AlignPictures(pictures, options.align_limit_px / step);
+  Alignment alignment = AlignPictures(pictures, Eigen::Vector2d(raster.width, raster.height),
+                                      options.align_limit_px / step);
   if (alignment.before_px < 0) return;
   painted.misregistration_before_px = alignment.before_px * step;
   painted.misregistration_px = alignment.before_px * step;

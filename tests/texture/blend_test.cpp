@@ -119,7 +119,7 @@ TEST(ComposePicture, HasNoTraceOfItsTiles) {
   std::vector<ChosenPhoto> chosen(2);
   for (int k = 0; k < 2; ++k) {
     chosen[k].photo = &photo;
-    chosen[k].pyramid = pyramid;
+    chosen[k].open = [=] { return pyramid; };
     chosen[k].gain = Eigen::Vector3d::Constant(1 + 0.3 * k);
     chosen[k].sight.assign(400 * 16, Sight::kFree);
   }
