@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "calib/internal/costs.h"
@@ -32,6 +33,13 @@ constexpr double kLeastNoise = 0.05;
 // Median of the length of a two-dimensional normal vector with unit variances: sqrt(2 ln 2).
 constexpr double kRayleighMedian = 1.17741;
 
+// What so many photos of a camera can tell of it.
+RefineIntrinsics LevelFor(int num_photos) {
+  if (num_photos < 3) return RefineIntrinsics::kNone;
+  if (num_photos < 4) return RefineIntrinsics::kFocal;
+  return num_photos < 5 ? RefineIntrinsics::kDistortion : RefineIntrinsics::kPrincipalPoint;
+}
+
 struct PoseBlocks {
   Eigen::Quaterniond rotation;
   Eigen::Vector3d translation;
@@ -40,19 +48,16 @@ struct PoseBlocks {
 class Adjustment {
  public:
   Adjustment(const AdjustOptions& options, Scene& scene)
-      : options_(options), scene_(scene), problem_(ProblemOptions()) {
-    if (options.variable_photos.empty()) {
-      for (size_t i = 0; i < scene.photos.size(); ++i) {
-        if (scene.photos[i].pose) variable_.insert(static_cast<int>(i));
-      }
-    } else {
-      variable_.insert(options.variable_photos.begin(), options.variable_photos.end());
-    }
+      : options_(options),
+        scene_(scene),
+        variable_(scene.photos.size(), options.variable_photos.empty()),
+        problem_(ProblemOptions()) {
+    for (const int photo : options.variable_photos) variable_[photo] = true;
   }
 
   AdjustReport Solve() {
     AdjustReport report;
-    for (SceneTrack& track : scene_.tracks) AddTrack(track, report);
+    for (const int track : ConcernedTracks()) AddTrack(scene_.tracks[track], report);
     if (report.num_observations == 0) return report;
     HoldWhatIsGiven();
     AddPriors();
@@ -82,7 +87,8 @@ class Adjustment {
     options.function_tolerance = options_.tolerance;
     options.parameter_tolerance = 1e-9;
     options.logging_type = ceres::SILENT;
-    const size_t photos = poses_.size();
+    const auto photos = std::count_if(poses_.begin(), poses_.end(),
+                                      [&](const auto& pose) { return IsVariable(pose.first); });
     options.linear_solver_type = photos <= 60    ? ceres::DENSE_SCHUR
                                  : photos <= 800 ? ceres::SPARSE_SCHUR
                                                  : ceres::ITERATIVE_SCHUR;
@@ -90,12 +96,31 @@ class Adjustment {
     return options;
   }
 
-  bool IsVariable(int photo) const { return variable_.contains(photo); }
+  bool IsVariable(int photo) const { return variable_[photo]; }
+
+  // Tracks that a variable photo may see, in order.
+  std::vector<int> ConcernedTracks() const {
+    std::vector<int> tracks;
+    if (options_.variable_photos.empty()) {
+      tracks.resize(scene_.tracks.size());
+      std::iota(tracks.begin(), tracks.end(), 0);
+      return tracks;
+    }
+    for (const int photo : options_.variable_photos) {
+      for (const int track : scene_.tracks_of_photo[photo]) {
+        if (track >= 0) tracks.push_back(track);
+      }
+    }
+    std::sort(tracks.begin(), tracks.end());
+    tracks.erase(std::unique(tracks.begin(), tracks.end()), tracks.end());
+    return tracks;
+  }
 
   void AddTrack(SceneTrack& track, AdjustReport& report) {
     if (!track.position) return;
-    bool concerned = false;
-    for (const SceneElement& e : track.elements) concerned |= e.used && IsVariable(e.photo);
+    const bool concerned =
+        std::any_of(track.elements.begin(), track.elements.end(),
+                    [&](const SceneElement& e) { return e.used && IsVariable(e.photo); });
     if (!concerned) return;
     for (const SceneElement& element : track.elements) {
       if (!element.used) continue;
@@ -112,7 +137,7 @@ class Adjustment {
     if (is_new) pose = {photo.pose->rotation, photo.pose->translation};
     used_cameras_.insert(photo.camera);
     const Eigen::Vector2d& keypoint = photo.keypoints[element.keypoint];
-    const double sigma = options_.noise * photo.keypoint_sigma_px[element.keypoint];
+    const double sigma = photo.keypoint_sigma_px;
     problem_.AddResidualBlock(CreateCost(camera, keypoint, sigma), &loss_, camera.params.data(),
                               pose.rotation.coeffs().data(), pose.translation.data(), point.data());
     if (!is_new) return;
@@ -139,21 +164,28 @@ class Adjustment {
     }
   }
 
+  int NumPosedOf(int camera) const {
+    return static_cast<int>(std::count_if(poses_.begin(), poses_.end(), [&](const auto& pose) {
+      return scene_.photos[pose.first].camera == camera;
+    }));
+  }
+
   void HoldWhatIsGiven() {
     for (const int index : used_cameras_) {
       SceneCamera& camera = scene_.cameras[index];
       std::vector<double>& params = camera.intrinsics.params;
-      if (camera.focal_sigma_ratio == 0 || options_.refine == RefineIntrinsics::kNone) {
+      const RefineIntrinsics refine = std::min(options_.refine, LevelFor(NumPosedOf(index)));
+      if (camera.focal_sigma_ratio == 0 || refine == RefineIntrinsics::kNone) {
         problem_.SetParameterBlockConstant(params.data());
         continue;
       }
       std::vector<int> held;
-      if (options_.refine < RefineIntrinsics::kPrincipalPoint) held = {2, 3};
+      if (refine < RefineIntrinsics::kPrincipalPoint) held = {2, 3};
       const int num_params = static_cast<int>(params.size());
       for (int i = 4; i < num_params; ++i) {
         const bool tangential = i == 6 || i == 7;
-        if (options_.refine < RefineIntrinsics::kDistortion ||
-            (tangential && options_.refine < RefineIntrinsics::kPrincipalPoint)) {
+        if (refine < RefineIntrinsics::kDistortion ||
+            (tangential && refine < RefineIntrinsics::kPrincipalPoint)) {
           held.push_back(i);
         }
       }
@@ -242,7 +274,7 @@ class Adjustment {
 
   const AdjustOptions& options_;
   Scene& scene_;
-  std::set<int> variable_;
+  std::vector<bool> variable_;
   std::map<int, PoseBlocks> poses_;
   std::set<int> used_cameras_;
   ceres::EigenQuaternionManifold quaternion_;
@@ -280,8 +312,7 @@ double MeasureNoise(const Scene& scene) {
     if (!track.position) continue;
     for (const SceneElement& element : track.elements) {
       if (!element.used) continue;
-      const double sigma = scene.photos[element.photo].keypoint_sigma_px[element.keypoint];
-      errors.push_back(ReprojectionError(scene, element, *track.position) / sigma);
+      errors.push_back(Misfit(scene, element, *track.position));
     }
   }
   if (errors.empty()) return 1;

@@ -15,11 +15,10 @@ enum class RefineIntrinsics { kNone, kFocal, kDistortion, kPrincipalPoint };
 struct AdjustOptions {
   // Photos whose poses may change, by index; empty: all posed ones. The others hold the frame.
   std::vector<int> variable_photos;
+  // At most; a camera of which few photos take part gets less.
   RefineIntrinsics refine = RefineIntrinsics::kDistortion;
   // Residuals beyond this many standard deviations lose weight (Cauchy loss).
   double loss_scale = 2;
-  // Standard deviation of the keypoints as measured, in units of the one they came with.
-  double noise = 1;
   bool use_priors = false;  // position priors of the photos; the scene must be in their frame
   int threads = 1;          // more than one is faster but not reproducible
   int max_iterations = 50;

@@ -96,11 +96,8 @@ Scene MakeScene(const CalibOptions& options, const Photos& photos,
     ScenePhoto photo;
     photo.name = photos.usable[i]->path;
     photo.camera = photos.usable[i]->camera;
-    const float scale = static_cast<float>(DetectionScale(options, *photos.usable[i]));
-    for (const Keypoint& k : features[i].keypoints) {
-      photo.keypoints.emplace_back(k.x, k.y);
-      photo.keypoint_sigma_px.push_back(scale);
-    }
+    photo.keypoint_sigma_px = DetectionScale(options, *photos.usable[i]);
+    for (const Keypoint& k : features[i].keypoints) photo.keypoints.emplace_back(k.x, k.y);
     photo.colors = features[i].colors;
     num_keypoints.push_back(features[i].size());
     scene.photos.push_back(std::move(photo));
@@ -166,43 +163,64 @@ struct GeoreferenceResult {
   PriorResiduals residuals;
 };
 
-GeoreferenceResult Georeference(const CalibOptions& options, const MapperOptions& mapper,
-                                const Photos& photos, const StageContext& context, Scene& scene) {
+// Adjusts once more with the positions that agree.
+void RefineWithPositions(const MapperOptions& mapper, const std::vector<int>& outliers,
+                         const StageContext& context, Scene& scene) {
+  std::vector<std::optional<PositionPrior>> all_priors;
+  for (const ScenePhoto& photo : scene.photos) all_priors.push_back(photo.prior);
+  for (const int photo : outliers) scene.photos[photo].prior.reset();
+  RefineAll(mapper, true, context, scene);
+  for (size_t i = 0; i < all_priors.size(); ++i) scene.photos[i].prior = all_priors[i];
+}
+
+GeoreferenceResult WithoutPositions(const Photos& photos, Scene& scene) {
   GeoreferenceResult result;
-  result.georef.source = "none";
-  const auto frame =
-      options.use_positions ? FrameFromPositions(photos.usable, scene) : std::optional<Georef>();
-  const auto fit = frame ? FitToPriors(scene) : std::optional<PriorFit>();
-  if (fit) {
-    Transform(fit->enu_from_scene, scene);
-    for (const int photo : fit->outliers) {
-      context.progress->Warn(
-          fmt::format("{}: its recorded position contradicts the other photos and "
-                      "is not used",
-                      scene.photos[photo].name));
-    }
-    const auto all_priors = [&] {
-      std::vector<std::optional<PositionPrior>> priors;
-      for (const ScenePhoto& photo : scene.photos) priors.push_back(photo.prior);
-      return priors;
-    }();
-    for (const int photo : fit->outliers) scene.photos[photo].prior.reset();
-    RefineAll(mapper, true, context, scene);
-    for (size_t i = 0; i < all_priors.size(); ++i) scene.photos[i].prior = all_priors[i];
-    result.georef = *frame;
-    result.prior_outliers = fit->outliers;
-    result.residuals = MeasurePriors(scene, fit->outliers);
-    return result;
-  }
-  if (frame) {
-    context.progress->Warn(
-        "the photos' positions are too close together, on one line or contradict each other: the "
-        "model keeps an arbitrary scale and direction");
-  }
   for (ScenePhoto& photo : scene.photos) photo.prior.reset();
   result.residuals = MeasurePriors(scene, {});
   result.georef.up = UpFromGimbal(photos.usable, scene);
-  if (result.georef.up) result.georef.source = "gimbal";
+  result.georef.source = result.georef.up ? "gimbal" : "none";
+  return result;
+}
+
+GeoreferenceResult Georeference(const CalibOptions& options, const MapperOptions& mapper,
+                                const Photos& photos, const StageContext& context, Scene& scene) {
+  const auto frame =
+      options.use_positions ? FrameFromPositions(photos.usable, scene) : std::optional<Georef>();
+  const auto fit =
+      frame ? FitToPriors(scene, UpFromGimbal(photos.usable, scene)) : std::optional<PriorFit>();
+  if (!fit) {
+    if (frame) {
+      context.progress->Warn(
+          "the photos' positions are too close together or contradict each other: the model keeps "
+          "an arbitrary scale and direction");
+    }
+    return WithoutPositions(photos, scene);
+  }
+  Transform(fit->enu_from_scene, scene);
+  if (fit->holds == FitHolds::kScale) {
+    context.progress->Warn(
+        "the photos were taken along one line: their positions give the scale, but not which way "
+        "is up; photograph from two heights or distances to mend that");
+    GeoreferenceResult result = WithoutPositions(photos, scene);
+    result.georef.metric = true;
+    return result;
+  }
+  GeoreferenceResult result;
+  for (const int photo : fit->outliers) {
+    context.progress->Warn(
+        fmt::format("{}: its recorded position contradicts the other photos and "
+                    "is not used",
+                    scene.photos[photo].name));
+  }
+  if (fit->holds == FitHolds::kEverything) {
+    RefineWithPositions(mapper, fit->outliers, context, scene);
+  } else {
+    context.progress->Note(
+        "the photos were taken along one line: the gimbal's angles say which way is up");
+  }
+  result.georef = *frame;
+  result.prior_outliers = fit->outliers;
+  result.residuals = MeasurePriors(scene, fit->outliers);
   return result;
 }
 
@@ -274,22 +292,20 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   Scene scene = MakeScene(options, photos, features, pairs);
   GuessFocalLengths(photos, pairs, context, scene);
   MapperOptions mapper;
-  for (const CapturedPhoto* photo : photos.usable) {
-    mapper.max_error_px = std::max(mapper.max_error_px, 4 * DetectionScale(options, *photo));
-  }
   mapper.min_angle_rad = options.min_angle_deg * kRadians;
   mapper.refine_principal_point = options.refine_principal_point;
   mapper.threads = options.fast_adjustment ? context.threads : 1;
 
-  for (VerifiedPair& pair : pairs) ClassifyMotion(scene, mapper.max_error_px, pair);
-  const MapReport map = Reconstruct(mapper, pairs, context, scene);
+  for (VerifiedPair& pair : pairs) ClassifyMotion(scene, mapper.max_misfit, pair);
+  MapReport map = Reconstruct(mapper, pairs, context, scene);
   const std::vector<std::string> findings = DescribePanoramas(scene, pairs, photos.usable);
   for (const std::string& finding : findings) context.progress->Warn(finding);
   if (map.num_posed < 2) ThrowNothingPosed(pairs, findings);
+  const GeoreferenceResult georeference = Georeference(options, mapper, photos, context, scene);
+  map.unposed = ExplainUnposed(mapper, pairs, scene);
   for (const auto& [photo, why] : map.unposed) {
     context.progress->Warn(fmt::format("{}: not placed: {}", scene.photos[photo].name, why));
   }
-  const GeoreferenceResult georeference = Georeference(options, mapper, photos, context, scene);
   Write(photos, scene, map, georeference, findings, context);
 }
 

@@ -42,8 +42,7 @@ bool Linearise(const Scene& scene, const SceneElement& element, const Eigen::Vec
   const ScenePhoto& photo = scene.photos[element.photo];
   const Camera& camera = scene.CameraOf(element.photo);
   const int num_params = static_cast<int>(camera.params.size());
-  const auto cost =
-      CostOf(camera, photo.keypoints[element.keypoint], photo.keypoint_sigma_px[element.keypoint]);
+  const auto cost = CostOf(camera, photo.keypoints[element.keypoint], photo.keypoint_sigma_px);
   out.intrinsics.resize(2, num_params);
   Eigen::Matrix<double, 2, 4, Eigen::RowMajor> by_quaternion;
   Eigen::Matrix<double, 2, 3, Eigen::RowMajor> by_translation;

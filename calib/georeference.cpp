@@ -16,6 +16,11 @@ constexpr int kRounds = 500;
 // Heights of some drones are wrong by tens of metres together (datum), which the common origin
 // absorbs, but single positions this many standard deviations off are wrong.
 constexpr double kOutlierSigmas = 4;
+// Positions of one flight differ from each other by at least this share of their stated accuracy.
+constexpr double kLeastOfStated = 0.1;
+// Largest standard deviations of the frame: relative, and radians about the line of the cameras.
+constexpr double kWorstScale = 0.2;
+constexpr double kWorstRoll = 0.05;
 
 std::vector<int> PhotosWithBoth(const Scene& scene) {
   std::vector<int> photos;
@@ -46,18 +51,84 @@ double Sigmas(const Scene& scene, int photo, const Similarity& enu_from_scene) {
   return std::max(horizontal, vertical);
 }
 
-// Square root of the second largest variance of the positions: 0 when they are on a line.
-double SpreadAcross(const Scene& scene, const std::vector<int>& photos) {
+// Square roots of the two largest variances of camera centres in the scene's frame: along the line
+// that fits them best, and across it.
+Eigen::Vector2d Spreads(const Scene& scene, const std::vector<int>& photos) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const int i : photos) mean += scene.photos[i].prior->position / photos.size();
+  for (const int i : photos) mean += scene.photos[i].pose->Center() / photos.size();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const int i : photos) {
-    const Eigen::Vector3d d = scene.photos[i].prior->position - mean;
+    const Eigen::Vector3d d = scene.photos[i].pose->Center() - mean;
     covariance += d * d.transpose() / photos.size();
   }
   const Eigen::Vector3d values =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues();
-  return std::sqrt(std::max(0.0, values[1]));
+  return {std::sqrt(std::max(0.0, values[2])), std::sqrt(std::max(0.0, values[1]))};
+}
+
+// Standard deviation per axis of the positions among themselves, as the fit shows it. What was
+// stated is often that of the absolute position, which the common shift absorbs; a fit to few
+// positions shows too little.
+double MeasuredSigma(const Scene& scene, const std::vector<int>& photos, const Similarity& fit) {
+  double squares = 0;
+  double stated = 0;
+  for (const int i : photos) {
+    const PositionPrior& prior = *scene.photos[i].prior;
+    squares += (fit * scene.photos[i].pose->Center() - prior.position).squaredNorm();
+    stated += prior.sigma_horizontal_m / static_cast<double>(photos.size());
+  }
+  const double freedoms = 3.0 * static_cast<double>(photos.size()) - 7;
+  return std::clamp(std::sqrt(squares / freedoms), kLeastOfStated * stated, stated);
+}
+
+// Scale, turn about the vertical and shift; `up` is the scene's direction away from the ground.
+Similarity AlignUpright(const Scene& scene, const std::vector<int>& photos,
+                        const Eigen::Vector3d& up) {
+  const Eigen::Quaterniond upright =
+      Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
+  Eigen::Vector3d mean_source = Eigen::Vector3d::Zero();
+  Eigen::Vector3d mean_target = Eigen::Vector3d::Zero();
+  const auto count = static_cast<double>(photos.size());
+  for (const int i : photos) {
+    mean_source += upright * scene.photos[i].pose->Center() / count;
+    mean_target += scene.photos[i].prior->position / count;
+  }
+  // Horizontally a turn with scale is a complex factor; heights only take part in the scale.
+  double dot = 0, cross = 0, vertical = 0, squares = 0;
+  for (const int i : photos) {
+    const Eigen::Vector3d s = upright * scene.photos[i].pose->Center() - mean_source;
+    const Eigen::Vector3d t = scene.photos[i].prior->position - mean_target;
+    dot += s.head<2>().dot(t.head<2>());
+    cross += s.x() * t.y() - s.y() * t.x();
+    vertical += s.z() * t.z();
+    squares += s.squaredNorm();
+  }
+  Similarity result;
+  result.scale = (std::hypot(dot, cross) + vertical) / squares;
+  result.rotation =
+      Eigen::Quaterniond(Eigen::AngleAxisd(std::atan2(cross, dot), Eigen::Vector3d::UnitZ())) *
+      upright;
+  result.translation =
+      mean_target - result.scale * (result.rotation * (upright.conjugate() * mean_source));
+  return result;
+}
+
+// The photos whose positions agree on one similarity: RANSAC over triples.
+std::vector<int> AgreeingPhotos(const Scene& scene, const std::vector<int>& photos) {
+  std::mt19937 random(1);
+  std::vector<int> best;
+  for (int round = 0; round < kRounds; ++round) {
+    std::set<int> sample;
+    while (sample.size() < 3) sample.insert(photos[random() % photos.size()]);
+    const Similarity candidate = Align(scene, {sample.begin(), sample.end()});
+    if (!std::isfinite(candidate.scale) || candidate.scale <= 0) continue;
+    std::vector<int> inliers;
+    for (const int i : photos) {
+      if (Sigmas(scene, i, candidate) < kOutlierSigmas) inliers.push_back(i);
+    }
+    if (inliers.size() > best.size()) best = std::move(inliers);
+  }
+  return best;
 }
 
 }  // namespace
@@ -94,33 +165,25 @@ std::optional<Georef> FrameFromPositions(const std::vector<const CapturedPhoto*>
   return georef;
 }
 
-std::optional<PriorFit> FitToPriors(const Scene& scene) {
+std::optional<PriorFit> FitToPriors(const Scene& scene, const std::optional<Eigen::Vector3d>& up) {
   const std::vector<int> photos = PhotosWithBoth(scene);
   if (photos.size() < 3) return std::nullopt;
-  std::vector<double> sigmas;
-  for (const int i : photos) sigmas.push_back(scene.photos[i].prior->sigma_horizontal_m);
-  std::nth_element(sigmas.begin(), sigmas.begin() + sigmas.size() / 2, sigmas.end());
-  PriorFit fit;
-  fit.spread_m = SpreadAcross(scene, photos);
-  // Averaging many positions helps; below this the directions of the frame are noise.
-  if (fit.spread_m < sigmas[sigmas.size() / 2] / std::sqrt(static_cast<double>(photos.size()))) {
-    return std::nullopt;
-  }
-  std::mt19937 random(1);
-  std::vector<int> best;
-  for (int round = 0; round < kRounds; ++round) {
-    std::set<int> sample;
-    while (sample.size() < 3) sample.insert(photos[random() % photos.size()]);
-    const Similarity candidate = Align(scene, {sample.begin(), sample.end()});
-    if (!std::isfinite(candidate.scale) || candidate.scale <= 0) continue;
-    std::vector<int> inliers;
-    for (const int i : photos) {
-      if (Sigmas(scene, i, candidate) < kOutlierSigmas) inliers.push_back(i);
-    }
-    if (inliers.size() > best.size()) best = std::move(inliers);
-  }
+  const std::vector<int> best = AgreeingPhotos(scene, photos);
   if (best.size() < 3 || 2 * best.size() < photos.size()) return std::nullopt;
+  PriorFit fit;
   fit.enu_from_scene = Align(scene, best);
+  const double sigma =
+      MeasuredSigma(scene, best, fit.enu_from_scene) / std::sqrt(static_cast<double>(best.size()));
+  const Eigen::Vector2d spreads = fit.enu_from_scene.scale * Spreads(scene, best);
+  if (sigma > kWorstScale * spreads[0]) return std::nullopt;
+  fit.spread_m = spreads[1];
+  if (sigma > kWorstRoll * spreads[1]) {
+    fit.holds = FitHolds::kScale;
+    if (up) {
+      fit.enu_from_scene = AlignUpright(scene, best, *up);
+      fit.holds = FitHolds::kScaleAndHeading;
+    }
+  }
   for (const int i : photos) {
     if (Sigmas(scene, i, fit.enu_from_scene) >= kOutlierSigmas) fit.outliers.push_back(i);
   }

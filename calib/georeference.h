@@ -18,16 +18,23 @@ namespace stucco {
 std::optional<Georef> FrameFromPositions(const std::vector<const CapturedPhoto*>& captures,
                                          Scene& scene);
 
+// What the positions tell of the frame besides the shift. Cameras on one line leave the turn about
+// it open; then the gimbal has to say where up is, or nothing does.
+enum class FitHolds { kEverything, kScaleAndHeading, kScale };
+
 struct PriorFit {
   Similarity enu_from_scene;
+  FitHolds holds = FitHolds::kEverything;
   std::vector<int> outliers;  // photos whose position contradicts the others
-  double spread_m = 0;        // extent of the positions across their second direction
+  double spread_m = 0;        // standard deviation of the camera centres across their line, metres
 };
 
 // Robust similarity from camera centres to position priors: RANSAC over triples, least squares on
-// the inliers. Nothing when fewer than three posed photos have positions, or when the positions are
-// so close together or so much on a line that their own uncertainty leaves the frame undetermined.
-std::optional<PriorFit> FitToPriors(const Scene& scene);
+// the inliers. When the cameras are so much on a line that the positions' own uncertainty leaves
+// the turn about it undetermined, `up` (in the scene's frame) takes its place, and without it only
+// the scale holds. Nothing when fewer than three posed photos have positions, when half of these
+// contradict the others, or when they are too close together even for a scale.
+std::optional<PriorFit> FitToPriors(const Scene& scene, const std::optional<Eigen::Vector3d>& up);
 
 // Moves poses and points.
 void Transform(const Similarity& new_from_old, Scene& scene);

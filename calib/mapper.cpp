@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <numeric>
 
 #include "calib/adjust.h"
 #include "calib/resect.h"
@@ -19,14 +19,12 @@ constexpr int kLocalPhotos = 8;         // adjusted together with a new photo
 constexpr double kGlobalGrowth = 1.15;  // more photos than at the last adjustment of everything
 constexpr int kMaxRounds = 6;
 constexpr int kLeastSeedPoints = 30;
+constexpr int kMaxAttempts = 3;      // to place a photo
+constexpr size_t kCompared = 20;     // candidates for the next photo
+constexpr size_t kSureMatches = 30;  // tie two photos into one component
 
 TriangulateOptions ForTriangulation(const MapperOptions& options) {
-  return {.max_error_px = options.max_error_px, .min_angle_rad = options.min_angle_rad};
-}
-
-RefineIntrinsics LevelFor(int num_posed) {
-  if (num_posed < 3) return RefineIntrinsics::kNone;
-  return num_posed < 5 ? RefineIntrinsics::kFocal : RefineIntrinsics::kDistortion;
+  return {.max_misfit = options.max_misfit, .min_angle_rad = options.min_angle_rad};
 }
 
 void Reset(const Scene& start, Scene& scene) {
@@ -55,7 +53,7 @@ void ConnectPhoto(const MapperOptions& options, int photo, Scene& scene) {
     }
     for (SceneElement& element : track.elements) {
       if (element.photo != photo) continue;
-      element.used = ReprojectionError(scene, element, *track.position) < options.max_error_px;
+      element.used = Misfit(scene, element, *track.position) < options.max_misfit;
     }
   }
 }
@@ -65,7 +63,7 @@ void CompleteTracks(const MapperOptions& options, Scene& scene) {
   for (SceneTrack& track : scene.tracks) {
     if (!track.position) continue;
     for (SceneElement& element : track.elements) {
-      element.used = ReprojectionError(scene, element, *track.position) < options.max_error_px;
+      element.used = Misfit(scene, element, *track.position) < options.max_misfit;
     }
   }
 }
@@ -79,7 +77,7 @@ bool StartFrom(const MapperOptions& options, const Seed& seed, Scene& scene) {
   adjust.refine = RefineIntrinsics::kNone;
   adjust.threads = options.threads;
   if (!Adjust(adjust, scene).usable) return false;
-  FilterScene(options, options.max_error_px, scene);
+  FilterScene(options, options.max_misfit, scene);
   const int points = NumUsedObservations(scene, seed.second);
   return scene.photos[seed.first].pose && scene.photos[seed.second].pose &&
          points >= kLeastSeedPoints;
@@ -104,11 +102,11 @@ std::vector<int> Neighbourhood(const Scene& scene, int photo) {
 
 void AdjustEverything(const MapperOptions& options, Scene& scene) {
   AdjustOptions adjust;
-  adjust.refine = LevelFor(NumPosed(scene));
+  adjust.refine = RefineIntrinsics::kDistortion;
   adjust.threads = options.threads;
   adjust.max_iterations = 30;
   Adjust(adjust, scene);
-  FilterScene(options, options.max_error_px, scene);
+  FilterScene(options, options.max_misfit, scene);
   CompleteTracks(options, scene);
   TriangulateMissing(options, scene);
 }
@@ -126,54 +124,83 @@ void AdjustAround(const MapperOptions& options, int photo, Scene& scene) {
   Adjust(adjust, scene);
 }
 
-// The unposed photo with the best view of the points so far; -1 when none sees enough.
-int NextPhoto(const MapperOptions& options, const Scene& scene, const std::set<int>& refused) {
+// Which photos may still be tried. One that was refused gets another chance when others were placed
+// since then, but not for ever: a photo can be placed and dropped again.
+struct Attempts {
+  explicit Attempts(size_t num_photos) : count(num_photos, 0), refused(num_photos, false) {}
+
+  bool MayTry(int photo) const { return !refused[photo] && count[photo] < kMaxAttempts; }
+  void ForgiveRefused() { refused.assign(refused.size(), false); }
+
+  std::vector<int> count;
+  std::vector<bool> refused;
+};
+
+// The unposed photo with the best view of the points so far; -1 when none sees enough. Only the
+// photos that see most points are compared by how these spread over the picture.
+int NextPhoto(const MapperOptions& options, const Scene& scene, const Attempts& attempts) {
+  std::vector<std::pair<int, int>> candidates;  // (-points, photo)
+  for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
+    if (scene.photos[i].pose || !attempts.MayTry(i)) continue;
+    const int points = NumVisiblePoints(scene, i);
+    if (points >= options.min_inliers) candidates.emplace_back(-points, i);
+  }
+  const size_t count = std::min(candidates.size(), kCompared);
+  std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count),
+                    candidates.end());
   int best = -1;
   int best_score = 0;
-  for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
-    if (scene.photos[i].pose || refused.contains(i)) continue;
-    if (NumVisiblePoints(scene, i) < options.min_inliers) continue;
-    const int score = VisibilityScore(scene, i);
+  for (size_t i = 0; i < count; ++i) {
+    const int score = VisibilityScore(scene, candidates[i].second);
     if (score > best_score) {
-      best = i;
+      best = candidates[i].second;
       best_score = score;
     }
   }
   return best;
 }
 
+// Gives a photo a pose when enough of what it should see agrees on one.
+bool Place(const MapperOptions& options, int photo, Scene& scene) {
+  const double limit_px = 2 * options.max_misfit * scene.photos[photo].keypoint_sigma_px;
+  const auto resection = Resect(scene, photo, limit_px, options.min_inliers);
+  // A pose that explains only a small part of what the photo should see is a wrong one.
+  if (!resection || resection->num_inliers < 0.2 * resection->num_points) return false;
+  scene.photos[photo].pose = resection->cam_from_world;
+  ConnectPhoto(options, photo, scene);
+  return true;
+}
+
 void Grow(const MapperOptions& options, const StageContext& context, Scene& scene) {
   int posed_at_last_global = NumPosed(scene);
-  std::set<int> refused;
-  bool grew_since_refusal = false;
+  Attempts attempts(scene.photos.size());
+  bool grew = false;  // since photos were last forgiven
   while (true) {
     context.ThrowIfCancelled();
-    const int photo = NextPhoto(options, scene, refused);
+    const int photo = NextPhoto(options, scene, attempts);
     if (photo < 0) {
-      if (refused.empty() || !grew_since_refusal) return;
-      refused.clear();  // more points since then: they get another chance
-      grew_since_refusal = false;
+      if (!grew) return;
+      attempts.ForgiveRefused();
+      grew = false;
       AdjustEverything(options, scene);
       continue;
     }
-    const auto resection = Resect(scene, photo, 2 * options.max_error_px, options.min_inliers);
-    // A pose that explains only a small part of what the photo should see is a wrong one.
-    if (!resection || resection->num_inliers < 0.2 * resection->num_points) {
-      refused.insert(photo);
-      continue;
+    ++attempts.count[photo];
+    if (Place(options, photo, scene)) {
+      const int posed = NumPosed(scene);
+      if (posed <= 6 || posed >= posed_at_last_global * kGlobalGrowth) {
+        AdjustEverything(options, scene);
+        posed_at_last_global = NumPosed(scene);
+      } else {
+        AdjustAround(options, photo, scene);
+      }
     }
-    scene.photos[photo].pose = resection->cam_from_world;
-    grew_since_refusal = true;
-    ConnectPhoto(options, photo, scene);
-    const int posed = NumPosed(scene);
-    if (posed <= 6 || posed >= posed_at_last_global * kGlobalGrowth) {
-      AdjustEverything(options, scene);
-      posed_at_last_global = NumPosed(scene);
+    if (scene.photos[photo].pose) {
+      grew = true;
+      context.progress->Advance();
     } else {
-      AdjustAround(options, photo, scene);
+      attempts.refused[photo] = true;
     }
-    context.progress->Advance(scene.photos[photo].pose ? 1 : 0);
-    if (!scene.photos[photo].pose) refused.insert(photo);
   }
 }
 
@@ -204,14 +231,14 @@ std::string WhyUnposed(const MapperOptions& options, const Scene& scene,
       NumVisiblePoints(scene, photo), options.min_inliers, best);
 }
 
-int FilterPoints(const MapperOptions& options, double max_error_px, Scene& scene) {
+int FilterPoints(const MapperOptions& options, double max_misfit, Scene& scene) {
   int dropped = 0;
   for (SceneTrack& track : scene.tracks) {
     if (!track.position) continue;
     int used = 0;
     for (SceneElement& element : track.elements) {
       if (!element.used) continue;
-      if (ReprojectionError(scene, element, *track.position) < max_error_px) {
+      if (Misfit(scene, element, *track.position) < max_misfit) {
         ++used;
       } else {
         element.used = false;
@@ -239,10 +266,10 @@ bool DropWeakPoses(const MapperOptions& options, Scene& scene) {
 
 }  // namespace
 
-int FilterScene(const MapperOptions& options, double max_error_px, Scene& scene) {
-  int dropped = FilterPoints(options, max_error_px, scene);
+int FilterScene(const MapperOptions& options, double max_misfit, Scene& scene) {
+  int dropped = FilterPoints(options, max_misfit, scene);
   // A photo that goes takes observations from points that other photos may then see too little of.
-  while (DropWeakPoses(options, scene)) dropped += FilterPoints(options, max_error_px, scene);
+  while (DropWeakPoses(options, scene)) dropped += FilterPoints(options, max_misfit, scene);
   return dropped;
 }
 
@@ -258,23 +285,94 @@ AdjustReport RefineAll(const MapperOptions& options, bool use_priors, const Stag
     AdjustOptions adjust;
     adjust.refine = options.refine_principal_point ? RefineIntrinsics::kPrincipalPoint
                                                    : RefineIntrinsics::kDistortion;
-    if (NumPosed(scene) < 3) adjust.refine = RefineIntrinsics::kNone;
     adjust.use_priors = use_priors;
     adjust.threads = options.threads;
     adjust.max_iterations = 100;
     adjust.tolerance = 1e-6;
-    adjust.loss_scale = 1;
-    adjust.noise = MeasureNoise(scene);
+    // Robust by the noise that there is. The weight against positions and lens priors stays that of
+    // the stated one: keypoints also err together, which their residuals do not show.
+    const double noise = MeasureNoise(scene);
+    adjust.loss_scale *= noise;
     report = Adjust(adjust, scene);
-    FilterScene(options, options.max_error_px, scene);
+    FilterScene(options, options.max_misfit, scene);
     const bool same_observations = std::abs(report.num_observations - last.num_observations) <=
                                    0.001 * report.num_observations;
-    const bool same_noise = std::abs(adjust.noise - last_noise) <= 0.01 * adjust.noise;
+    const bool same_noise = std::abs(noise - last_noise) <= 0.01 * noise;
     if (!report.usable || (same_observations && same_noise)) break;
     last = report;
-    last_noise = adjust.noise;
+    last_noise = noise;
   }
   return report;
+}
+
+namespace {
+
+// Photos that sure pairs tie together, as these pairs.
+struct Component {
+  int num_photos = 0;
+  std::vector<VerifiedPair> pairs;
+};
+
+// Largest first.
+std::vector<Component> Components(size_t num_photos, const std::vector<VerifiedPair>& pairs) {
+  std::vector<int> parent(num_photos);
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int photo) {
+    while (parent[photo] != photo) photo = parent[photo] = parent[parent[photo]];
+    return photo;
+  };
+  for (const VerifiedPair& pair : pairs) {
+    if (pair.pair.matches.size() < kSureMatches) continue;
+    parent[root(pair.pair.first)] = root(pair.pair.second);
+  }
+  std::vector<Component> components(num_photos);
+  for (size_t i = 0; i < num_photos; ++i) ++components[root(static_cast<int>(i))].num_photos;
+  for (const VerifiedPair& pair : pairs) {
+    if (pair.pair.matches.size() < kSureMatches) continue;
+    components[root(pair.pair.first)].pairs.push_back(pair);
+  }
+  std::erase_if(components, [](const Component& c) { return c.num_photos < 2; });
+  std::stable_sort(components.begin(), components.end(),
+                   [](const auto& a, const auto& b) { return a.num_photos > b.num_photos; });
+  return components;
+}
+
+struct GrowInput {
+  const MapperOptions& options;
+  const StageContext& context;
+  const Scene& start;
+};
+
+// Grows from seeds of a component until one explains most of it. Keeps the largest result in
+// `best`; returns the number of seeds tried.
+int GrowComponent(const GrowInput& input, const Component& component, Scene& scene, Scene& best) {
+  const MapperOptions& options = input.options;
+  std::vector<bool> posed(scene.photos.size(), false);  // from any seed so far
+  int num_tried = 0;
+  for (const Seed& seed :
+       FindSeeds(input.start, component.pairs, options.max_misfit, options.max_seeds)) {
+    if (posed[seed.first] && posed[seed.second]) continue;  // it would give the same again
+    ++num_tried;
+    Reset(input.start, scene);
+    if (!StartFrom(options, seed, scene)) continue;
+    Grow(options, input.context, scene);
+    for (size_t i = 0; i < posed.size(); ++i) posed[i] = posed[i] || scene.photos[i].pose;
+    if (NumPosed(scene) > NumPosed(best)) best = scene;
+    if (NumPosed(scene) >= 0.9 * component.num_photos) break;
+  }
+  return num_tried;
+}
+
+}  // namespace
+
+std::map<int, std::string> ExplainUnposed(const MapperOptions& options,
+                                          const std::vector<VerifiedPair>& pairs,
+                                          const Scene& scene) {
+  std::map<int, std::string> unposed;
+  for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
+    if (!scene.photos[i].pose) unposed[i] = WhyUnposed(options, scene, pairs, i);
+  }
+  return unposed;
 }
 
 MapReport Reconstruct(const MapperOptions& options, const std::vector<VerifiedPair>& pairs,
@@ -282,19 +380,10 @@ MapReport Reconstruct(const MapperOptions& options, const std::vector<VerifiedPa
   const Scene start = scene;
   Scene best = scene;
   MapReport report;
-  const int connected = [&] {
-    std::set<int> photos;
-    for (const VerifiedPair& pair : pairs) photos.insert({pair.pair.first, pair.pair.second});
-    return static_cast<int>(photos.size());
-  }();
   context.progress->Begin("placing photos", scene.photos.size());
-  for (const Seed& seed : FindSeeds(scene, pairs, options.max_error_px, options.max_seeds)) {
-    ++report.num_seeds_tried;
-    Reset(start, scene);
-    if (!StartFrom(options, seed, scene)) continue;
-    Grow(options, context, scene);
-    if (NumPosed(scene) > NumPosed(best)) best = scene;
-    if (NumPosed(best) >= 0.9 * connected) break;
+  for (const Component& component : Components(scene.photos.size(), pairs)) {
+    if (component.num_photos <= NumPosed(best)) break;  // the largest comes first
+    report.num_seeds_tried += GrowComponent({options, context, start}, component, scene, best);
   }
   scene = std::move(best);
   if (NumPosed(scene) >= 2) {
@@ -304,9 +393,7 @@ MapReport Reconstruct(const MapperOptions& options, const std::vector<VerifiedPa
     if (NumPosed(scene) > posed) RefineAll(options, false, context, scene);
   }
   report.num_posed = NumPosed(scene);
-  for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
-    if (!scene.photos[i].pose) report.unposed[i] = WhyUnposed(options, scene, pairs, i);
-  }
+  report.unposed = ExplainUnposed(options, pairs, scene);
   return report;
 }
 

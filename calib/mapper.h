@@ -13,7 +13,7 @@
 namespace stucco {
 
 struct MapperOptions {
-  double max_error_px = 4;  // full-resolution pixels
+  double max_misfit = 4;  // standard deviations of the keypoints
   double min_angle_rad = 0.026;
   int min_inliers = 15;
   int max_seeds = 8;
@@ -28,11 +28,17 @@ struct MapReport {
 };
 
 // Incremental structure from motion (Schoenberger & Frahm 2016): grows a reconstruction from the
-// best seed by resection, triangulation and bundle adjustment; when it stays small the next seed is
-// tried and the largest result kept. Leaves poses, points and intrinsics in the scene, in an
-// arbitrary frame.
+// best seed by resection, triangulation and bundle adjustment, in the largest group of photos that
+// overlap; when it stays small the next seed is tried, and smaller groups that are still larger
+// than what was placed. The largest result is kept. Leaves poses, points and intrinsics in the
+// scene, in an arbitrary frame.
 MapReport Reconstruct(const MapperOptions& options, const std::vector<VerifiedPair>& pairs,
                       const StageContext& context, Scene& scene);
+
+// Why each photo without a pose has none, and what to do about it.
+std::map<int, std::string> ExplainUnposed(const MapperOptions& options,
+                                          const std::vector<VerifiedPair>& pairs,
+                                          const Scene& scene);
 
 // Rounds of bundle adjustment of everything, filtering and triangulating anew, until nothing
 // changes. With `use_priors` the scene must be in the frame of its position priors. Returns the
@@ -40,9 +46,9 @@ MapReport Reconstruct(const MapperOptions& options, const std::vector<VerifiedPa
 struct AdjustReport RefineAll(const MapperOptions& options, bool use_priors,
                               const StageContext& context, Scene& scene);
 
-// Drops observations beyond `max_error_px`, points left with fewer than two or seen under less than
-// the angle, and poses left with fewer than `min_inliers` observations. Returns the number of
-// observations dropped.
-int FilterScene(const MapperOptions& options, double max_error_px, Scene& scene);
+// Drops observations beyond `max_misfit` standard deviations, points left with fewer than two or
+// seen under less than the angle, and poses left with fewer than `min_inliers` observations.
+// Returns the number of observations dropped.
+int FilterScene(const MapperOptions& options, double max_misfit, Scene& scene);
 
 }  // namespace stucco

@@ -42,8 +42,8 @@ std::vector<std::string> RecordedThere(const Scene& scene,
   for (const int photo : lonely) {
     const auto& position = captures[photo]->position;
     if (!mean || !position || !position->has_height) continue;
-    const Eigen::Vector3d offset = EnuFromGeodetic(*mean, position->latitude_deg,
-                                                   position->longitude_deg, position->height_m);
+    const Eigen::Vector3d offset =
+        EnuFromGeodetic(*mean, position->latitude_deg, position->longitude_deg, position->height_m);
     if (offset.head<2>().norm() > position->sigma_horizontal_m ||
         std::abs(offset.z()) > position->sigma_vertical_m) {
       continue;

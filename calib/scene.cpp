@@ -17,6 +17,10 @@ double ReprojectionError(const Scene& scene, const SceneElement& element,
   return (*pixel - photo.keypoints[element.keypoint]).norm();
 }
 
+double Misfit(const Scene& scene, const SceneElement& element, const Eigen::Vector3d& point) {
+  return ReprojectionError(scene, element, point) / scene.photos[element.photo].keypoint_sigma_px;
+}
+
 int NumPosed(const Scene& scene) {
   return static_cast<int>(std::count_if(scene.photos.begin(), scene.photos.end(),
                                         [](const ScenePhoto& p) { return p.pose.has_value(); }));

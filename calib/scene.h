@@ -33,7 +33,7 @@ struct ScenePhoto {
   std::string name;
   int camera = 0;
   std::vector<Eigen::Vector2d> keypoints;  // full-resolution pixels
-  std::vector<float> keypoint_sigma_px;  // standard deviation of a keypoint, full-resolution pixels
+  double keypoint_sigma_px = 1;  // standard deviation of a keypoint, full-resolution pixels
   std::vector<std::array<uint8_t, 3>> colors;
   std::optional<Pose> pose;  // cam_from_world once it is known
   std::optional<PositionPrior> prior;
@@ -64,6 +64,10 @@ struct Scene {
 // the photo has no pose or the point is not in front of it.
 double ReprojectionError(const Scene& scene, const SceneElement& element,
                          const Eigen::Vector3d& point);
+
+// The same in standard deviations of the photo's keypoints, which is what limits are stated in:
+// photos of different sizes are detected at different scales.
+double Misfit(const Scene& scene, const SceneElement& element, const Eigen::Vector3d& point);
 
 int NumPosed(const Scene& scene);
 

@@ -16,7 +16,9 @@ constexpr double kGoodAngle = 12 * M_PI / 180;
 constexpr double kLeastAngle = 2 * M_PI / 180;
 constexpr double kClearParallax = 0.5 * M_PI / 180;
 constexpr int kLeastInliers = 30;
-constexpr size_t kPairsTried = 40;
+// Pairs with most matches that are tried first, and pairs tried when these give too few seeds.
+constexpr size_t kBestPairs = 40;
+constexpr size_t kOtherPairs = 200;
 
 struct RayPairs {
   std::vector<Eigen::Vector2d> first;
@@ -24,7 +26,7 @@ struct RayPairs {
   double max_error = 0;  // in units of the rays
 };
 
-RayPairs RaysOf(const Scene& scene, const PhotoPair& pair, double max_error_px) {
+RayPairs RaysOf(const Scene& scene, const PhotoPair& pair, double max_misfit) {
   RayPairs rays;
   const Camera& camera_a = scene.CameraOf(pair.first);
   const Camera& camera_b = scene.CameraOf(pair.second);
@@ -35,7 +37,9 @@ RayPairs RaysOf(const Scene& scene, const PhotoPair& pair, double max_error_px) 
     rays.first.push_back(*a);
     rays.second.push_back(*b);
   }
-  rays.max_error = max_error_px * 2 / (camera_a.FocalX() + camera_b.FocalX());
+  const double sigma_a = scene.photos[pair.first].keypoint_sigma_px / camera_a.FocalX();
+  const double sigma_b = scene.photos[pair.second].keypoint_sigma_px / camera_b.FocalX();
+  rays.max_error = max_misfit * (sigma_a + sigma_b) / 2;
   return rays;
 }
 
@@ -57,15 +61,48 @@ bool HasParallax(const Scene& scene, const PhotoPair& pair) {
   return angles[angles.size() / 2] > kClearParallax;
 }
 
+struct ScoredSeed {
+  double score = 0;
+  Seed seed;
+};
+
+std::optional<ScoredSeed> Score(const Scene& scene, const VerifiedPair& candidate,
+                                double max_misfit) {
+  const RayPairs rays = RaysOf(scene, candidate.pair, max_misfit);
+  const auto relative = EstimateRelativePose(rays.first, rays.second, rays.max_error);
+  if (!relative || relative->num_inliers < kLeastInliers) return std::nullopt;
+  if (relative->median_angle_rad < kLeastAngle) return std::nullopt;
+  const double angle = std::min(1.0, relative->median_angle_rad / kGoodAngle);
+  return ScoredSeed{relative->num_inliers * angle,
+                    {candidate.pair.first, candidate.pair.second, *relative}};
+}
+
+// Pairs that may start a reconstruction, those with most matches first.
+std::vector<const VerifiedPair*> SeedCandidates(const std::vector<VerifiedPair>& pairs) {
+  std::vector<const VerifiedPair*> candidates;
+  for (const VerifiedPair& pair : pairs) {
+    if (!pair.rotation_only && pair.pair.matches.size() >= kLeastInliers)
+      candidates.push_back(&pair);
+  }
+  // Pairs that a single homography explains come last: a plane fits two relative poses.
+  const auto worth = [](const VerifiedPair* p) {
+    return static_cast<double>(p->pair.matches.size()) -
+           (p->geometry.num_homography > 0.8 * p->pair.matches.size() ? 1e6 : 0);
+  };
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [&](const auto* a, const auto* b) { return worth(a) > worth(b); });
+  return candidates;
+}
+
 }  // namespace
 
-void ClassifyMotion(const Scene& scene, double max_error_px, VerifiedPair& pair) {
+void ClassifyMotion(const Scene& scene, double max_misfit, VerifiedPair& pair) {
   pair.rotation_only = false;
   // A rotation is a homography: without one that most matches agree with there is nothing to look
   // for.
   const int count = static_cast<int>(pair.pair.matches.size());
   if (pair.geometry.num_homography < 0.6 * count) return;
-  const RayPairs rays = RaysOf(scene, pair.pair, max_error_px);
+  const RayPairs rays = RaysOf(scene, pair.pair, max_misfit);
   // Twice the tolerance: the focal length may still be a guess, which bends a rotation by some
   // pixels.
   const int by_rotation = CountRotationInliers(rays.first, rays.second, 2 * rays.max_error,
@@ -95,36 +132,26 @@ std::vector<std::vector<int>> RotationGroups(const Scene& scene,
 }
 
 std::vector<Seed> FindSeeds(const Scene& scene, const std::vector<VerifiedPair>& pairs,
-                            double max_error_px, int max_seeds) {
-  std::vector<const VerifiedPair*> candidates;
-  for (const VerifiedPair& pair : pairs) {
-    if (!pair.rotation_only && pair.pair.matches.size() >= kLeastInliers)
-      candidates.push_back(&pair);
-  }
-  // Pairs that a single homography explains come last: a plane fits two relative poses.
-  const auto worth = [](const VerifiedPair* p) {
-    return static_cast<double>(p->pair.matches.size()) -
-           (p->geometry.num_homography > 0.8 * p->pair.matches.size() ? 1e6 : 0);
+                            double max_misfit, int max_seeds) {
+  const std::vector<const VerifiedPair*> candidates = SeedCandidates(pairs);
+  std::vector<ScoredSeed> scored;
+  const auto try_candidate = [&](const VerifiedPair& candidate) {
+    if (auto seed = Score(scene, candidate, max_misfit)) scored.push_back(*seed);
   };
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [&](const auto* a, const auto* b) { return worth(a) > worth(b); });
-  if (candidates.size() > kPairsTried) candidates.resize(kPairsTried);
-
-  std::vector<std::pair<double, Seed>> scored;
-  for (const VerifiedPair* candidate : candidates) {
-    const RayPairs rays = RaysOf(scene, candidate->pair, max_error_px);
-    const auto relative = EstimateRelativePose(rays.first, rays.second, rays.max_error);
-    if (!relative || relative->num_inliers < kLeastInliers) continue;
-    if (relative->median_angle_rad < kLeastAngle) continue;
-    const double angle = std::min(1.0, relative->median_angle_rad / kGoodAngle);
-    scored.push_back({relative->num_inliers * angle,
-                      {candidate->pair.first, candidate->pair.second, *relative}});
+  const size_t num_best = std::min(candidates.size(), kBestPairs);
+  for (size_t i = 0; i < num_best; ++i) try_candidate(*candidates[i]);
+  // Where photos follow each other closely the most alike have too small an angle: look further
+  // down, evenly.
+  const size_t step = (candidates.size() - num_best) / kOtherPairs + 1;
+  for (size_t i = num_best; i < candidates.size(); i += step) {
+    if (static_cast<int>(scored.size()) >= max_seeds) break;
+    try_candidate(*candidates[i]);
   }
   std::stable_sort(scored.begin(), scored.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
   std::vector<Seed> seeds;
-  for (const auto& [score, seed] : scored) {
-    if (static_cast<int>(seeds.size()) < max_seeds) seeds.push_back(seed);
+  for (const ScoredSeed& each : scored) {
+    if (static_cast<int>(seeds.size()) < max_seeds) seeds.push_back(each.seed);
   }
   return seeds;
 }

@@ -20,9 +20,9 @@ struct VerifiedPair {
   bool rotation_only = false;
 };
 
-// Sets `rotation_only`, with the cameras as the scene has them. Matches count within `max_error_px`
-// full-resolution pixels.
-void ClassifyMotion(const Scene& scene, double max_error_px, VerifiedPair& pair);
+// Sets `rotation_only`, with the cameras as the scene has them. Matches count within `max_misfit`
+// standard deviations of the keypoints.
+void ClassifyMotion(const Scene& scene, double max_misfit, VerifiedPair& pair);
 
 // Groups of at least three photos tied together by rotation-only pairs: panoramas from one point.
 // Pairs whose photos the scene has posed at clearly different places (more than half a degree apart
@@ -40,6 +40,6 @@ struct Seed {
 // Pairs to start from, best first: many matches under a good angle that no rotation explains.
 // At most `max_seeds`.
 std::vector<Seed> FindSeeds(const Scene& scene, const std::vector<VerifiedPair>& pairs,
-                            double max_error_px, int max_seeds);
+                            double max_misfit, int max_seeds);
 
 }  // namespace stucco

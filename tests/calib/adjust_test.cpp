@@ -118,6 +118,40 @@ TEST(Adjust, LevelsOfIntrinsicsChangeOnlyTheirOwn) {
   EXPECT_EQ(changed(RefineIntrinsics::kPrincipalPoint), "++++++++++++");
 }
 
+TEST(Adjust, TakesLessFromFewPhotos) {
+  Scene scene = MakeScene({.num_photos = 8, .num_points = 200});
+  scene.cameras.push_back(scene.cameras[0]);
+  scene.cameras[1].intrinsics.id = CameraId{2};
+  for (const int photo : {6, 7}) scene.photos[photo].camera = 1;
+  for (SceneCamera& camera : scene.cameras) {
+    camera.intrinsics.params = {1030, 1030, 600, 450, 0, 0, 0, 0};
+    camera.prior = camera.intrinsics;
+  }
+  const std::vector<double> before = scene.cameras[1].intrinsics.params;
+  ASSERT_TRUE(Adjust(Tight(RefineIntrinsics::kPrincipalPoint), scene).usable);
+  EXPECT_EQ(scene.cameras[1].intrinsics.params, before);
+  for (size_t i = 0; i < before.size(); ++i) {
+    EXPECT_NE(scene.cameras[0].intrinsics.params[i], before[i]) << i;
+  }
+}
+
+TEST(MeasureNoise, IgnoresWrongMatches) {
+  Scene scene = MakeScene({.num_photos = 8, .num_points = 400, .noise_px = 0.4});
+  EXPECT_NEAR(MeasureNoise(scene), 0.4, 0.03);
+  Random random(3);
+  for (ScenePhoto& photo : scene.photos) {
+    for (size_t k = 0; k < photo.keypoints.size(); k += 8) photo.keypoints[k].x() += 50;
+  }
+  EXPECT_NEAR(MeasureNoise(scene), 0.45, 0.05);
+  for (ScenePhoto& photo : scene.photos) photo.keypoint_sigma_px = 2;
+  EXPECT_NEAR(MeasureNoise(scene), 0.225, 0.025);
+}
+
+TEST(MeasureNoise, HasALimitAndADefault) {
+  EXPECT_EQ(MeasureNoise(MakeScene({.num_photos = 4})), 0.05);
+  EXPECT_EQ(MeasureNoise(Scene{}), 1);
+}
+
 TEST(Adjust, LeavesGivenCamerasAlone) {
   Scene scene = MakeScene({.num_points = 100, .noise_px = 1});
   scene.cameras[0].focal_sigma_ratio = 0;

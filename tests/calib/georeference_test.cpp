@@ -42,7 +42,7 @@ void ExpectSimilar(const Similarity& actual, double limit_m) {
 }
 
 TEST(FitToPriors, RecoversExactFrame) {
-  const auto fit = FitToPriors(SceneWithPriors(10, 0));
+  const auto fit = FitToPriors(SceneWithPriors(10, 0), {});
   ASSERT_TRUE(fit);
   ExpectSimilar(fit->enu_from_scene, 1e-6);
   EXPECT_TRUE(fit->outliers.empty());
@@ -50,7 +50,7 @@ TEST(FitToPriors, RecoversExactFrame) {
 }
 
 TEST(FitToPriors, AveragesNoise) {
-  const auto fit = FitToPriors(SceneWithPriors(20, 2));
+  const auto fit = FitToPriors(SceneWithPriors(20, 2), {});
   ASSERT_TRUE(fit);
   ExpectSimilar(fit->enu_from_scene, 6);
   EXPECT_TRUE(fit->outliers.empty());
@@ -60,7 +60,7 @@ TEST(FitToPriors, FindsWrongPositions) {
   Scene scene = SceneWithPriors(12, 0.05);
   scene.photos[3].prior->position.x() += 8;
   scene.photos[7].prior->position.z() -= 12;
-  const auto fit = FitToPriors(scene);
+  const auto fit = FitToPriors(scene, {});
   ASSERT_TRUE(fit);
   EXPECT_EQ(fit->outliers, (std::vector<int>{3, 7}));
   ExpectSimilar(fit->enu_from_scene, 0.3);
@@ -70,40 +70,82 @@ TEST(FitToPriors, RefusesPositionsThatContradictEachOther) {
   Scene scene = SceneWithPriors(12, 0.02);
   Random random(2);
   for (ScenePhoto& photo : scene.photos) photo.prior->position = random.Vector(100);
-  EXPECT_FALSE(FitToPriors(scene));
+  EXPECT_FALSE(FitToPriors(scene, {}));
 }
 
-TEST(FitToPriors, RefusesOneLine) {
+// Twenty metres between photos on a line, with `sigma_m` of noise in what was recorded.
+Scene OneLine(double sigma_m) {
   Scene scene = SceneWithPriors(10, 0.02);
+  Random random(4);
   for (size_t i = 0; i < scene.photos.size(); ++i) {
     Pose& pose = *scene.photos[i].pose;
-    pose.translation = -(pose.rotation * Eigen::Vector3d(2.0 * i, 1.0 * i, 0));
-    scene.photos[i].prior->position = {20.0 * i, 10.0 * i, 0};
+    const double sway = i % 2 == 0 ? 0.02 : -0.02;
+    pose.translation = -(pose.rotation * Eigen::Vector3d(2.0 * i, sway, 0.5 * sway));
+    scene.photos[i].prior->sigma_horizontal_m = std::max(0.02, sigma_m);
+    scene.photos[i].prior->sigma_vertical_m = std::max(0.02, sigma_m);
+    scene.photos[i].prior->position =
+        Eigen::Vector3d(0, 20.0 * i, 0) +
+        Eigen::Vector3d(random.Gauss(sigma_m), random.Gauss(sigma_m), random.Gauss(sigma_m));
   }
-  EXPECT_FALSE(FitToPriors(scene));
+  return scene;
+}
+
+TEST(FitToPriors, TakesOnlyTheScaleFromOneLine) {
+  for (const double sigma_m : {0.5, 2.0}) {
+    const auto fit = FitToPriors(OneLine(sigma_m), {});
+    ASSERT_TRUE(fit);
+    EXPECT_EQ(fit->holds, FitHolds::kScale);
+    EXPECT_NEAR(fit->enu_from_scene.scale, 10, 0.2);
+  }
+}
+
+TEST(FitToPriors, TakesUpFromElsewhereOnOneLine) {
+  const Eigen::Vector3d up = Eigen::Vector3d(0, 0.6, 0.8);
+  const auto fit = FitToPriors(OneLine(0.5), up);
+  ASSERT_TRUE(fit);
+  EXPECT_EQ(fit->holds, FitHolds::kScaleAndHeading);
+  EXPECT_NEAR(fit->enu_from_scene.scale, 10, 0.2);
+  EXPECT_NEAR((fit->enu_from_scene.rotation * up).z(), 1, 1e-12);
+  // The line runs north.
+  EXPECT_GT((fit->enu_from_scene.rotation * Eigen::Vector3d::UnitX()).y(), 0.999);
+  EXPECT_TRUE(fit->outliers.empty());
+}
+
+TEST(FitToPriors, HoldsEverythingWhereTheCamerasSpread) {
+  const auto fit = FitToPriors(SceneWithPriors(20, 1), Eigen::Vector3d(0, 1, 0));
+  ASSERT_TRUE(fit);
+  EXPECT_EQ(fit->holds, FitHolds::kEverything);
 }
 
 TEST(FitToPriors, RefusesPositionsCloserThanTheirAccuracy) {
+  EXPECT_FALSE(FitToPriors(SceneWithPriors(10, 500), {}));
   Scene scene = SceneWithPriors(10, 0);
-  for (ScenePhoto& photo : scene.photos) photo.prior->sigma_horizontal_m = 500;
-  EXPECT_FALSE(FitToPriors(scene));
   for (ScenePhoto& photo : scene.photos) photo.prior->position = {1, 2, 3};
-  EXPECT_FALSE(FitToPriors(scene));
+  EXPECT_FALSE(FitToPriors(scene, {}));
+}
+
+// The stated accuracy of a drone's GPS is that of the absolute position.
+TEST(FitToPriors, BelievesPositionsThatAgree) {
+  Scene scene = SceneWithPriors(10, 0.3);
+  for (ScenePhoto& photo : scene.photos) photo.prior->sigma_horizontal_m = 20;
+  const auto fit = FitToPriors(scene, {});
+  ASSERT_TRUE(fit);
+  EXPECT_EQ(fit->holds, FitHolds::kEverything);
 }
 
 TEST(FitToPriors, NeedsThreePositions) {
   Scene scene = SceneWithPriors(6, 0);
   for (const int i : {0, 2, 3, 5}) scene.photos[i].prior.reset();
-  EXPECT_FALSE(FitToPriors(scene));
+  EXPECT_FALSE(FitToPriors(scene, {}));
   scene.photos[1].pose.reset();
-  EXPECT_FALSE(FitToPriors(scene));
-  EXPECT_FALSE(FitToPriors(Scene{}));
+  EXPECT_FALSE(FitToPriors(scene, {}));
+  EXPECT_FALSE(FitToPriors(Scene{}, {}));
 }
 
 TEST(FitToPriors, IsRepeatable) {
   const Scene scene = SceneWithPriors(12, 1);
-  const auto first = FitToPriors(scene);
-  const auto second = FitToPriors(scene);
+  const auto first = FitToPriors(scene, {});
+  const auto second = FitToPriors(scene, {});
   ASSERT_TRUE(first && second);
   EXPECT_EQ(first->enu_from_scene.translation, second->enu_from_scene.translation);
 }

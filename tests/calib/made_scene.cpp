@@ -116,7 +116,6 @@ Scene MakeScene(const MadeOptions& options) {
       ScenePhoto& photo = scene.photos[i];
       track.elements.push_back({i, static_cast<int>(photo.keypoints.size()), true});
       photo.keypoints.push_back(pixel);
-      photo.keypoint_sigma_px.push_back(1);
       photo.colors.push_back({static_cast<uint8_t>(i), 100, 200});
     }
     scene.tracks.push_back(track);

@@ -101,6 +101,35 @@ TEST_F(Mapper, KeepsTheLargerOfTwoGroups) {
   ExpectConsistent(scene_);
 }
 
+// The smaller group has by far the most matches, so that all the best pairs are its.
+TEST_F(Mapper, FindsTheLargerGroupBehindManyMatches) {
+  const Scene truth = MakeScene({.num_photos = 22, .num_points = 500, .arc_rad = 2.5});
+  auto matches = MatchesOf(truth, 0, 1);
+  const auto in_first = [](int photo) { return photo < 10; };
+  std::erase_if(matches,
+                [&](const PhotoPair& p) { return in_first(p.first) != in_first(p.second); });
+  for (PhotoPair& pair : matches) {
+    if (!in_first(pair.first)) pair.matches.resize(std::min<size_t>(pair.matches.size(), 90));
+  }
+  const MapReport report = Run(truth, matches);
+  EXPECT_EQ(report.num_posed, 12);
+  EXPECT_EQ(report.unposed.size(), 10u);
+  EXPECT_LE(report.num_seeds_tried, 2);
+}
+
+// A photo whose keypoints agree on a pose loosely, so that it is placed and dropped again, must not
+// keep the mapper busy for ever.
+TEST_F(Mapper, EndsWithPhotosThatFitLoosely) {
+  Scene truth = MakeScene({.num_photos = 8, .num_points = 200, .noise_px = 0.3});
+  Random random(5);
+  for (Eigen::Vector2d& pixel : truth.photos[3].keypoints) {
+    pixel += Eigen::Vector2d(random.Gauss(5), random.Gauss(5));
+  }
+  const MapReport report = Run(truth, MatchesOf(truth, 0, 1));
+  EXPECT_GE(report.num_posed, 7);
+  ExpectConsistent(scene_);
+}
+
 TEST_F(Mapper, SaysWhichPhotosOverlapWithNothing) {
   const Scene truth = MakeScene({.num_photos = 6, .num_points = 250, .noise_px = 0.3});
   auto matches = MatchesOf(truth, 0, 1);
@@ -182,6 +211,16 @@ TEST(FilterScene, DropsWhatDoesNotFit) {
   }
   EXPECT_EQ(FilterScene({}, 4, scene), 4);
   EXPECT_FALSE(track->position);
+}
+
+TEST(FilterScene, MeasuresInStandardDeviations) {
+  Scene scene = MakeScene({.num_photos = 5, .num_points = 120, .seen_share = 1});
+  SceneElement& element = scene.tracks[0].elements[0];
+  scene.photos[element.photo].keypoints[element.keypoint].x() += 9;
+  scene.photos[element.photo].keypoint_sigma_px = 3;
+  EXPECT_EQ(FilterScene({}, 4, scene), 0);
+  scene.photos[element.photo].keypoint_sigma_px = 2;
+  EXPECT_EQ(FilterScene({}, 4, scene), 1);
 }
 
 TEST(FilterScene, DropsPosesThatLittleHolds) {
