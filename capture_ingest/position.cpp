@@ -188,14 +188,16 @@ std::optional<double> ReadSigma(const Tags& tags, const std::string& key) {
   return sigma;
 }
 
-// DJI's RtkFlag: 50 fixed, 34 float, 16 single point, 0 none. The defaults are typical of each.
+// DJI's RtkFlag: 50 fixed, 32 to 49 float, 16 single point, 0 none (manual of the Mavic 3M). The
+// defaults are typical of each.
 void ReadAccuracy(const Tags& tags, GeoPosition& position) {
   const int flag = static_cast<int>(Number(tags, "Xmp.drone-dji.RtkFlag").value_or(0));
+  const bool is_float = flag >= 32 && flag < 50;
   position.rtk_fixed = flag == 50;
-  if (flag == 50) {
+  if (position.rtk_fixed) {
     position.sigma_horizontal_m = 0.02;
     position.sigma_vertical_m = 0.04;
-  } else if (flag == 34) {
+  } else if (is_float) {
     position.sigma_horizontal_m = 0.5;
     position.sigma_vertical_m = 1;
   }
@@ -203,7 +205,7 @@ void ReadAccuracy(const Tags& tags, GeoPosition& position) {
   const auto east = ReadSigma(tags, "Xmp.drone-dji.RtkStdLon");
   const auto up = ReadSigma(tags, "Xmp.drone-dji.RtkStdHgt");
   // Without a fix the receiver goes on writing the deviations of its last one.
-  if (flag == 50 || flag == 34) {
+  if (position.rtk_fixed || is_float) {
     if (north && east) position.sigma_horizontal_m = std::hypot(*north, *east) / std::sqrt(2.0);
     if (up) position.sigma_vertical_m = *up;
     return;

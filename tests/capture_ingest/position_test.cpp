@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 namespace stucco {
 namespace {
 
@@ -141,6 +143,24 @@ TEST(ReadPosition, RtkFixHasItsDeviations) {
   position = ReadPosition(tags).position;
   EXPECT_TRUE(position->rtk_fixed);
   EXPECT_DOUBLE_EQ(position->sigma_horizontal_m, 0.02);
+}
+
+TEST(ReadPosition, AnyFloatSolutionHasItsDeviations) {
+  Tags tags = ExifPosition();
+  for (const auto& [flag, sigma_m] :
+       std::map<std::string, double>{{"31", GeoPosition().sigma_horizontal_m},
+                                     {"32", 0.5},
+                                     {"34", 0.5},
+                                     {"49", 0.5},
+                                     {"51", GeoPosition().sigma_horizontal_m}}) {
+    tags["Xmp.drone-dji.RtkFlag"] = flag;
+    const auto position = ReadPosition(tags).position;
+    EXPECT_FALSE(position->rtk_fixed) << flag;
+    EXPECT_DOUBLE_EQ(position->sigma_horizontal_m, sigma_m) << flag;
+  }
+  tags["Xmp.drone-dji.RtkFlag"] = "48";
+  tags["Xmp.drone-dji.RtkStdHgt"] = "0.3";
+  EXPECT_DOUBLE_EQ(ReadPosition(tags).position->sigma_vertical_m, 0.3);
 }
 
 TEST(ReadPosition, WithoutFixTheDeviationsOfTheLastAreNotBelieved) {
