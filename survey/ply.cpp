@@ -1,17 +1,21 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/ply.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <limits>
+#include <optional>
+#include <system_error>
 
 #include "survey/error.h"
-#include "survey/files.h"
 #include "survey/internal/bytes.h"
-#include "survey/internal/output_file.h"
 #include "survey/internal/text.h"
 #include "survey/point_cloud.h"
 
@@ -88,6 +92,81 @@ struct Header {
               "write the file again with the program it came from");
 }
 
+// A file read through a window that moves along it.
+class Source {
+ public:
+  explicit Source(const std::filesystem::path& path) : stream_(path, std::ios::binary) {
+    std::error_code error;
+    unread_ = stream_ ? std::filesystem::file_size(path, error) : 0;
+    if (stream_ && !error) return;
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: cannot be read: {}", path.string(),
+                            error ? error.message() : std::generic_category().message(errno)),
+                "check the path of the file");
+  }
+
+  // What comes next: at least `wanted` bytes, unless the file ends before. Valid until the next
+  // call.
+  std::string_view Peek(size_t wanted) {
+    if (buffer_.size() - begin_ < wanted && unread_ > 0) Refill(wanted);
+    return std::string_view(buffer_).substr(begin_);
+  }
+  void Skip(size_t bytes) { begin_ += bytes; }
+  // Bytes to the end of the file.
+  uint64_t Left() const { return unread_ + (buffer_.size() - begin_); }
+
+  // The next line without its end; nothing at the end of the file.
+  std::optional<std::string> NextLine() {
+    if (Left() == 0) return std::nullopt;
+    std::string line;
+    for (bool ended = false; !ended && Left() > 0;) {
+      const std::string_view ahead = Peek(1);
+      const size_t end = ahead.find('\n');
+      ended = end != std::string_view::npos;
+      line += ahead.substr(0, end);
+      Skip(ended ? end + 1 : ahead.size());
+    }
+    if (line.ends_with('\r')) line.pop_back();
+    return line;
+  }
+
+  // The next text between blanks; empty at the end of the file.
+  std::string_view NextWord() {
+    constexpr size_t kLongestWord = 4096;
+    std::string_view ahead = Peek(kLongestWord);
+    size_t blanks = 0;
+    while (blanks < ahead.size() && internal::IsBlank(ahead[blanks])) {
+      if (++blanks < ahead.size()) continue;
+      Skip(blanks);
+      ahead = Peek(kLongestWord);
+      blanks = 0;
+    }
+    Skip(blanks);
+    ahead = Peek(kLongestWord);
+    const std::string_view word = internal::TakeWord(ahead);
+    Skip(word.size());
+    return word;
+  }
+
+ private:
+  void Refill(size_t wanted) {
+    constexpr size_t kBlockBytes = size_t{1} << 20;
+    buffer_.erase(0, begin_);
+    begin_ = 0;
+    const size_t kept = buffer_.size();
+    buffer_.resize(kept + std::min<uint64_t>(std::max(wanted, kBlockBytes), unread_));
+    stream_.read(buffer_.data() + kept, static_cast<std::streamsize>(buffer_.size() - kept));
+    const auto count = static_cast<size_t>(stream_.gcount());
+    buffer_.resize(kept + count);
+    unread_ = stream_ ? unread_ - count : 0;  // the file has become shorter
+  }
+
+  std::ifstream stream_;
+  std::string buffer_;
+  size_t begin_ = 0;
+  uint64_t unread_ = 0;
+};
+
 Scalar ParseScalar(std::string_view word, const std::string& file) {
   const auto found = std::ranges::find(kScalarNames, word, &ScalarName::name);
   if (found == kScalarNames.end()) Fail(file, fmt::format("unknown type \"{}\"", word));
@@ -114,29 +193,29 @@ Property ParseProperty(std::string_view line, const std::string& file) {
   return property;
 }
 
-// Takes the header off the front of `bytes`.
-Header TakeHeader(std::string_view& bytes, const std::string& file) {
-  if (internal::TakeLine(bytes) != "ply") Fail(file, "does not begin with \"ply\"");
+Header ReadHeader(Source& source, const std::string& file) {
+  if (source.NextLine() != "ply") Fail(file, "does not begin with \"ply\"");
   Header header;
   bool has_format = false;
-  while (auto line = internal::TakeLine(bytes)) {
-    const std::string_view word = internal::TakeWord(*line);
+  while (const auto text = source.NextLine()) {
+    std::string_view line = *text;
+    const std::string_view word = internal::TakeWord(line);
     if (word == "end_header") {
       if (!has_format) Fail(file, "has no line \"format\"");
       return header;
     }
     if (word == "format") {
-      header.encoding = ParseEncoding(internal::TakeWord(*line), file);
+      header.encoding = ParseEncoding(internal::TakeWord(line), file);
       has_format = true;
     } else if (word == "element") {
       Element& element = header.elements.emplace_back();
-      element.name = internal::TakeWord(*line);
-      const auto count = internal::ParseNumber<uint64_t>(internal::TakeWord(*line));
+      element.name = internal::TakeWord(line);
+      const auto count = internal::ParseNumber<uint64_t>(internal::TakeWord(line));
       if (!count) Fail(file, fmt::format("element \"{}\" has no count", element.name));
       element.count = *count;
     } else if (word == "property") {
       if (header.elements.empty()) Fail(file, "a property comes before the first element");
-      header.elements.back().properties.push_back(ParseProperty(*line, file));
+      header.elements.back().properties.push_back(ParseProperty(line, file));
     } else if (word != "comment" && word != "obj_info" && !word.empty()) {
       Fail(file, fmt::format("unknown line \"{}\" in the header", word));
     }
@@ -147,16 +226,17 @@ Header TakeHeader(std::string_view& bytes, const std::string& file) {
 // The values of the body one after another. A double holds every PLY scalar exactly.
 class Body {
  public:
-  Body(std::string_view bytes, Encoding encoding, const std::string& file)
-      : bytes_(bytes), encoding_(encoding), file_(file) {}
+  Body(Source& source, Encoding encoding, const std::string& file)
+      : source_(source), encoding_(encoding), file_(file) {}
 
   double Next(Scalar type) {
     if (encoding_ == Encoding::kAscii) return NextWord();
     const size_t size = SizeOf(type);
-    if (bytes_.size() < size) Fail(file_, "ends too early");
+    const std::string_view ahead = source_.Peek(size);
+    if (ahead.size() < size) Fail(file_, "ends too early");
     std::array<char, 8> raw{};
-    std::copy_n(bytes_.begin(), size, raw.begin());
-    bytes_.remove_prefix(size);
+    std::copy_n(ahead.begin(), size, raw.begin());
+    source_.Skip(size);
     if (encoding_ == Encoding::kBigEndian) std::reverse(raw.begin(), raw.begin() + size);
     return Convert(type, raw.data());
   }
@@ -165,7 +245,7 @@ class Body {
   size_t NextLength(const Property& list) {
     const double length = Next(list.count_type);
     if (!(length >= 0) || length != std::floor(length) ||
-        length > static_cast<double>(bytes_.size() / MinBytes(list.type))) {
+        length > static_cast<double>(source_.Left() / MinBytes(list.type))) {
       Fail(file_, fmt::format("list \"{}\" is of length {}", list.name, length));
     }
     return static_cast<size_t>(length);
@@ -181,9 +261,9 @@ class Body {
       Fail(file_, fmt::format("element \"{}\" has no properties", element.name));
     }
     // The last ASCII number needs no blank after it.
-    if (element.count > (bytes_.size() + 1) / row) {
+    if (element.count > (source_.Left() + 1) / row) {
       Fail(file_, fmt::format("{} bytes cannot hold the {} \"{}\" that the header promises",
-                              bytes_.size(), element.count, element.name));
+                              source_.Left(), element.count, element.name));
     }
   }
 
@@ -192,7 +272,7 @@ class Body {
   size_t MinBytes(Scalar type) const { return encoding_ == Encoding::kAscii ? 2 : SizeOf(type); }
 
   double NextWord() {
-    const std::string_view word = internal::TakeWord(bytes_);
+    const std::string_view word = source_.NextWord();
     if (word.empty()) Fail(file_, "ends too early");
     const auto number = internal::ParseNumber<double>(word);
     if (!number) Fail(file_, fmt::format("\"{}\" is not a number", word));
@@ -221,7 +301,7 @@ class Body {
     return 0;
   }
 
-  std::string_view bytes_;
+  Source& source_;
   Encoding encoding_;
   const std::string& file_;
 };
@@ -307,105 +387,104 @@ Eigen::Vector3f UnitNormal(const std::array<double, 6>& numbers) {
   return (keep ? normal : Eigen::Vector3d(normal / length)).cast<float>();
 }
 
-PointCloud ReadVertices(Body& body, const Element& element, const std::string& file) {
+struct VertexElement {
+  const Element& element;
   std::vector<Meaning> meanings;
-  for (const Property& property : element.properties) meanings.push_back(MeaningOf(property));
+  PlyLayout layout;
+};
+
+VertexElement Understand(const Element& element, const std::string& file) {
+  VertexElement vertices{.element = element, .meanings = {}, .layout = {}};
+  for (const Property& property : element.properties) {
+    vertices.meanings.push_back(MeaningOf(property));
+  }
   const auto has = [&](std::initializer_list<Meaning> wanted) {
     return std::ranges::all_of(wanted, [&](Meaning meaning) {
-      return std::ranges::find(meanings, meaning) != meanings.end();
+      return std::ranges::find(vertices.meanings, meaning) != vertices.meanings.end();
     });
   };
   if (!has({Meaning::kX, Meaning::kY, Meaning::kZ})) Fail(file, "its points have no x, y and z");
-  const bool has_normals = has({Meaning::kNx, Meaning::kNy, Meaning::kNz});
-  const bool has_colors = has({Meaning::kRed, Meaning::kGreen, Meaning::kBlue});
-  const bool has_views = has({Meaning::kViews});
-
-  body.CheckHolds(element);
-  PointCloud cloud;
-  cloud.positions.reserve(element.count);
-  for (uint64_t row = 0; row < element.count; ++row) {
-    Vertex vertex = ReadVertex(body, element, meanings, file);
-    cloud.positions.emplace_back(vertex.numbers[0], vertex.numbers[1], vertex.numbers[2]);
-    if (has_normals) cloud.normals.push_back(UnitNormal(vertex.numbers));
-    if (has_colors) cloud.colors.push_back(vertex.color);
-    if (has_views) cloud.views.push_back(std::move(vertex.views));
-  }
-  return cloud;
+  vertices.layout = {.points = element.count,
+                     .normals = has({Meaning::kNx, Meaning::kNy, Meaning::kNz}),
+                     .colors = has({Meaning::kRed, Meaning::kGreen, Meaning::kBlue}),
+                     .views = has({Meaning::kViews})};
+  return vertices;
 }
 
-std::string HeaderText(const PointCloud& cloud, bool wide_views) {
-  std::string header = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
-      "property double x\nproperty double y\nproperty double z\n",
-      cloud.size());
-  if (!cloud.normals.empty()) {
-    header += "property float nx\nproperty float ny\nproperty float nz\n";
+void VisitVertices(Body& body, const VertexElement& vertices, const std::string& file,
+                   const std::function<void(const CloudPoint&)>& visit) {
+  constexpr float kUnitTolerance = 1e-3F;
+  for (uint64_t row = 0; row < vertices.element.count; ++row) {
+    const Vertex vertex = ReadVertex(body, vertices.element, vertices.meanings, file);
+    CloudPoint point;
+    point.position = {vertex.numbers[0], vertex.numbers[1], vertex.numbers[2]};
+    if (!point.position.allFinite()) Fail(file, fmt::format("point {} is not finite", row));
+    if (vertices.layout.normals) {
+      point.normal = UnitNormal(vertex.numbers);
+      if (!(std::abs(point.normal.norm() - 1) <= kUnitTolerance)) {
+        Fail(file, fmt::format("the normal of point {} is not of unit length", row));
+      }
+    }
+    if (vertices.layout.colors) point.color = vertex.color;
+    point.views = vertex.views;
+    visit(point);
   }
-  if (!cloud.colors.empty()) {
-    header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-  }
-  if (!cloud.views.empty()) {
-    header += fmt::format("property list {} uint view_indices\n", wide_views ? "uint" : "uchar");
-  }
-  return header + "end_header\n";
 }
 
-void AppendPoint(const PointCloud& cloud, size_t i, bool wide_views, std::string& out) {
-  for (const double number : cloud.positions[i]) internal::AppendLittleEndian(out, number);
-  if (!cloud.normals.empty()) {
-    for (const float number : cloud.normals[i]) internal::AppendLittleEndian(out, number);
-  }
-  if (!cloud.colors.empty()) {
-    for (const uint8_t byte : cloud.colors[i]) internal::AppendLittleEndian(out, byte);
-  }
-  if (cloud.views.empty()) return;
-  const auto length = static_cast<uint32_t>(cloud.views[i].size());
-  if (wide_views) {
-    internal::AppendLittleEndian(out, length);
-  } else {
-    internal::AppendLittleEndian(out, static_cast<uint8_t>(length));
-  }
-  for (const uint32_t view : cloud.views[i]) internal::AppendLittleEndian(out, view);
-}
-
-}  // namespace
-
-PointCloud ReadPly(const std::filesystem::path& path) {
+// Goes to the points of the file, calls `found` with their layout and `visit` with each.
+void ReadPoints(const std::filesystem::path& path,
+                const std::function<void(const PlyLayout&)>& found,
+                const std::function<void(const CloudPoint&)>& visit) {
   const std::string file = path.string();
-  const std::string bytes = ReadFile(path);
-  std::string_view rest = bytes;
-  const Header header = TakeHeader(rest, file);
-  Body body(rest, header.encoding, file);
+  Source source(path);
+  const Header header = ReadHeader(source, file);
+  Body body(source, header.encoding, file);
   for (const Element& element : header.elements) {
     if (element.name != "vertex") {
       SkipElement(body, element);
       continue;
     }
-    PointCloud cloud = ReadVertices(body, element, file);
-    if (const auto problem = FindProblem(cloud)) Fail(file, *problem);
-    return cloud;  // faces and the like come after and are not needed
+    const VertexElement vertices = Understand(element, file);
+    body.CheckHolds(element);
+    found(vertices.layout);
+    if (visit) VisitVertices(body, vertices, file, visit);
+    return;  // faces and the like come after and are not needed
   }
   Fail(file, "has no points");
 }
 
-void WritePly(const PointCloud& cloud, const std::filesystem::path& path) {
-  if (const auto problem = FindProblem(cloud)) {
-    throw Error(ErrorKind::kStageFailed,
-                fmt::format("{}: cannot be written: {}", path.string(), *problem));
-  }
-  constexpr size_t kFlushBytes = size_t{1} << 20;
-  const bool wide_views =
-      std::ranges::any_of(cloud.views, [](const auto& views) { return views.size() > 255; });
-  internal::OutputFile file(path);
-  std::string buffer = HeaderText(cloud, wide_views);
-  for (size_t i = 0; i < cloud.size(); ++i) {
-    AppendPoint(cloud, i, wide_views, buffer);
-    if (buffer.size() < kFlushBytes) continue;
-    file.Write(buffer);
-    buffer.clear();
-  }
-  file.Write(buffer);
-  file.Close();
+}  // namespace
+
+PlyLayout ReadPlyLayout(const std::filesystem::path& path) {
+  PlyLayout layout;
+  ReadPoints(
+      path, [&](const PlyLayout& found) { layout = found; }, nullptr);
+  return layout;
+}
+
+void ForEachPoint(const std::filesystem::path& path,
+                  const std::function<void(const CloudPoint&)>& visit) {
+  ReadPoints(
+      path, [](const PlyLayout&) {}, visit);
+}
+
+PointCloud ReadPly(const std::filesystem::path& path) {
+  PointCloud cloud;
+  PlyLayout layout;
+  const auto prepare = [&](const PlyLayout& found) {
+    layout = found;
+    cloud.positions.reserve(found.points);
+    if (found.normals) cloud.normals.reserve(found.points);
+    if (found.colors) cloud.colors.reserve(found.points);
+    if (found.views) cloud.views.reserve(found.points);
+  };
+  ReadPoints(path, prepare, [&](const CloudPoint& point) {
+    cloud.positions.push_back(point.position);
+    if (layout.normals) cloud.normals.push_back(point.normal);
+    if (layout.colors) cloud.colors.push_back(point.color);
+    if (layout.views) cloud.views.emplace_back(point.views.begin(), point.views.end());
+  });
+  return cloud;
 }
 
 }  // namespace stucco

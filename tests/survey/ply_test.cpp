@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/ply.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,6 +52,44 @@ TEST(Ply, ReadsBackExactly) {
   ExpectSame(ReadPly(folder / "a.ply"), cloud);
   WritePly({}, folder / "a.ply");
   EXPECT_EQ(ReadPly(folder / "a.ply").size(), 0u);
+}
+
+TEST(Ply, VisitsThePointsThatItWouldRead) {
+  const TemporaryFolder folder;
+  const PointCloud cloud = MakeCloud();
+  WritePly(cloud, folder / "a.ply");
+  PointCloud visited;
+  ForEachPoint(folder / "a.ply", [&](const CloudPoint& point) {
+    visited.positions.push_back(point.position);
+    visited.normals.push_back(point.normal);
+    visited.colors.push_back(point.color);
+    visited.views.emplace_back(point.views.begin(), point.views.end());
+  });
+  ExpectSame(visited, cloud);
+  const PlyLayout layout = ReadPlyLayout(folder / "a.ply");
+  EXPECT_EQ(layout.points, cloud.size());
+  EXPECT_TRUE(layout.normals && layout.colors && layout.views);
+  EXPECT_THROW(ForEachPoint(folder / "none.ply", [](const CloudPoint&) {}), Error);
+}
+
+TEST(Ply, ReadsAcrossTheEdgesOfItsBuffer) {
+  // Words and blanks of changing length, several megabytes of them.
+  const TemporaryFolder folder;
+  constexpr int kPoints = 60000;
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 60000\nproperty double x\n"
+      "property double y\nproperty double z\nend_header\n";
+  for (int i = 0; i < kPoints; ++i) {
+    text += std::to_string(i) + ".0000000000000000000000" + std::string(1 + i % 61, ' ') +
+            std::to_string(-i) + "\n" + std::to_string(i % 7) + "\n";
+  }
+  text += std::string(20000, ' ');
+  WriteFile(folder / "a.ply", text);
+  const PointCloud cloud = ReadPly(folder / "a.ply");
+  ASSERT_EQ(cloud.size(), static_cast<size_t>(kPoints));
+  for (int i = 0; i < kPoints; ++i) {
+    ASSERT_EQ(cloud.positions[i], Eigen::Vector3d(i, -i, i % 7)) << i;
+  }
 }
 
 TEST(Ply, ReadsBackManyPointsAndManyViews) {

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+
+#include "survey/point_cloud.h"
+
+namespace stucco {
+
+// One point of a cloud, for clouds too large to be held. What the file does not have is zero.
+struct CloudPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  std::array<uint8_t, 3> color{};
+  std::span<const uint32_t> views;  // as in PointCloud; valid during the visit only
+};
+
+// What a PLY file has, by its header.
+struct PlyLayout {
+  uint64_t points = 0;
+  bool normals = false;
+  bool colors = false;
+  bool views = false;
+};
+
+// Reads the header alone, and checks that the file is long enough for what it promises.
+PlyLayout ReadPlyLayout(const std::filesystem::path& path);
+
+// Visits the points in the order of the file with about a megabyte of memory, whatever the file's
+// size. Takes and refuses the same files as ReadPly (point_cloud.h), but damage far into the file
+// is only found after the points before it were visited.
+void ForEachPoint(const std::filesystem::path& path,
+                  const std::function<void(const CloudPoint&)>& visit);
+
+}  // namespace stucco
