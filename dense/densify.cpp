@@ -102,6 +102,10 @@ class Densifier {
         context_.memory_limit_bytes / 4, [this](int i) { return LoadFinalMap(i); }, MapBytes);
     FuseOptions fuse;
     fuse.min_consistent = options_.min_consistent;
+    if (photos_.size() == 2 && fuse.min_consistent > 1) {
+      fuse.min_consistent = 1;
+      context_.progress->Note("only two photos: depths that both agree on are kept");
+    }
     fuse.max_cost = static_cast<float>(options_.max_cost);
     fuse.max_reprojection_px = static_cast<float>(options_.max_reprojection_px);
     fuse.max_depth_difference = static_cast<float>(options_.max_depth_difference);
@@ -242,7 +246,7 @@ void Describe(OptionTable& table, DenseOptions& options) {
             "Photos are reduced to this many pixels on the longer side before depths are matched.");
   table.Add("max_sources", options.max_sources, 1, 16, "Photos that each photo is matched with.");
   table.Add("min_consistent", options.min_consistent, 1, 10,
-            "Other photos that must confirm a depth (1 where only two photos see a place).");
+            "Other photos that must confirm a depth; one in a survey of two photos.");
   table.Add("max_cost", options.max_cost, 0.05, 2,
             "Depths with a worse matching cost (1 - correlation) are dropped.");
   table.Add(

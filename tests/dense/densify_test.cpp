@@ -224,5 +224,29 @@ TEST(DenseOptions, AreAllInTheTable) {
   EXPECT_NE(SetOption(table, "max_sources", OptionValue(int64_t{17})), "");
 }
 
+// Only one other photo can confirm a depth then, whatever the option's default asks for.
+TEST_F(Densify, TwoPhotosConfirmEachOther) {
+  Reconstruction r = SparseModel();
+  std::erase_if(r.photos, [](const auto& photo) { return photo.first.value > 2; });
+  for (auto& [id, point] : r.points) {
+    std::erase_if(point.track, [](const TrackElement& e) { return e.photo.value > 2; });
+  }
+  for (auto& [id, photo] : r.photos) {
+    std::erase_if(photo.observations,
+                  [&](const Observation& o) { return r.points.at(o.point).track.size() < 2; });
+  }
+  std::erase_if(r.points, [](const auto& point) { return point.second.track.size() < 2; });
+  for (auto& [id, point] : r.points) point.track.clear();
+  for (auto& [id, photo] : r.photos) {
+    for (size_t i = 0; i < photo.observations.size(); ++i) {
+      r.points.at(photo.observations[i].point).track.push_back({id, static_cast<uint32_t>(i)});
+    }
+  }
+  WriteColmapBinary(r, folder_ / "survey" / kSparseFolder);
+  StageContext context = Context("two");
+  RunDense(Options(2), context);
+  EXPECT_GT(ReadPly(context.out / "cloud.ply").size(), 3000u);
+}
+
 }  // namespace
 }  // namespace stucco::test
