@@ -57,7 +57,8 @@ std::vector<std::optional<Eigen::Vector3d>> RoughPositions(
       frame->origin_longitude_deg = p->longitude_deg;
       frame->origin_height_m = p->height_m;
     }
-    positions[i] = EnuFromGeodetic(*frame, p->latitude_deg, p->longitude_deg, p->height_m);
+    const double height_m = p->has_height ? p->height_m : frame->origin_height_m;
+    positions[i] = EnuFromGeodetic(*frame, p->latitude_deg, p->longitude_deg, height_m);
   }
   return positions;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "calib/descriptors.h"
 
@@ -36,19 +37,21 @@ void Normalize(float* values, int count) {
   for (int i = 0; i < count; ++i) values[i] *= scale;
 }
 
-// The `count` others with the smallest value of `distance`, ties by index.
+// The `count` others with the smallest value of `distance`; of equal ones (a GPS that stood still)
+// those nearest in the order of photos.
 template <typename Distance>
 void AddNearest(int photo, int num_photos, int count, const Distance& distance,
                 std::set<std::pair<int, int>>& pairs) {
-  std::vector<std::pair<double, int>> order;
+  std::vector<std::tuple<double, int, int>> order;
   for (int other = 0; other < num_photos; ++other) {
     if (other == photo) continue;
     const double d = distance(other);
-    if (std::isfinite(d)) order.emplace_back(d, other);
+    if (std::isfinite(d)) order.emplace_back(d, std::abs(other - photo), other);
   }
   std::sort(order.begin(), order.end());
   for (size_t i = 0; i < order.size() && static_cast<int>(i) < count; ++i) {
-    pairs.emplace(std::min(photo, order[i].second), std::max(photo, order[i].second));
+    const int other = std::get<2>(order[i]);
+    pairs.emplace(std::min(photo, other), std::max(photo, other));
   }
 }
 
@@ -64,6 +67,7 @@ std::vector<std::pair<int, int>> SelectPairs(
       for (int b = a + 1; b < count; ++b) pairs.emplace(a, b);
       continue;
     }
+    for (int b = a + 1; b < std::min(count, a + 1 + options.followers); ++b) pairs.emplace(a, b);
     AddNearest(
         a, count, options.neighbours,
         [&](int b) {

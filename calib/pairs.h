@@ -14,10 +14,12 @@ namespace stucco {
 struct PairOptions {
   int exhaustive_below = 150;  // photos
   int neighbours = 40;         // candidates per photo above that
+  int followers = 5;           // and as many that come next in the order of names
 };
 
 // Pairs (a, b), a < b, ascending, that are worth matching: all of a small set; else each photo's
-// nearest by position where both have one, and the most similar by appearance.
+// nearest by position where both have one, the most similar by appearance, and those that follow
+// it.
 std::vector<std::pair<int, int>> SelectPairs(
     const PairOptions& options, const std::vector<std::optional<Eigen::Vector3d>>& positions,
     const std::vector<std::vector<float>>& signatures);

@@ -26,7 +26,7 @@ TEST(SelectPairs, TakesAllOfASmallSet) {
 TEST(SelectPairs, TakesTheNearestByPosition) {
   Positions line;
   for (int i = 0; i < 20; ++i) line.emplace_back(Eigen::Vector3d(10.0 * i, 0, 100));
-  const Pairs pairs = SelectPairs({.exhaustive_below = 5, .neighbours = 2}, line,
+  const Pairs pairs = SelectPairs({.exhaustive_below = 5, .neighbours = 2, .followers = 0}, line,
                                   std::vector<std::vector<float>>(20));
   EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
   const std::set<std::pair<int, int>> found(pairs.begin(), pairs.end());
@@ -42,8 +42,8 @@ TEST(SelectPairs, FallsBackToAppearance) {
   // No positions; photos i and i + 10 look alike.
   std::vector<std::vector<float>> signatures(20, std::vector<float>(10, 0.0f));
   for (int i = 0; i < 20; ++i) signatures[i][i % 10] = 1;
-  const Pairs pairs =
-      SelectPairs({.exhaustive_below = 5, .neighbours = 1}, Positions(20), signatures);
+  const Pairs pairs = SelectPairs({.exhaustive_below = 5, .neighbours = 1, .followers = 0},
+                                  Positions(20), signatures);
   ASSERT_EQ(pairs.size(), 10u);
   for (int i = 0; i < 10; ++i) EXPECT_EQ(pairs[i], std::make_pair(i, i + 10));
 }
@@ -55,14 +55,29 @@ TEST(SelectPairs, MixesPositionAndAppearance) {
   std::vector<std::vector<float>> signatures(10, std::vector<float>(2, 0.0f));
   for (auto& s : signatures) s[0] = 1;
   signatures[2] = signatures[9] = {0, 1};
-  const Pairs pairs = SelectPairs({.exhaustive_below = 5, .neighbours = 1}, positions, signatures);
+  const Pairs pairs =
+      SelectPairs({.exhaustive_below = 5, .neighbours = 1, .followers = 0}, positions, signatures);
   const std::set<std::pair<int, int>> found(pairs.begin(), pairs.end());
   EXPECT_TRUE(found.contains({2, 9}));  // no position, but alike
   EXPECT_TRUE(found.contains({7, 8}));  // near
 }
 
+TEST(SelectPairs, TakesWhatFollows) {
+  const Pairs pairs = SelectPairs({.exhaustive_below = 2, .neighbours = 1, .followers = 2},
+                                  Positions(4), std::vector<std::vector<float>>(4));
+  EXPECT_EQ(pairs, (Pairs{{0, 1}, {0, 2}, {1, 2}, {1, 3}, {2, 3}}));
+}
+
+TEST(SelectPairs, TakesNeighboursInOrderWhereTheGpsStoodStill) {
+  const Positions still(30, Eigen::Vector3d(1, 2, 3));
+  for (const auto& [a, b] : SelectPairs({.exhaustive_below = 5, .neighbours = 4, .followers = 0},
+                                        still, std::vector<std::vector<float>>(30))) {
+    EXPECT_LE(b - a, 4);
+  }
+}
+
 TEST(SelectPairs, SurvivesPhotosWithoutAnything) {
-  EXPECT_TRUE(SelectPairs({.exhaustive_below = 2, .neighbours = 3}, Positions(8),
+  EXPECT_TRUE(SelectPairs({.exhaustive_below = 2, .neighbours = 3, .followers = 0}, Positions(8),
                           std::vector<std::vector<float>>(8))
                   .empty());
 }
@@ -103,8 +118,8 @@ TEST(Signature, FindsPhotosOfTheSamePlace) {
     for (const float v : signatures.back()) squares += double{v} * v;
     EXPECT_NEAR(squares, 1, 1e-4);
   }
-  const Pairs pairs =
-      SelectPairs({.exhaustive_below = 2, .neighbours = 2}, Positions(photos.size()), signatures);
+  const Pairs pairs = SelectPairs({.exhaustive_below = 2, .neighbours = 2, .followers = 0},
+                                  Positions(photos.size()), signatures);
   ASSERT_EQ(pairs.size(), 3u * kPlaces);
   for (const auto& [a, b] : pairs) EXPECT_EQ(a % kPlaces, b % kPlaces) << a << " " << b;
 }
