@@ -18,7 +18,7 @@ find_package(JPEG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(exiv2 REQUIRED IMPORTED_TARGET exiv2)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
-pkg_check_modules(pcl_filters REQUIRED IMPORTED_TARGET pcl_filters)
+pkg_check_modules(pcl_kdtree REQUIRED IMPORTED_TARGET pcl_kdtree)
 find_package(CLI11 REQUIRED)
 find_package(tomlplusplus REQUIRED)
 

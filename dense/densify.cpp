@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <opencv2/core/utility.hpp>
 #include <vector>
@@ -116,6 +117,26 @@ class Densifier {
                   context_.ThrowIfCancelled();
                   context_.progress->Advance();
                 });
+  }
+
+  // Distance between neighbouring pixels of the depth maps on the surface at each point, in the
+  // photo that saw it closest.
+  std::vector<float> Spacing(const PointCloud& cloud) const {
+    std::map<uint32_t, std::pair<Eigen::Vector3d, double>> photos;  // centre, pixels per radian
+    for (const Photo& photo : photos_) {
+      const PinholeView view =
+          PinholeLevels(*photo.camera, photo.posed->cam_from_world, options_.max_image_px, 1)[0];
+      photos[photo.posed->id.value] = {photo.posed->cam_from_world.Center(), view.fx};
+    }
+    std::vector<float> spacing(cloud.size(), std::numeric_limits<float>::max());
+    for (size_t i = 0; i < cloud.size(); ++i) {
+      for (const uint32_t id : cloud.views[i]) {
+        const auto& [center, focal_px] = photos.at(id);
+        const double distance = (cloud.positions[i] - center).norm();
+        spacing[i] = std::min(spacing[i], static_cast<float>(distance / focal_px));
+      }
+    }
+    return spacing;
   }
 
   void WriteDepthMaps() {
@@ -283,7 +304,8 @@ void RunDense(const DenseOptions& options, StageContext& context) {
   size_t removed = 0;
   if (options.outlier_sigmas > 0) {
     context.progress->Begin("removing outliers", 1);
-    removed = RemoveOutliers(options.outlier_sigmas, cloud);
+    removed =
+        RemoveOutliers(options.outlier_sigmas, densifier.Spacing(cloud), context.threads, cloud);
     context.progress->Advance();
   }
   WritePly(cloud, context.out / "cloud.ply");

@@ -2,15 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dense/outliers.h"
 
-#include <pcl/filters/statistical_outlier_removal.h>
+#include <pcl/kdtree/kdtree_flann.h>
 #include <pcl/point_types.h>
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "survey/parallel.h"
 
 namespace stucco {
 namespace {
 
 constexpr int kNeighbours = 10;
+constexpr size_t kBlock = 4096;  // points of a task
 
 template <typename T>
 void Keep(const std::vector<int>& kept, std::vector<T>& values) {
@@ -21,10 +26,8 @@ void Keep(const std::vector<int>& kept, std::vector<T>& values) {
   values = std::move(result);
 }
 
-}  // namespace
-
-size_t RemoveOutliers(double sigmas, PointCloud& cloud) {
-  if (cloud.size() <= kNeighbours) return 0;
+// Mean distance of each point to its nearest neighbours.
+std::vector<float> NeighbourDistances(int threads, const PointCloud& cloud) {
   // PCL works in floats: coordinates relative to the middle keep their digits.
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : cloud.positions) middle += p / static_cast<double>(cloud.size());
@@ -34,12 +37,43 @@ size_t RemoveOutliers(double sigmas, PointCloud& cloud) {
     const Eigen::Vector3f f = (p - middle).cast<float>();
     points->push_back({f.x(), f.y(), f.z()});
   }
-  pcl::StatisticalOutlierRemoval<pcl::PointXYZ> filter;
-  filter.setInputCloud(points);
-  filter.setMeanK(kNeighbours);
-  filter.setStddevMulThresh(sigmas);
+  pcl::KdTreeFLANN<pcl::PointXYZ> tree;
+  tree.setInputCloud(points);
+  std::vector<float> distances(cloud.size());
+  const size_t num_blocks = cloud.size() / kBlock + 1;
+  ParallelFor(num_blocks, threads, [&](size_t block) {
+    std::vector<int> indices;
+    std::vector<float> squares;
+    for (size_t i = block * kBlock; i < std::min(cloud.size(), (block + 1) * kBlock); ++i) {
+      tree.nearestKSearch((*points)[i], kNeighbours + 1, indices, squares);  // with itself
+      float sum = 0;
+      for (const float square : squares) sum += std::sqrt(square);
+      distances[i] = sum / kNeighbours;
+    }
+  });
+  return distances;
+}
+
+}  // namespace
+
+size_t RemoveOutliers(double sigmas, const std::vector<float>& spacing, int threads,
+                      PointCloud& cloud) {
+  if (cloud.size() <= kNeighbours) return 0;
+  const std::vector<float> distances = NeighbourDistances(threads, cloud);
+  double sum = 0;
+  double squares = 0;
+  for (size_t i = 0; i < distances.size(); ++i) {
+    const double d = distances[i] / spacing[i];
+    sum += d;
+    squares += d * d;
+  }
+  const auto count = static_cast<double>(distances.size());
+  const double mean = sum / count;
+  const double limit = mean + sigmas * std::sqrt(std::max(0.0, squares / count - mean * mean));
   std::vector<int> kept;
-  filter.filter(kept);
+  for (size_t i = 0; i < distances.size(); ++i) {
+    if (distances[i] / spacing[i] <= limit) kept.push_back(static_cast<int>(i));
+  }
   const size_t removed = cloud.size() - kept.size();
   Keep(kept, cloud.positions);
   Keep(kept, cloud.normals);
