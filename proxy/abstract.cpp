@@ -100,7 +100,7 @@ std::vector<Solid> CloseBuildings(const Scene& scene, const Stations& stations,
 
 }  // namespace
 
-Proxy AbstractCloud(const PointCloud& cloud, const Stations& stations, const Georef& georef,
+Proxy AbstractCloud(const PointStream& cloud, const Stations& stations, const Georef& georef,
                     const ProxyOptions& options, int threads, ProxyFindings& findings) {
   const Scene scene = UnderstandCloud(cloud, stations, georef, options, threads, findings);
   const PlaneTable table = TableOf(scene);
@@ -146,10 +146,15 @@ Proxy AbstractCloud(const PointCloud& cloud, const Stations& stations, const Geo
   return proxy;
 }
 
+Proxy AbstractCloud(const PointCloud& cloud, const Stations& stations, const Georef& georef,
+                    const ProxyOptions& options, int threads, ProxyFindings& findings) {
+  return AbstractCloud(StreamOf(cloud), stations, georef, options, threads, findings);
+}
+
 void RunProxy(const ProxyOptions& options, StageContext& context) {
   Progress& progress = *context.progress;
   progress.Begin("abstracting the cloud to planes", 3);
-  const PointCloud cloud = ReadPly(context.survey / kCloudFile);
+  const PointStream cloud = StreamOf(context.survey / kCloudFile);
   const Stations stations = StationsOf(ReadColmapModel(context.survey / kSparseFolder));
   const Georef georef = ReadGeoref(context.survey / kGeorefFile);
   context.ThrowIfCancelled();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "proxy/samples.h"
 #include "proxy/stations.h"
 #include "survey/georef.h"
 #include "survey/options.h"
@@ -44,6 +45,8 @@ struct ProxyFindings {
 // The planar model of what the cloud shows: every building closed where its planes close and agree
 // with the points, else its seen facets, open; the ground apart as "G0". Throws Error
 // (kStageFailed) when the cloud shows no plane.
+Proxy AbstractCloud(const PointStream& cloud, const Stations& stations, const Georef& georef,
+                    const ProxyOptions& options, int threads, ProxyFindings& findings);
 Proxy AbstractCloud(const PointCloud& cloud, const Stations& stations, const Georef& georef,
                     const ProxyOptions& options, int threads, ProxyFindings& findings);
 

@@ -3,9 +3,11 @@
 #include "proxy/samples.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
-#include <utility>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace stucco {
 namespace {
@@ -20,23 +22,25 @@ struct Box {
 
 // The box of the middle 98 % of the points along each axis, grown by three times its size: points
 // beyond it are strays of the dense matching, not part of the scene.
-Box BoxOfScene(const std::vector<Eigen::Vector3d>& points) {
+Box BoxOfScene(const PointStream& stream) {
   constexpr size_t kProbes = 200000;
-  const size_t stride = std::max<size_t>(1, points.size() / kProbes);
-  std::vector<double> values;
+  const size_t stride = std::max<size_t>(1, stream.count / kProbes);
+  std::array<std::vector<double>, 3> values;
+  size_t i = 0;
+  stream.for_each([&](const CloudPoint& point) {
+    if (i++ % stride != 0 || !point.position.allFinite()) return;
+    for (int axis = 0; axis < 3; ++axis) values[axis].push_back(point.position[axis]);
+  });
   Box box;
+  if (values[0].empty()) return box;
+  const auto count = static_cast<std::ptrdiff_t>(values[0].size());
+  const std::ptrdiff_t low = count / 100;
   for (int axis = 0; axis < 3; ++axis) {
-    values.clear();
-    for (size_t i = 0; i < points.size(); i += stride) {
-      if (points[i].allFinite()) values.push_back(points[i][axis]);
-    }
-    if (values.empty()) return box;
-    const size_t low = values.size() / 100;
-    const size_t high = values.size() - 1 - low;
-    std::nth_element(values.begin(), values.begin() + low, values.end());
-    box.min[axis] = values[low];
-    std::nth_element(values.begin(), values.begin() + high, values.end());
-    box.max[axis] = values[high];
+    const auto begin = values[axis].begin();
+    std::nth_element(begin, begin + low, values[axis].end());
+    box.min[axis] = begin[low];
+    std::nth_element(begin, begin + (count - 1 - low), values[axis].end());
+    box.max[axis] = begin[count - 1 - low];
   }
   const double margin = 3 * (box.max - box.min).maxCoeff() + 1e-9;
   box.min.array() -= margin;
@@ -55,90 +59,153 @@ uint64_t CellOf(const Eigen::Vector3d& point, const Box& box, double cell) {
   return key;
 }
 
-size_t CountCells(const std::vector<Eigen::Vector3d>& points, const std::vector<uint32_t>& kept,
-                  const Box& box, double cell) {
-  std::vector<uint64_t> keys(kept.size());
-  for (size_t i = 0; i < kept.size(); ++i) keys[i] = CellOf(points[kept[i]], box, cell);
-  std::sort(keys.begin(), keys.end());
-  return std::unique(keys.begin(), keys.end()) - keys.begin();
+// The key of the cell of twice the size around a cell.
+uint64_t Coarser(uint64_t key) {
+  constexpr uint64_t kAxis = (uint64_t{1} << kBitsPerAxis) - 1;
+  uint64_t coarse = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int shift = axis * kBitsPerAxis;
+    coarse |= ((key >> shift & kAxis) >> 1) << shift;
+  }
+  return coarse;
+}
+
+struct CellCount {
+  double cell = 0;
+  size_t cells = 0;
+  size_t kept = 0;  // points inside the box
+};
+
+// Counts the cells with points; doubles their size whenever there are more than `most`.
+CellCount CountCells(const PointStream& stream, const Box& box, double cell, size_t most) {
+  CellCount result{.cell = cell};
+  std::unordered_set<uint64_t> keys;
+  stream.for_each([&](const CloudPoint& point) {
+    if (!box.Contains(point.position)) return;
+    ++result.kept;
+    keys.insert(CellOf(point.position, box, result.cell));
+    if (keys.size() <= most) return;
+    std::unordered_set<uint64_t> coarser;
+    for (const uint64_t key : keys) coarser.insert(Coarser(key));
+    keys.swap(coarser);
+    result.cell *= 2;
+  });
+  result.cells = keys.size();
+  return result;
 }
 
 // The cell size that leaves about nine tenths of `max_points`; 0 when no thinning is needed.
-double ChooseCell(const std::vector<Eigen::Vector3d>& points, const std::vector<uint32_t>& kept,
-                  const Box& box, int max_points, double min_cell) {
+double ChooseCell(const PointStream& stream, const Box& box, int max_points, double min_cell) {
   const double largest = (box.max - box.min).maxCoeff();
   const double finest = largest / ((1 << kBitsPerAxis) - 2);
-  if (kept.size() <= static_cast<size_t>(max_points)) return min_cell > finest ? min_cell : 0;
+  const double least = std::max(min_cell, finest);
+  const double guess = std::max(least, largest / 28 / std::sqrt(double(max_points)));
+  const auto most = static_cast<size_t>(max_points);
+  const CellCount count = CountCells(stream, box, guess, 2 * most);
+  if (count.kept <= most) return min_cell > finest ? min_cell : 0;
+  if (count.cells <= most && count.cell <= least) return least;
   // Points lie on surfaces: the number of cells falls with the square of their side.
-  double cell = std::max({min_cell, finest, largest / 7 / std::sqrt(double(max_points))});
-  for (int round = 0; round < 12; ++round) {
-    const size_t count = CountCells(points, kept, box, cell);
-    if (count <= static_cast<size_t>(max_points) &&
-        (count > 0.7 * max_points || cell <= std::max(min_cell, finest) || round > 6)) {
-      break;
-    }
-    cell *= std::max(0.3, std::sqrt(count / (0.88 * max_points)));
-    cell = std::max({cell, min_cell, finest});
-  }
-  return cell;
+  const double wanted = 0.88 * max_points;
+  return std::max(least, count.cell * std::sqrt(static_cast<double>(count.cells) / wanted));
 }
 
-// One sample out of the points kept[first] ... kept[last - 1] of a cell.
-void AddSample(const PointCloud& cloud, const Stations& stations,
-               const std::vector<std::pair<uint64_t, uint32_t>>& order, size_t first, size_t last,
-               Samples& samples) {
+// Running sums of the points of one cell.
+struct CellSum {
+  uint64_t key = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  int points = 0;
   int station = -1;
-  for (size_t i = first; i < last; ++i) {
-    const uint32_t point = order[i].second;
-    position += cloud.positions[point];
-    if (!cloud.normals.empty() && cloud.normals[point].allFinite()) {
-      normal += cloud.normals[point].cast<double>();
+};
+
+void AddPoint(const CloudPoint& point, size_t number, const Stations& stations, CellSum& sum) {
+  sum.position += point.position;
+  if (point.normal.allFinite()) sum.normal += point.normal.cast<double>();
+  ++sum.points;
+  if (sum.station >= 0 || point.views.empty()) return;
+  // Not always the first: the photos with low numbers would see everything.
+  const auto found = stations.index_of_photo.find(point.views[number % point.views.size()]);
+  if (found != stations.index_of_photo.end()) sum.station = found->second;
+}
+
+struct CellSums {
+  std::vector<CellSum> sums;  // by key
+  size_t dropped = 0;
+  bool too_many = false;
+};
+
+// Cell 0: every point is a cell of its own.
+CellSums SumCells(const PointStream& stream, const Stations& stations, const Box& box, double cell,
+                  size_t most) {
+  CellSums result;
+  std::unordered_map<uint64_t, size_t> place;
+  size_t number = 0;
+  stream.for_each([&](const CloudPoint& point) {
+    const size_t i = number++;
+    if (!point.position.allFinite() || !box.Contains(point.position)) {
+      ++result.dropped;
+      return;
     }
-    if (station < 0 && !cloud.views.empty() && !cloud.views[point].empty()) {
-      const auto& views = cloud.views[point];
-      const auto found = stations.index_of_photo.find(views[point % views.size()]);
-      if (found != stations.index_of_photo.end()) station = found->second;
+    const uint64_t key = cell > 0 ? CellOf(point.position, box, cell) : uint64_t{i};
+    const auto [entry, added] = place.try_emplace(key, result.sums.size());
+    if (added && result.sums.size() == most) {
+      place.erase(entry);
+      result.too_many = true;
+      return;
     }
-  }
-  const double length = normal.norm();
-  samples.positions.push_back(position / static_cast<double>(last - first));
-  samples.normals.push_back(length > 1e-6 ? Eigen::Vector3d(normal / length)
-                                          : Eigen::Vector3d(Eigen::Vector3d::Zero()));
-  samples.weights.push_back(static_cast<int>(last - first));
-  samples.stations.push_back(station);
+    if (added) result.sums.emplace_back().key = key;
+    AddPoint(point, i, stations, result.sums[entry->second]);
+  });
+  std::ranges::sort(result.sums, {}, &CellSum::key);
+  return result;
 }
 
 }  // namespace
 
-Samples ThinCloud(const PointCloud& cloud, const Stations& stations, int max_points,
+PointStream StreamOf(const PointCloud& cloud) {
+  return {cloud.size(), [&cloud](const std::function<void(const CloudPoint&)>& visit) {
+            CloudPoint point;
+            for (size_t i = 0; i < cloud.size(); ++i) {
+              point.position = cloud.positions[i];
+              if (!cloud.normals.empty()) point.normal = cloud.normals[i];
+              if (!cloud.views.empty()) point.views = cloud.views[i];
+              visit(point);
+            }
+          }};
+}
+
+PointStream StreamOf(const std::filesystem::path& ply) {
+  return {ReadPlyLayout(ply).points,
+          [ply](const std::function<void(const CloudPoint&)>& visit) { ForEachPoint(ply, visit); }};
+}
+
+Samples ThinCloud(const PointStream& stream, const Stations& stations, int max_points,
                   double min_cell) {
+  constexpr double kLarger = 1.08;  // about 15 % fewer cells
+  const Box box = BoxOfScene(stream);
   Samples samples;
-  const Box box = BoxOfScene(cloud.positions);
-  std::vector<uint32_t> kept;
-  kept.reserve(cloud.size());
-  for (size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3d& p = cloud.positions[i];
-    if (p.allFinite() && box.Contains(p)) kept.push_back(static_cast<uint32_t>(i));
+  samples.cell = ChooseCell(stream, box, max_points, min_cell);
+  const auto most = static_cast<size_t>(max_points);
+  CellSums cells = SumCells(stream, stations, box, samples.cell, most);
+  while (cells.too_many) {
+    samples.cell *= kLarger;
+    cells = SumCells(stream, stations, box, samples.cell, most);
   }
-  samples.dropped = cloud.size() - kept.size();
-  samples.cell = ChooseCell(cloud.positions, kept, box, max_points, min_cell);
-  std::vector<std::pair<uint64_t, uint32_t>> order(kept.size());
-  for (size_t i = 0; i < kept.size(); ++i) {
-    const uint64_t key =
-        samples.cell > 0 ? CellOf(cloud.positions[kept[i]], box, samples.cell) : uint64_t{i};
-    order[i] = {key, kept[i]};
-  }
-  kept = {};
-  std::sort(order.begin(), order.end());
-  for (size_t first = 0; first < order.size();) {
-    size_t last = first + 1;
-    while (last < order.size() && order[last].first == order[first].first) ++last;
-    AddSample(cloud, stations, order, first, last, samples);
-    first = last;
+  samples.dropped = cells.dropped;
+  for (const CellSum& sum : cells.sums) {
+    const double length = sum.normal.norm();
+    samples.positions.push_back(sum.position / sum.points);
+    samples.normals.push_back(length > 1e-6 ? Eigen::Vector3d(sum.normal / length)
+                                            : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+    samples.weights.push_back(sum.points);
+    samples.stations.push_back(sum.station);
   }
   return samples;
+}
+
+Samples ThinCloud(const PointCloud& cloud, const Stations& stations, int max_points,
+                  double min_cell) {
+  return ThinCloud(StreamOf(cloud), stations, max_points, min_cell);
 }
 
 }  // namespace stucco

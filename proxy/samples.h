@@ -4,9 +4,12 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "proxy/stations.h"
+#include "survey/ply.h"
 #include "survey/point_cloud.h"
 
 namespace stucco {
@@ -23,8 +26,21 @@ struct Samples {
   size_t size() const { return positions.size(); }
 };
 
-// Thins to at most `max_points`, with cells of at least `min_cell`. Points that are not finite, or
-// three times the size of the box of the middle 98 % away from it, are dropped.
+// A cloud to go through several times, in the same order, without holding it.
+struct PointStream {
+  size_t count = 0;
+  std::function<void(const std::function<void(const CloudPoint&)>&)> for_each;
+};
+
+// The stream refers to the cloud.
+PointStream StreamOf(const PointCloud& cloud);
+PointStream StreamOf(const std::filesystem::path& ply);
+
+// Thins to at most `max_points`, with cells of at least `min_cell`, in memory that grows with
+// `max_points` and not with the cloud. Points that are not finite, or three times the size of the
+// box of the middle 98 % away from it, are dropped.
+Samples ThinCloud(const PointStream& stream, const Stations& stations, int max_points,
+                  double min_cell);
 Samples ThinCloud(const PointCloud& cloud, const Stations& stations, int max_points,
                   double min_cell);
 

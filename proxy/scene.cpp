@@ -28,7 +28,7 @@ constexpr char kCloudRemedy[] =
     "a finer dense quality, give more points.";
 
 // Thins the cloud, measures it, and thins again when the tolerances need fewer points.
-CloudScale PrepareSamples(const PointCloud& cloud, const Stations& stations, bool metric,
+CloudScale PrepareSamples(const PointStream& cloud, const Stations& stations, bool metric,
                           const ProxyOptions& options, Scene& scene) {
   constexpr double kSamplesPerDetail = 4;
   scene.samples = ThinCloud(cloud, stations, options.max_points, 0);
@@ -37,7 +37,7 @@ CloudScale PrepareSamples(const PointCloud& cloud, const Stations& stations, boo
     throw Error(ErrorKind::kStageFailed,
                 fmt::format("the dense cloud has {} usable points ({} of {} are not finite or far "
                             "away); planes need at least {}",
-                            scene.samples.size(), scene.samples.dropped, cloud.size(), fewest),
+                            scene.samples.size(), scene.samples.dropped, cloud.count, fewest),
                 kCloudRemedy);
   }
   CloudScale scale = MeasureScale(scene.samples, stations);
@@ -118,13 +118,13 @@ void FindUp(const std::vector<Plane>& planes, const Stations& stations, const Ge
 
 }  // namespace
 
-Scene UnderstandCloud(const PointCloud& cloud, const Stations& stations, const Georef& georef,
+Scene UnderstandCloud(const PointStream& cloud, const Stations& stations, const Georef& georef,
                       const ProxyOptions& options, int threads, ProxyFindings& findings) {
   Scene scene;
   const CloudScale scale = PrepareSamples(cloud, stations, georef.metric, options, scene);
   findings.notes.push_back(
       fmt::format("{} points thinned to {}, {} dropped; noise {:.4g}, level of detail {:.4g} {}",
-                  cloud.size(), scene.samples.size(), scene.samples.dropped, scale.noise,
+                  cloud.count, scene.samples.size(), scene.samples.dropped, scale.noise,
                   scene.tolerances.level_of_detail, georef.metric ? "m" : "units"));
   auto planes = FindPlanes(stations, options, threads, scene);
   if (planes.empty()) {

@@ -26,7 +26,7 @@ struct Scene {
 
 // Steps 1 to 6 of the README: thinning, planes, up, regularisation, ground, buildings. Throws Error
 // (kStageFailed) when there are too few points or no planes.
-Scene UnderstandCloud(const PointCloud& cloud, const Stations& stations, const Georef& georef,
+Scene UnderstandCloud(const PointStream& cloud, const Stations& stations, const Georef& georef,
                       const ProxyOptions& options, int threads, ProxyFindings& findings);
 
 }  // namespace stucco

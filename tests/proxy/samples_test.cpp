@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "proxy/grid_index.h"
@@ -50,6 +51,44 @@ TEST(ThinCloud, StaysBelowTheLimitAndKeepsEveryPointsWeight) {
   for (const int w : samples.weights) weight += w;
   EXPECT_EQ(weight, 40000);
   for (const auto& p : samples.positions) EXPECT_NEAR(p.z(), 1, 1e-12);
+}
+
+TEST(ThinCloud, GivesTheSameFromAFileAsFromMemory) {
+  PointCloud cloud = Grid(150, 0.05);
+  for (size_t i = 0; i < cloud.size(); ++i) cloud.positions[i].z() += 0.01 * std::sin(double(i));
+  const auto file = std::filesystem::path(::testing::TempDir()) / "stucco_thin_cloud.ply";
+  WritePly(cloud, file);
+  for (const int max_points : {2000, 100000}) {
+    const Samples held = ThinCloud(cloud, OneStation(), max_points, 0);
+    const Samples read = ThinCloud(StreamOf(file), OneStation(), max_points, 0);
+    EXPECT_EQ(held.positions, read.positions);
+    EXPECT_EQ(held.normals, read.normals);
+    EXPECT_EQ(held.weights, read.weights);
+    EXPECT_EQ(held.stations, read.stations);
+    EXPECT_EQ(held.cell, read.cell);
+  }
+  std::filesystem::remove(file);
+}
+
+// A stream of two million points that nobody holds.
+TEST(ThinCloud, ThinsWhatItNeverHolds) {
+  constexpr int kSide = 1400;
+  const PointStream stream{size_t{kSide} * kSide, [](const auto& visit) {
+                             CloudPoint point;
+                             point.normal = Eigen::Vector3f::UnitZ();
+                             for (int x = 0; x < kSide; ++x) {
+                               for (int y = 0; y < kSide; ++y) {
+                                 point.position = {0.01 * x, 0.01 * y, 0};
+                                 visit(point);
+                               }
+                             }
+                           }};
+  const Samples samples = ThinCloud(stream, {}, 5000, 0);
+  EXPECT_LE(samples.size(), 5000u);
+  EXPECT_GE(samples.size(), 3500u);
+  const Samples coarse = ThinCloud(stream, {}, 5000, 1.0);
+  EXPECT_EQ(coarse.cell, 1.0);
+  EXPECT_NEAR(static_cast<double>(coarse.size()), 15 * 15, 31);
 }
 
 TEST(ThinCloud, DropsPointsThatAreNotFiniteOrFarAway) {
