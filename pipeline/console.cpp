@@ -87,8 +87,8 @@ std::string DurationText(double seconds) {
 }
 
 std::string MemoryText(double megabytes) {
-  return megabytes < 1000 ? fmt::format("{:.0f} MB", megabytes)
-                          : fmt::format("{:.1f} GB", megabytes / 1024);
+  return megabytes < 1000 ? fmt::format("{:.0f} MiB", megabytes)
+                          : fmt::format("{:.1f} GiB", megabytes / 1024);
 }
 
 std::string GroupedDigits(size_t count) {

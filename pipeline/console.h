@@ -45,7 +45,7 @@ class Console {
 // "12 s", "3 min 05 s", "2 h 07 min".
 std::string DurationText(double seconds);
 
-// "812 MB", "3.2 GB".
+// "812 MiB", "3.2 GiB"; of 2^20 bytes each, as settings count them.
 std::string MemoryText(double megabytes);
 
 // "11 298".

@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cerrno>
 #include <filesystem>
 #include <new>
 #include <system_error>
 
+#include "pipeline/console.h"
 #include "pipeline/resources.h"
 
 namespace stucco {
@@ -36,8 +38,15 @@ const Row& RowOf(ErrorKind kind) {
   return kRows.front();
 }
 
+bool IsFullDisk(int error) {
+  return error == ENOSPC || error == EDQUOT;
+}
+
 Error FromSystem(const std::system_error& e) {
-  if (e.code() == std::errc::no_space_on_device) {
+  // By number: the standard's portable conditions do not know quotas.
+  const auto& category = e.code().category();
+  if ((category == std::generic_category() || category == std::system_category()) &&
+      IsFullDisk(e.code().value())) {
     return {ErrorKind::kOutOfResource, e.what(),
             "free space on this disk and run the same command again"};
   }
@@ -66,17 +75,25 @@ ErrorKind KindFromName(const std::string& name) {
   return ErrorKind::kStageFailed;
 }
 
+Error WriteError(const std::filesystem::path& path, const std::string& what, int error) {
+  const bool full = IsFullDisk(error);
+  return {full ? ErrorKind::kOutOfResource : ErrorKind::kBadInput,
+          fmt::format("{}: {} ({})", path.string(), what, std::generic_category().message(error)),
+          full ? "free some space on this disk, or raise the quota, and run again"
+               : "check the permissions of the survey folder"};
+}
+
 Error AsError(const std::exception_ptr& exception) {
   try {
     std::rethrow_exception(exception);
   } catch (const Error& e) {
     return e;
   } catch (const std::bad_alloc&) {
-    return {
-        ErrorKind::kOutOfResource,
-        fmt::format("out of memory: {:.0f} MB in use when more was asked for", CurrentMemoryMb()),
-        "use smaller pictures (calib.max_image_px, dense.max_image_px), fewer threads, or a "
-        "computer with more memory"};
+    return {ErrorKind::kOutOfResource,
+            fmt::format("out of memory: {} in use when more was asked for",
+                        MemoryText(CurrentMemoryMb())),
+            "use smaller pictures (calib.max_image_px, dense.max_image_px), fewer threads, or a "
+            "computer with more memory"};
   } catch (const std::system_error& e) {
     return FromSystem(e);
   } catch (const std::exception& e) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <exception>
+#include <filesystem>
 #include <string>
 
 #include "survey/error.h"
@@ -16,6 +17,10 @@ int ExitCode(ErrorKind kind);
 // "stage_failed", "usage", "bad_input", "quality_gate", "out_of_resource", "interrupted".
 std::string KindName(ErrorKind kind);
 ErrorKind KindFromName(const std::string& name);  // kStageFailed for an unknown name
+
+// A file that cannot be written, from errno: kOutOfResource for a full disk or quota, else
+// kBadInput.
+Error WriteError(const std::filesystem::path& path, const std::string& what, int error);
 
 // Any exception as an Error: full disks and missing permissions that the standard library reports,
 // exhausted memory, and errors of other libraries (kStageFailed).

@@ -203,6 +203,9 @@ ImportReport ImportColmap(const fs::path& survey, const fs::path& source, const 
   MatchNames(settings.photos, model);
   ScaleToPhotos(settings.photos, model, report);
   const SurveyLock lock(survey, fmt::format("import {}", source.string()));
+  if (!lock.held()) {
+    report.notes.emplace_back("this file system has no locks; start no run at the same time");
+  }
   CleanScratch(survey);
   const fs::path absolute = fs::absolute(source).lexically_normal();
   const Calibration calibration = DescribeModel(model, survey, absolute);

@@ -9,6 +9,7 @@
 #include "pipeline/settings.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/photo_files.h"
 #include "survey/survey_folder.h"
 
 namespace stucco {
@@ -46,16 +47,23 @@ PhotoFolder InitSurvey(const fs::path& survey, const fs::path& photos, const Sta
   const PhotoFolder found = InspectPhotos(photos, AvailableCores());
   RequireApart(survey, photos, table);
   RequireNoStageNames(survey, table);
+  const fs::path real_survey = RealPath(survey), real_photos = RealPath(photos);
+  const std::string written = IsInside(real_photos, real_survey)
+                                  ? real_photos.lexically_relative(real_survey).generic_string()
+                                  : real_photos.string();
+  if (!IsPrintableUtf8(written)) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: its path is not valid UTF-8 or has control characters, so that "
+                            "{} cannot name it",
+                            photos.string(), kSettingsFile),
+                "rename the folder, or give a link to it that has a plain name");
+  }
   fs::create_directories(survey, error);
   if (error) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: cannot be created ({})", survey.string(), error.message()),
                 "choose a folder that you may write to");
   }
-  const fs::path real_survey = RealPath(survey), real_photos = RealPath(photos);
-  const std::string written = IsInside(real_photos, real_survey)
-                                  ? real_photos.lexically_relative(real_survey).generic_string()
-                                  : real_photos.string();
   WriteFileAtomically(settings, SettingsTemplate(table, written));
   return found;
 }

@@ -8,12 +8,13 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <ctime>
 #include <thread>
 
+#include "pipeline/exit_code.h"
 #include "pipeline/internal/json.h"
 #include "pipeline/work_folder.h"
 #include "survey/error.h"
@@ -32,12 +33,13 @@ std::string HostName() {
 std::optional<LockOwner> ReadOwner(int file) {
   char text[4096] = {};
   const ssize_t size = pread(file, text, sizeof(text), 0);
-  const Json json = Json::parse(text, text + (size > 0 ? size : 0), nullptr, false);
-  if (!json.is_object()) {
-    return std::nullopt;
+  try {
+    const Json json = Json::parse(text, text + (size > 0 ? size : 0));
+    return LockOwner{json.value("pid", 0), json.value("host", ""), json.value("started", ""),
+                     json.value("command", "")};
+  } catch (const Json::exception&) {
+    return std::nullopt;  // empty, torn or not ours
   }
-  return LockOwner{json.value("pid", 0), json.value("host", ""), json.value("started", ""),
-                   json.value("command", "")};
 }
 
 void WriteOwner(int file, const std::string& command) {
@@ -52,15 +54,34 @@ void WriteOwner(int file, const std::string& command) {
   }
 }
 
+std::atomic<bool> locks_forbidden = false;
+
+enum class LockResult { kHeld, kTaken, kImpossible };
+
+LockResult TryLock(int file, int mode) {
+  if (locks_forbidden) {
+    return LockResult::kImpossible;
+  }
+  int result = 0;
+  do {
+    result = flock(file, mode | LOCK_NB);
+  } while (result != 0 && errno == EINTR);
+  if (result == 0) {
+    return LockResult::kHeld;
+  }
+  return errno == EWOULDBLOCK ? LockResult::kTaken : LockResult::kImpossible;
+}
+
 // `stucco status` holds the lock for a moment to see whether anybody has it.
-bool LockPatiently(int file) {
+LockResult LockPatiently(int file) {
   for (int attempt = 0; attempt < 5; ++attempt) {
-    if (flock(file, LOCK_EX | LOCK_NB) == 0) {
-      return true;
+    const LockResult result = TryLock(file, LOCK_EX);
+    if (result != LockResult::kTaken) {
+      return result;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(40));
   }
-  return false;
+  return LockResult::kTaken;
 }
 
 }  // namespace
@@ -71,14 +92,11 @@ SurveyLock::SurveyLock(const std::filesystem::path& survey, const std::string& c
   std::filesystem::create_directories(path.parent_path(), ignored);
   file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) {
-    const int error = errno;
-    const bool full = error == ENOSPC || error == EDQUOT;
-    throw Error(full ? ErrorKind::kOutOfResource : ErrorKind::kBadInput,
-                fmt::format("{}: cannot be written ({})", path.string(), std::strerror(error)),
-                full ? "free some space on this disk and run again"
-                     : "make the survey folder writable, or create the survey elsewhere");
+    throw WriteError(path, "cannot be written", errno);
   }
-  if (!LockPatiently(file_)) {
+  const LockResult result = LockPatiently(file_);
+  held_ = result == LockResult::kHeld;
+  if (result == LockResult::kTaken) {
     const std::optional<LockOwner> owner = ReadOwner(file_);
     close(file_);
     throw Error(ErrorKind::kBadInput,
@@ -106,7 +124,7 @@ std::optional<LockOwner> CurrentOwner(const std::filesystem::path& survey) {
     return std::nullopt;
   }
   std::optional<LockOwner> owner;
-  if (flock(file, LOCK_SH | LOCK_NB) != 0) {
+  if (TryLock(file, LOCK_SH) == LockResult::kTaken) {
     owner = ReadOwner(file);
     if (!owner) {
       owner = LockOwner{};
@@ -114,6 +132,10 @@ std::optional<LockOwner> CurrentOwner(const std::filesystem::path& survey) {
   }
   close(file);
   return owner;
+}
+
+void ForbidFileLocks(bool forbidden) {
+  locks_forbidden = forbidden;
 }
 
 std::string Describe(const LockOwner& owner) {

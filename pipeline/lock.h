@@ -27,16 +27,24 @@ class SurveyLock {
   SurveyLock(const SurveyLock&) = delete;
   SurveyLock& operator=(const SurveyLock&) = delete;
 
+  // False on a file system without locks (some network storage): then nothing keeps a second run
+  // away.
+  bool held() const { return held_; }
+
   // The run before this one, when it did not end in an orderly way (killed, power cut).
   const std::optional<LockOwner>& killed_owner() const { return killed_owner_; }
 
  private:
   int file_ = -1;
+  bool held_ = false;
   std::optional<LockOwner> killed_owner_;
 };
 
 // Who works on the survey at this moment, if anybody. Takes no lock and writes nothing.
 std::optional<LockOwner> CurrentOwner(const std::filesystem::path& survey);
+
+// For tests: behave as on a file system without locks.
+void ForbidFileLocks(bool forbidden);
 
 // "process 1234 on host, since 2026-03-01 12:00:00 (stucco run .)"
 std::string Describe(const LockOwner& owner);

@@ -9,11 +9,10 @@
 
 #include <atomic>
 #include <cerrno>
-#include <cstring>
 
+#include "pipeline/exit_code.h"
 #include "pipeline/manifest.h"
 #include "pipeline/work_folder.h"
-#include "survey/error.h"
 #include "survey/files.h"
 
 namespace stucco {
@@ -25,25 +24,17 @@ constexpr char kOldSuffix[] = ".old";
 
 std::atomic<bool> exchange_forbidden = false;
 
-[[noreturn]] void Fail(const fs::path& path, const std::string& what, int error) {
-  const bool full = error == ENOSPC || error == EDQUOT;
-  throw Error(full ? ErrorKind::kOutOfResource : ErrorKind::kBadInput,
-              fmt::format("{}: {} ({})", path.string(), what, std::strerror(error)),
-              full ? "free some space on this disk and run again"
-                   : "check the permissions of the survey folder");
-}
-
 void Flush(const fs::path& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {
-    Fail(path, "cannot be opened to flush it to disk", errno);
+    throw WriteError(path, "cannot be opened to flush it to disk", errno);
   }
   const int result = fsync(file);
   const int error = errno;
   close(file);
   // EINVAL, EROFS: a file system that has nothing to flush.
   if (result != 0 && error != EINVAL && error != EROFS) {
-    Fail(path, "cannot be flushed to disk", error);
+    throw WriteError(path, "cannot be flushed to disk", error);
   }
 }
 
@@ -58,7 +49,7 @@ void FlushTree(const fs::path& folder) {
 
 void Rename(const fs::path& from, const fs::path& to) {
   if (rename(from.c_str(), to.c_str()) != 0) {
-    Fail(to, "cannot be put in place", errno);
+    throw WriteError(to, "cannot be put in place", errno);
   }
 }
 
@@ -89,7 +80,7 @@ void MarkAsOurs(const fs::path& survey, const std::string& stage) {
   }
   fs::create_directories(mark.parent_path(), error);
   if (error) {
-    Fail(mark.parent_path(), "cannot be created", error.value());
+    throw WriteError(mark.parent_path(), "cannot be created", error.value());
   }
   WriteFileAtomically(mark, "survey/" + stage + " is made by stucco and replaced by its runs\n");
 }
@@ -112,7 +103,7 @@ ScratchFolder::ScratchFolder(const fs::path& survey, const std::string& stage)
   fs::remove_all(path_, error);
   fs::create_directories(path_, error);
   if (error) {
-    Fail(path_, "cannot be created", error.value());
+    throw WriteError(path_, "cannot be created", error.value());
   }
 }
 

@@ -34,7 +34,7 @@ class RateMeter {
   std::deque<Sample> samples_;
 };
 
-// "calib: matching pairs 120/450 (27 %), 12.3/s, 27 s left, 812 MB"
+// "calib: matching pairs 120/450 (27 %), 12.3/s, 27 s left, 812 MiB"
 std::string ProgressText(std::string_view stage, std::string_view step, size_t done, size_t total,
                          double rate);
 

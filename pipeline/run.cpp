@@ -89,6 +89,10 @@ class Runner {
                           {"program", ProgramVersion()},
                           {"pid", int64_t{getpid()}},
                           {"command", options_.command}});
+    if (!lock_.held()) {
+      Warn(fmt::format("{}: this file system has no locks", survey_.string()),
+           "start no second run in this survey until this one has ended");
+    }
     if (lock_.killed_owner()) {
       console_.Line(
           fmt::format("The run before this one ({}) did not end in order; its finished work is "
@@ -100,8 +104,7 @@ class Runner {
     const CheckResult check = Check(survey_, table_, settings_, selection_.stages);
     for (const CheckProblem& problem : check.problems) {
       if (!problem.fatal) {
-        console_.Warning(fmt::format("warning: {}: {}", problem.what, problem.remedy));
-        events_.Write("warning", {{"text", problem.what}});
+        Warn(problem.what, problem.remedy);
       }
     }
     ThrowIfFatal(check);
@@ -120,6 +123,11 @@ class Runner {
       fs::remove(work.Failure(stage));
       fs::remove(work.Manifest(stage));
     }
+  }
+
+  void Warn(const std::string& what, const std::string& remedy) {
+    console_.Warning(fmt::format("warning: {}: {}", what, remedy));
+    events_.Write("warning", {{"text", what}});
   }
 
   void End() {

@@ -10,6 +10,7 @@
 #include <cctype>
 #include <vector>
 
+#include "pipeline/exit_code.h"
 #include "survey/error.h"
 #include "survey/files.h"
 
@@ -72,6 +73,9 @@ void DiskUnits::Save(std::string_view kind, std::string_view key, std::string_vi
       path.parent_path() / fmt::format(".{}-{}.tmp", getpid(), counter.fetch_add(1));
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
+  if (error) {
+    throw WriteError(path.parent_path(), "cannot be created", error.value());
+  }
   std::string content = Header(bytes);
   content += bytes;
   try {
@@ -82,9 +86,9 @@ void DiskUnits::Save(std::string_view kind, std::string_view key, std::string_vi
   }
   fs::rename(beside, path, error);
   if (error) {
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: cannot be written ({})", path.string(), error.message()),
-                "check the permissions of the survey folder");
+    const int number = error.value();
+    fs::remove(beside, error);
+    throw WriteError(path, "cannot be written", number);
   }
   {
     const std::lock_guard lock(mutex_);

@@ -12,6 +12,7 @@
 #include "pipeline/interrupt.h"
 #include "pipeline/outputs.h"
 #include "pipeline/run.h"
+#include "pipeline/units.h"
 #include "pipeline/work_folder.h"
 #include "survey/error.h"
 #include "survey/files.h"
@@ -123,6 +124,10 @@ TEST(Failure, EveryKindHasItsExitCode) {
   EXPECT_THAT(fake.log, HasSubstr("out of memory"));
   LetFail(fake, "side", std::system_error(ENOSPC, std::generic_category(), "x.ply"));
   EXPECT_EQ(fake.Run().exit_code, 5);
+  LetFail(fake, "side", std::system_error(EDQUOT, std::system_category(), "x.ply"));
+  EXPECT_EQ(fake.Run().exit_code, 5);
+  LetFail(fake, "side", std::system_error(EACCES, std::generic_category(), "x.ply"));
+  EXPECT_EQ(fake.Run().exit_code, 3);
   LetFail(fake, "side", std::logic_error("index 7"));
   EXPECT_EQ(fake.Run().exit_code, 1);
   EXPECT_THAT(fake.log, HasSubstr("unexpected error: index 7"));
@@ -226,8 +231,8 @@ TEST(Outputs, OfARunThatWasKilledBeforeItsManifestAreReplaced) {
 // A file system of 200 KiB. Needs the right to mount, as in a container's root.
 class TinyDisk {
  public:
-  explicit TinyDisk(const fs::path& folder) : folder_(folder) {
-    mounted_ = mount("none", folder.c_str(), "tmpfs", 0, "size=200k") == 0;
+  explicit TinyDisk(const fs::path& folder, const char* limits = "size=200k") : folder_(folder) {
+    mounted_ = mount("none", folder.c_str(), "tmpfs", 0, limits) == 0;
   }
   ~TinyDisk() {
     if (mounted_) {
@@ -240,6 +245,29 @@ class TinyDisk {
   fs::path folder_;
   bool mounted_;
 };
+
+TEST(Failure, OfWritingTellsAFullDiskFromAForbiddenOne) {
+  for (const int error : {ENOSPC, EDQUOT}) {
+    EXPECT_EQ(WriteError("a/b", "cannot be written", error).kind(), ErrorKind::kOutOfResource);
+  }
+  const Error forbidden = WriteError("a/b", "cannot be written", EACCES);
+  EXPECT_EQ(forbidden.kind(), ErrorKind::kBadInput);
+  EXPECT_STREQ(forbidden.what(), "a/b: cannot be written (Permission denied)");
+}
+
+TEST(Failure, OfAUnitOnADiskWithoutRoomForItsFolderIsOutOfResource) {
+  const FakeSurvey fake;
+  const TinyDisk disk(fake.survey, "nr_inodes=1");
+  if (!disk.mounted()) {
+    GTEST_SKIP() << "no right to mount a small disk here";
+  }
+  try {
+    DiskUnits(fake.survey / "units", nullptr).Save("kind", "key", "bytes");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::kOutOfResource) << e.what();
+  }
+}
 
 TEST(Failure, OnAFullDiskNothingIsLost) {
   FakeSurvey fake;

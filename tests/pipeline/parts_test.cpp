@@ -138,8 +138,8 @@ TEST(Console, FormatsForPeople) {
   EXPECT_EQ(DurationText(59.6), "1 min 00 s");
   EXPECT_EQ(DurationText(7620), "2 h 07 min");
   EXPECT_EQ(DurationText(-1), "unknown");
-  EXPECT_EQ(MemoryText(812.4), "812 MB");
-  EXPECT_EQ(MemoryText(3277), "3.2 GB");
+  EXPECT_EQ(MemoryText(812.4), "812 MiB");
+  EXPECT_EQ(MemoryText(3277), "3.2 GiB");
   EXPECT_EQ(GroupedDigits(7), "7");
   EXPECT_EQ(GroupedDigits(1234567), "1 234 567");
 }

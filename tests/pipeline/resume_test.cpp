@@ -17,6 +17,7 @@
 #include "pipeline/run.h"
 #include "pipeline/work_folder.h"
 #include "survey/error.h"
+#include "survey/files.h"
 #include "tests/pipeline/fake_survey.h"
 
 namespace stucco {
@@ -104,6 +105,28 @@ TEST(Lock, ASecondRunNamesTheFirst) {
   ASSERT_TRUE(status.running);
   EXPECT_EQ(status.running->pid, getpid());
   EXPECT_THAT(status.next, HasSubstr("wait"));
+}
+
+TEST(Lock, AFileSystemWithoutLocksIsSaidAndUsed) {
+  FakeSurvey fake;
+  ForbidFileLocks(true);
+  const RunResult result = fake.Run();
+  EXPECT_FALSE(CurrentOwner(fake.survey));
+  ForbidFileLocks(false);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(fake.log, HasSubstr("this file system has no locks"));
+  fake.Run();
+  EXPECT_THAT(fake.log, Not(HasSubstr("no locks")));
+}
+
+TEST(Lock, AnOwnerThatCannotBeReadIsNobody) {
+  FakeSurvey fake;
+  std::filesystem::create_directories(WorkFolder(fake.survey).root);
+  for (const char* text : {"{\"pid\": \"x\"}", "{\"pid\": 1, \"host\": 2}", "[]", "{", "7"}) {
+    WriteFile(WorkFolder(fake.survey).Lock(), text);
+    EXPECT_EQ(fake.Run().exit_code, 0) << text;
+    EXPECT_THAT(fake.log, Not(HasSubstr("did not end in order"))) << text;
+  }
 }
 
 TEST(Lock, OfADeadProcessIsTakenOver) {

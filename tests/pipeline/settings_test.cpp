@@ -182,6 +182,9 @@ TEST(Init, RefusesWithoutLeavingAnythingBehind) {
   EXPECT_THAT(refused(fake.root / "a", fake.photos / "p0.jpg"), HasSubstr("is a file"));
   EXPECT_THAT(refused(fake.photos / "a", fake.photos), HasSubstr("inside the photo folder"));
   EXPECT_THAT(refused(fake.photos, fake.photos), HasSubstr("inside the photo folder"));
+  fs::rename(fake.photos, fake.root / "\xff");
+  EXPECT_THAT(refused(fake.root / "a", fake.root / "\xff"), HasSubstr("is not valid UTF-8"));
+  fs::rename(fake.root / "\xff", fake.photos);
   EXPECT_THAT(refused(fake.photos / "p0.jpg", fake.photos), HasSubstr("is a file"));
   for (const char* taken : {"own/ingest", "own/calib/deep", "own/.stucco"}) {
     fs::create_directories(fake.root / taken);
