@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -58,11 +59,17 @@ std::string CommandLine(const std::vector<std::string>& words) {
   return text;
 }
 
+std::vector<std::string> Without(const std::string& flag, std::vector<std::string> words) {
+  std::erase(words, flag);
+  return words;
+}
+
 int Main(const std::vector<std::string>& words) {
   stucco::SilenceLibraryLogs();
   stucco::Program program;
   program.table = stucco::DefaultStages();
   program.command_line = CommandLine(words);
+  program.continue_line = CommandLine(Without("--force", words));
   CLI::App app(kAbout, "stucco");
   app.footer(kFooter);
   app.set_help_flag("-h,--help", "Print this help and end");
@@ -85,12 +92,26 @@ int Main(const std::vector<std::string>& words) {
   return program.action();
 }
 
+// What was printed has to arrive: a script that reads a cut result must not take it for whole.
+void RequireWrittenOutput() {
+  std::cout.flush();
+  if (!std::cout || std::ferror(stdout) != 0) {
+    throw stucco::Error(stucco::ErrorKind::kOutOfResource,
+                        "standard output: the result could not be written whole",
+                        "make room where it goes, and type the same command again");
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   try {
-    return Main(words);
+    const int exit_code = Main(words);
+    if (exit_code == 0) {
+      RequireWrittenOutput();
+    }
+    return exit_code;
   } catch (...) {
     const stucco::Error error = stucco::AsError(std::current_exception());
     stucco::PrintError(error, AsksForJson(words));

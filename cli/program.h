@@ -35,6 +35,7 @@ struct Program {
   StageTable table;
   CommonOptions common;
   std::string command_line;     // as typed, for the lock and the event log
+  std::string continue_line;    // what continues it: as typed without --force, which it has done
   std::function<int()> action;  // returns the exit code; may throw Error
 };
 

@@ -11,7 +11,6 @@
 #include "cli/program.h"
 #include "pipeline/interrupt.h"
 #include "pipeline/settings.h"
-#include "pipeline/shell.h"
 #include "survey/survey_folder.h"
 
 namespace stucco {
@@ -49,9 +48,9 @@ std::string ReportPath(const RunResult& result, const std::string& survey) {
   return {};
 }
 
-void PrintEnd(const RunResult& result, const CommonOptions& common) {
+void PrintEnd(const RunResult& result, const Program& program) {
+  const CommonOptions& common = program.common;
   const std::string report = ReportPath(result, common.survey);
-  const std::string again = "stucco run " + ShellWord(common.survey);
   if (common.json) {
     Json stages = Json::array();
     for (const StageOutcome& outcome : result.stages) {
@@ -66,9 +65,9 @@ void PrintEnd(const RunResult& result, const CommonOptions& common) {
     return;
   }
   if (result.interrupted) {
-    std::cerr << "Interrupted. To go on from here: " << again << "\n";
+    std::cerr << "Interrupted. To go on from here: " << program.continue_line << "\n";
   } else if (result.exit_code != 0) {
-    std::cerr << "Once that is mended: " << again << "\n";
+    std::cerr << "Once that is mended: " << program.continue_line << "\n";
   }
   if (!report.empty() && !common.quiet) {
     std::cout << "Report: " << report << "\n";
@@ -83,7 +82,8 @@ void AddSet(CLI::App& verb, std::vector<std::string>& set) {
       ->take_all();
 }
 
-constexpr char kForceHelp[] = "Run also what is up to date, and use no checkpoints";
+constexpr char kForceHelp[] =
+    "Forget what is up to date and all checkpoints, and run everything again";
 
 // --max-image-px for calib.max_image_px; the values end up in `options.set`.
 void AddStageOptions(CLI::App& verb, const Stage& stage,
@@ -114,8 +114,9 @@ void AddStageVerb(CLI::App& app, Program& program, const Stage& stage) {
   auto options = std::make_shared<RunOptions>();
   auto set = std::make_shared<std::vector<std::string>>();
   options->goal = stage.name;
-  verb.add_flag("--force", options->force,
-                fmt::format("Run {} even if it is up to date, and use no checkpoints", stage.name));
+  verb.add_flag(
+      "--force", options->force,
+      fmt::format("Forget the results and checkpoints of {} and run it again", stage.name));
   AddSet(verb, options->set);
   AddStageOptions(verb, stage, set);
   verb.callback([&program, options, set] {
@@ -133,7 +134,7 @@ int RunAndPrint(const Program& program, RunOptions options) {
   options.command = program.command_line;
   Console console = Console::ForStderr(program.common.verbosity());
   const RunResult result = Run(program.common.survey, program.table, options, console);
-  PrintEnd(result, program.common);
+  PrintEnd(result, program);
   return result.exit_code;
 }
 

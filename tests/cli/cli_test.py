@@ -102,6 +102,26 @@ class Init(stucco.TestCase):
         self.assertEqual(len(json.loads(status.stdout)["stages"]), len(STAGES))
 
 
+@unittest.skipUnless(os.path.exists("/dev/full"), "there is no /dev/full")
+class FullOutput(stucco.TestCase):
+    def test_a_result_that_cannot_be_written_is_no_success(self):
+        survey = self.init(self.photo_folder(2))
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            for words in (["status", survey, "--json"], ["check", survey], ["options"], ["--help"]):
+                process = subprocess.run([stucco.PROGRAM, *words], stdout=full, text=True,
+                                         stderr=subprocess.PIPE, check=False)
+                self.assertEqual(process.returncode, 5, words)
+                self.assertIn("standard output", process.stderr)
+
+    def test_messages_that_cannot_be_written_stop_nothing(self):
+        survey = self.init(self.photo_folder(2))
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            process = subprocess.run([stucco.PROGRAM, "ingest", survey], stderr=full,
+                                     stdout=subprocess.PIPE, check=False)
+        self.assertEqual(process.returncode, 0)
+        self.assertEqual(self.states(survey)["ingest"], "done")
+
+
 class Check(stucco.TestCase):
     def test_estimates_every_stage(self):
         survey = self.init(self.photo_folder(3))
@@ -266,6 +286,20 @@ class ImportAndExport(stucco.TestCase):
         images = (self.root / "out/images.txt").read_text()
         for name in names:
             self.assertIn(f" {name}\n", images)
+
+    def test_an_imported_model_finds_the_photos_that_ingest_sees(self):
+        photos = self.root / "photos"
+        photos.mkdir()
+        (photos / "card").symlink_to(self.photo_folder(3, "elsewhere"))
+        names = [photo.name for photo in stucco.sample_photos(3)]
+        for hidden in (photos / ".thumbnails", photos / "@eaDir"):
+            hidden.mkdir()
+            shutil.copy(stucco.sample_photos(1)[0], hidden)
+        survey = self.init(photos)
+        width, height = jpeg_size(stucco.sample_photos(1)[0])
+        write_colmap(self.root / "model", names, width, height)
+        self.assertIn("Imported 3 photos",
+                      self.check(stucco.run("import", survey, self.root / "model")).stdout)
 
     def test_refuses_models_of_other_photos(self):
         survey = self.init(self.photo_folder(3))
