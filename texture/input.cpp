@@ -47,9 +47,9 @@ std::vector<TexturePhoto> ReadPhotos(const StageContext& context) {
   for (const auto& [id, posed] : model.photos) {
     const std::filesystem::path path = context.photos / posed.name;
     if (!std::filesystem::exists(path)) {
-      context.progress->Warn(
-          fmt::format("{}: this posed photo is gone; painting without it", path.string()));
-      continue;
+      throw Error(ErrorKind::kBadInput, fmt::format("{}: this posed photo is gone", path.string()),
+                  "put it back, or compute the camera poses again without it: stucco run SURVEY "
+                  "--from ingest");
     }
     TexturePhoto photo;
     photo.name = posed.name;
@@ -101,9 +101,8 @@ TextureInput ReadTextureInput(const StageContext& context, bool with_cloud) {
   input.photos = ReadPhotos(context);
   if (input.photos.empty()) {
     throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: none of the posed photos of {} is there", context.photos.string(),
-                            (context.survey / kSparseFolder).string()),
-                "check that the photo folder of the survey still holds the photos");
+                fmt::format("{}: no photo is posed", (context.survey / kSparseFolder).string()),
+                "compute the camera poses again: stucco run SURVEY --from calib");
   }
   return input;
 }

@@ -23,8 +23,8 @@ struct TextureInput {
 };
 
 // Reads proxy/facets.json, calib/sparse/0 and, where they are, calib/georef.json,
-// ingest/captures.json and dense/cloud.ply (`with_cloud`). Posed photos whose file is gone are
-// reported and left out. Throws Error (kBadInput) when nothing usable is left.
+// ingest/captures.json and dense/cloud.ply (`with_cloud`). Throws Error (kBadInput) when a posed
+// photo's file is gone: painting without it would look finished and never be done again.
 TextureInput ReadTextureInput(const StageContext& context, bool with_cloud);
 
 }  // namespace stucco
