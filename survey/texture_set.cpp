@@ -18,6 +18,7 @@ static void Fields(Archive& archive, T& facet) {
   archive.Required("width_px", facet.width_px);
   archive.Required("height_px", facet.height_px);
   archive.Required("metres_per_texel", facet.metres_per_texel);
+  archive.Optional("wanted_metres_per_texel", facet.wanted_metres_per_texel);
   archive.Required("origin", facet.origin);
   archive.Required("u_axis", facet.u_axis);
   archive.Required("v_axis", facet.v_axis);
@@ -39,6 +40,7 @@ static void Fields(Archive& archive, T& textures) {
   archive.Required("facets", textures.facets);
   archive.Optional("model_glb", textures.model_glb);
   archive.Optional("model_obj", textures.model_obj);
+  archive.Optional("model_offset", textures.model_offset);
 }
 
 TextureSet ReadTextureSet(const std::filesystem::path& path) {

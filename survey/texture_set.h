@@ -21,7 +21,9 @@ struct TexturedFacet {
   std::string orthophoto;   // "orthophotos/B0001_W03.png"; empty for none
   int width_px = 0;
   int height_px = 0;
-  double metres_per_texel = 0;  // in world units when the frame is not metric
+  double metres_per_texel = 0;         // in world units when the frame is not metric
+  double wanted_metres_per_texel = 0;  // what the photos are worth; smaller where the picture had
+                                       // to be limited; 0: not known
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d u_axis = Eigen::Vector3d::UnitX();  // unit, to the right
   Eigen::Vector3d v_axis = Eigen::Vector3d::UnitY();  // unit, downwards in the picture
@@ -41,6 +43,8 @@ struct TextureSet {
   std::vector<TexturedFacet> facets;
   std::string model_glb;  // "model.glb"
   std::string model_obj;  // "model.obj"
+  // What was taken off the world's coordinates in the models, whose numbers have seven digits.
+  Eigen::Vector3d model_offset = Eigen::Vector3d::Zero();
 };
 
 // texture/textures.json; the names in it are fixed (docs/formats.md). Throws Error (kBadInput).

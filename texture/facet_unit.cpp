@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 // Raise when the meaning of a unit or the method behind it changes.
-constexpr char kVersion[] = "2";
+constexpr char kVersion[] = "3";
 
 json FromVector(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
@@ -88,7 +88,7 @@ std::string EncodeOrthophoto(const PaintedFacet& painted) {
 json FacetAsJson(const TexturedFacet& facet) {
   return {{"id", facet.id},
           {"size", {facet.width_px, facet.height_px}},
-          {"metres_per_texel", facet.metres_per_texel},
+          {"metres_per_texel", {facet.metres_per_texel, facet.wanted_metres_per_texel}},
           {"origin", FromVector(facet.origin)},
           {"u_axis", FromVector(facet.u_axis)},
           {"v_axis", FromVector(facet.v_axis)},
@@ -106,7 +106,8 @@ TexturedFacet FacetFromJson(const json& j) {
   facet.id = j.at("id");
   facet.width_px = j.at("size").at(0);
   facet.height_px = j.at("size").at(1);
-  facet.metres_per_texel = j.at("metres_per_texel");
+  facet.metres_per_texel = j.at("metres_per_texel").at(0);
+  facet.wanted_metres_per_texel = j.at("metres_per_texel").at(1);
   facet.origin = ToVector(j.at("origin"));
   facet.u_axis = ToVector(j.at("u_axis"));
   facet.v_axis = ToVector(j.at("v_axis"));
@@ -189,6 +190,7 @@ FacetFiles MakeFacetFiles(const std::string& id, const PaintedFacet& painted,
   facet.width_px = painted.grid.width;
   facet.height_px = painted.grid.height;
   facet.metres_per_texel = painted.grid.texel;
+  facet.wanted_metres_per_texel = painted.wanted_texel;
   facet.origin = painted.grid.origin;
   facet.u_axis = painted.grid.u_axis;
   facet.v_axis = painted.grid.v_axis;

@@ -12,6 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr int kVersion = 1;  // of the JSON file
 constexpr double kLevelCosine = 0.9999;
 
 // Zero without a sign.
@@ -46,6 +47,7 @@ std::string OrthophotoJson(const TexturedFacet& texture, const Facet& facet, con
                        {"height_m", georef.origin_height_m}};
   }
   const ordered_json out = {
+      {"version", kVersion},
       {"id", texture.id},
       {"facade", facet.facade},
       {"class", CityGmlName(facet.facet_class)},

@@ -239,6 +239,7 @@ PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
   PaintedFacet painted;
   if (look.candidates.empty()) return painted;
   painted.grid = MakeGrid(facet, scene.up, look.texel, options.max_texture_px);
+  painted.wanted_texel = look.texel;
   painted.mask = RasterizeFacet(facet, painted.grid);
 
   // 1. Which photo paints what.

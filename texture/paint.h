@@ -18,6 +18,7 @@ namespace stucco {
 
 struct PaintedFacet {
   TexelGrid grid;
+  double wanted_texel = 0;      // smaller than the grid's where its size is limited
   std::vector<uint8_t> mask;    // 1 inside the facet
   Image picture;                // colours go on smoothly outside the facet
   std::vector<uint8_t> labels;  // 1 + index into `photos`, 255 inpainted, 0 outside or empty

@@ -28,6 +28,11 @@ namespace {
 constexpr int kNearestWidth = 640;
 // Bytes that painting needs per texel of a facet: picture, masks, rasters, encoded files.
 constexpr uint64_t kBytesPerTexel = 24;
+// That putting a finished picture into the model needs: decoded and turned round.
+constexpr uint64_t kBytesPerEncodedTexel = 9;
+
+// A picture this much coarser than its photos is worth a note.
+constexpr double kNotedCoarseness = 1.1;
 
 std::vector<const Facet*> FacetsToPaint(const Proxy& proxy, bool ground) {
   std::vector<const Facet*> facets;
@@ -76,7 +81,12 @@ std::vector<Eigen::Vector3d> GainsFrom(const std::vector<FacetLook>& looks, size
   return SolveGains(ratios, photos);
 }
 
-// As many facets at once as fit beside the photo cache.
+// As many threads as fit beside the photo cache when each needs this much.
+int ThreadsThatFit(uint64_t bytes_each, const StageContext& context) {
+  const uint64_t fit = std::max<uint64_t>(1, context.memory_limit_bytes / 2 / bytes_each);
+  return static_cast<int>(std::min<uint64_t>(fit, std::max(1, context.threads)));
+}
+
 int PaintingThreads(const std::vector<const Facet*>& facets, const std::vector<FacetLook>& looks,
                     const PaintScene& scene, const TextureOptions& options,
                     const StageContext& context) {
@@ -86,8 +96,7 @@ int PaintingThreads(const std::vector<const Facet*>& facets, const std::vector<F
     const TexelGrid grid = MakeGrid(*facets[i], scene.up, looks[i].texel, options.max_texture_px);
     largest = std::max(largest, kBytesPerTexel * grid.size());
   }
-  const uint64_t fit = std::max<uint64_t>(1, context.memory_limit_bytes / 2 / largest);
-  return static_cast<int>(std::min<uint64_t>(fit, std::max(1, context.threads)));
+  return ThreadsThatFit(largest, context);
 }
 
 // Writes a facet's files and fills in their names.
@@ -135,6 +144,17 @@ std::vector<TexturedFacet> PaintAll(const std::vector<const Facet*>& facets,
   return textured;
 }
 
+void NoteLimited(const std::vector<TexturedFacet>& facets, int max_texture_px, Progress& progress) {
+  for (const TexturedFacet& facet : facets) {
+    const double ratio = facet.metres_per_texel / facet.wanted_metres_per_texel;
+    if (facet.image.empty() || !(ratio > kNotedCoarseness)) continue;
+    progress.Note(fmt::format(
+        "{}: the picture is {:.1f} times coarser than the photos: raise texture.max_texture_px "
+        "(now {})",
+        facet.id, ratio, max_texture_px));
+  }
+}
+
 void ReportFindings(const std::vector<TexturedFacet>& facets, Progress& progress) {
   size_t painted = 0;
   std::set<std::string> photos;
@@ -157,6 +177,16 @@ void ReportFindings(const std::vector<TexturedFacet>& facets, Progress& progress
     progress.Note(fmt::format("{} facets are seen by no photo and stay without a picture",
                               facets.size() - painted));
   }
+}
+
+// As many pictures are read and encoded at once as fit.
+int EncodingThreads(const TextureSet& textures, const StageContext& context) {
+  uint64_t largest = 1;
+  for (const TexturedFacet& facet : textures.facets) {
+    largest = std::max(largest, kBytesPerEncodedTexel * static_cast<uint64_t>(facet.width_px) *
+                                    static_cast<uint64_t>(facet.height_px));
+  }
+  return ThreadsThatFit(largest, context);
 }
 
 }  // namespace
@@ -185,13 +215,16 @@ void RunTexture(const TextureOptions& options, StageContext& context) {
   TextureSet textures;
   textures.facets = PaintAll(facets, looks, gains, input, scene, options, context);
   ReportFindings(textures.facets, *context.progress);
+  NoteLimited(textures.facets, options.max_texture_px, *context.progress);
 
   // 5. The model and its table of contents.
   context.ThrowIfCancelled();
   context.progress->Begin("writing the model", 2);
+  textures.model_offset = ModelOffset(input.proxy);
   WriteObj(input.proxy, textures, context.out);
   context.progress->Advance();
-  WriteGlb(input.proxy, textures, context.out, options.glb_max_px, options.glb_quality);
+  WriteGlb(input.proxy, textures, context.out,
+           {options.glb_max_px, options.glb_quality, EncodingThreads(textures, context)});
   context.progress->Advance();
   textures.model_obj = "model.obj";
   textures.model_glb = "model.glb";

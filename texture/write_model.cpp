@@ -8,9 +8,14 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <assimp/Exporter.hpp>
+#include <cmath>
+#include <cstring>
+#include <limits>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -19,6 +24,7 @@
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/image.h"
+#include "survey/parallel.h"
 #include "texture/grid.h"
 #include "texture/triangulate.h"
 
@@ -26,6 +32,8 @@ namespace stucco {
 namespace {
 
 constexpr float kGrey = 0.6f;
+constexpr double kFar_m = 10000;        // floats are still good to a millimetre
+constexpr double kOffsetStep_m = 1000;  // offsets are whole multiples: people copy them
 
 // How pictures get into a model: the texture path of a facet's material.
 using TexturePath = std::map<std::string, std::string>;
@@ -62,8 +70,8 @@ aiVector3D TextureCoordinates(const TexturedFacet& texture, const Eigen::Vector3
   return {static_cast<float>(u), static_cast<float>(v), 0};
 }
 
-aiMesh* MakeMesh(const Facet& facet, const TexturedFacet* texture, const Eigen::Matrix3d& turn,
-                 unsigned material) {
+aiMesh* MakeMesh(const Facet& facet, const TexturedFacet* texture,
+                 const Eigen::Isometry3d& model_from_world, unsigned material) {
   const FacetTriangles shape = TriangulateFacet(facet);
   if (shape.triangles.empty()) return nullptr;
   auto* mesh = new aiMesh();
@@ -78,8 +86,8 @@ aiMesh* MakeMesh(const Facet& facet, const TexturedFacet* texture, const Eigen::
     mesh->mNumUVComponents[0] = 2;
   }
   for (size_t i = 0; i < shape.vertices.size(); ++i) {
-    mesh->mVertices[i] = ToVector(turn * shape.vertices[i]);
-    mesh->mNormals[i] = ToVector(turn * facet.normal);
+    mesh->mVertices[i] = ToVector(model_from_world * shape.vertices[i]);
+    mesh->mNormals[i] = ToVector(model_from_world.linear() * facet.normal);
     if (texture) mesh->mTextureCoords[0][i] = TextureCoordinates(*texture, shape.vertices[i]);
   }
   mesh->mNumFaces = static_cast<unsigned>(shape.triangles.size());
@@ -115,7 +123,8 @@ aiNode* MakeNodes(const std::vector<aiMesh*>& meshes) {
 }
 
 std::unique_ptr<aiScene> MakeScene(const Proxy& proxy, const TextureSet& textures,
-                                   const TexturePath& paths, const Eigen::Matrix3d& turn) {
+                                   const TexturePath& paths,
+                                   const Eigen::Isometry3d& model_from_world) {
   std::map<std::string, const TexturedFacet*> by_id;
   for (const TexturedFacet& facet : textures.facets) by_id[facet.id] = &facet;
   std::vector<aiMaterial*> materials = {MakeMaterial("untextured", nullptr)};
@@ -125,7 +134,8 @@ std::unique_ptr<aiScene> MakeScene(const Proxy& proxy, const TextureSet& texture
       const auto path = paths.find(facet.id);
       const bool painted = path != paths.end();
       const auto material = painted ? static_cast<unsigned>(materials.size()) : 0u;
-      aiMesh* mesh = MakeMesh(facet, painted ? by_id.at(facet.id) : nullptr, turn, material);
+      aiMesh* mesh =
+          MakeMesh(facet, painted ? by_id.at(facet.id) : nullptr, model_from_world, material);
       if (!mesh) continue;
       meshes.push_back(mesh);
       if (painted) materials.push_back(MakeMaterial(facet.id, &path->second));
@@ -149,11 +159,30 @@ void Export(const aiScene& scene, const char* format, const std::filesystem::pat
   }
 }
 
-std::vector<uint8_t> EncodeJpeg(const std::filesystem::path& path, int max_px, int quality) {
+// The sizes that pictures get in a model; 0 x 0 for facets without one.
+std::vector<ImageSize> EmbeddedSizes(const std::vector<TexturedFacet>& facets,
+                                     const GlbOptions& options) {
+  std::vector<ImageSize> sizes(facets.size());
+  double texels = 0;
+  for (size_t i = 0; i < facets.size(); ++i) {
+    if (facets[i].image.empty()) continue;
+    sizes[i] = ScaledSize({facets[i].width_px, facets[i].height_px}, options.max_px);
+    texels += static_cast<double>(sizes[i].width_px) * sizes[i].height_px;
+  }
+  if (texels <= options.most_texels) return sizes;
+  const double scale = std::sqrt(options.most_texels / texels);
+  for (ImageSize& size : sizes) {
+    const int longest = std::max(size.width_px, size.height_px);
+    if (longest > 0) size = ScaledSize(size, std::max(1, static_cast<int>(scale * longest)));
+  }
+  return sizes;
+}
+
+std::vector<uint8_t> EncodeJpeg(const std::filesystem::path& path, const ImageSize& size,
+                                int quality) {
   const Image image = ReadImage(path);
   cv::Mat picture(image.height_px, image.width_px, CV_8UC3,
                   const_cast<uint8_t*>(image.data.data()));
-  const ImageSize size = ScaledSize({image.width_px, image.height_px}, max_px);
   cv::Mat scaled;
   cv::resize(picture, scaled, {size.width_px, size.height_px}, 0, 0, cv::INTER_AREA);
   cv::cvtColor(scaled, scaled, cv::COLOR_RGB2BGR);
@@ -174,38 +203,102 @@ aiTexture* MakeEmbedded(const std::string& name, const std::vector<uint8_t>& byt
   return texture;
 }
 
-Eigen::Matrix3d TurnToYUp(const Eigen::Vector3d& up) {
+Eigen::Isometry3d TurnToYUp(const Eigen::Vector3d& up) {
   Eigen::Matrix3d y_from_z;
   y_from_z << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  return y_from_z *
-         Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+  turn.linear() =
+      y_from_z *
+      Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return turn;
+}
+
+Eigen::Isometry3d WithoutOffset(const TextureSet& textures) {
+  return Eigen::Isometry3d(Eigen::Translation3d(-textures.model_offset));
+}
+
+uint32_t NumberAt(const std::string& bytes, size_t at) {
+  uint32_t number = 0;
+  std::memcpy(&number, bytes.data() + at, sizeof(number));
+  return number;
+}
+
+void PutNumber(uint32_t number, size_t at, std::string& bytes) {
+  bytes.replace(at, sizeof(number), reinterpret_cast<const char*>(&number), sizeof(number));
+}
+
+// Writes the offset into the extras of a GLB file's asset, which assimp 5.2 cannot do. The file is
+// a header of 12 bytes (the last four its length), then the length and type of the JSON chunk, the
+// JSON padded with blanks to four bytes, and the binary chunk.
+void AddOffset(const Eigen::Vector3d& offset, const std::filesystem::path& path) {
+  constexpr size_t kJson = 20;
+  std::string glb = ReadFile(path);
+  const size_t length = NumberAt(glb, 12);
+  nlohmann::ordered_json gltf = nlohmann::ordered_json::parse(glb.substr(kJson, length));
+  gltf["asset"]["extras"]["offset"] = {offset.x(), offset.y(), offset.z()};
+  std::string text = gltf.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  glb.replace(kJson, length, text);
+  PutNumber(static_cast<uint32_t>(text.size()), 12, glb);
+  PutNumber(static_cast<uint32_t>(glb.size()), 8, glb);
+  WriteFile(path, glb);
 }
 
 }  // namespace
+
+Eigen::Vector3d ModelOffset(const Proxy& proxy) {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::max());
+  Eigen::Vector3d high = -low;
+  for (const Building& building : proxy.buildings) {
+    for (const Facet& facet : building.facets) {
+      for (const Eigen::Vector3d& vertex : facet.outer) {
+        low = low.cwiseMin(vertex);
+        high = high.cwiseMax(vertex);
+      }
+    }
+  }
+  const Eigen::Vector3d center = (low + high) / 2;
+  if (!(high.x() >= low.x()) || !(center.norm() > kFar_m)) return Eigen::Vector3d::Zero();
+  return kOffsetStep_m * (center / kOffsetStep_m).array().round().matrix();
+}
 
 void WriteObj(const Proxy& proxy, const TextureSet& textures, const std::filesystem::path& folder) {
   TexturePath paths;
   for (const TexturedFacet& facet : textures.facets) {
     if (!facet.image.empty()) paths[facet.id] = facet.image;
   }
-  const auto scene = MakeScene(proxy, textures, paths, Eigen::Matrix3d::Identity());
+  const auto scene = MakeScene(proxy, textures, paths, WithoutOffset(textures));
   Export(*scene, "obj", folder / "model.obj");
+  if (textures.model_offset.isZero(0)) return;
+  const Eigen::Vector3d& offset = textures.model_offset;
+  WriteFile(folder / "model.obj", fmt::format("# add {} {} {} for world coordinates\n", offset.x(),
+                                              offset.y(), offset.z()) +
+                                      ReadFile(folder / "model.obj"));
 }
 
 void WriteGlb(const Proxy& proxy, const TextureSet& textures, const std::filesystem::path& folder,
-              int max_px, int jpeg_quality) {
+              const GlbOptions& options) {
+  const std::vector<TexturedFacet>& facets = textures.facets;
+  const std::vector<ImageSize> sizes = EmbeddedSizes(facets, options);
+  std::vector<std::vector<uint8_t>> jpegs(facets.size());
+  ParallelFor(facets.size(), options.threads, [&](size_t i) {
+    if (facets[i].image.empty()) return;
+    jpegs[i] = EncodeJpeg(folder / facets[i].image, sizes[i], options.jpeg_quality);
+  });
   TexturePath paths;
   std::vector<aiTexture*> embedded;
-  for (const TexturedFacet& facet : textures.facets) {
-    if (facet.image.empty()) continue;
-    paths[facet.id] = fmt::format("*{}", embedded.size());
-    const std::string name = std::filesystem::path(facet.image).stem().string();
-    embedded.push_back(MakeEmbedded(name, EncodeJpeg(folder / facet.image, max_px, jpeg_quality)));
+  for (size_t i = 0; i < facets.size(); ++i) {
+    if (jpegs[i].empty()) continue;
+    paths[facets[i].id] = fmt::format("*{}", embedded.size());
+    const std::string name = std::filesystem::path(facets[i].image).stem().string();
+    embedded.push_back(MakeEmbedded(name, jpegs[i]));
   }
-  const auto scene = MakeScene(proxy, textures, paths, TurnToYUp(proxy.up));
+  const Eigen::Isometry3d model_from_world = TurnToYUp(proxy.up) * WithoutOffset(textures);
+  const auto scene = MakeScene(proxy, textures, paths, model_from_world);
   scene->mNumTextures = static_cast<unsigned>(embedded.size());
   scene->mTextures = MoveIntoArray(embedded);
   Export(*scene, "glb2", folder / "model.glb");
+  if (!textures.model_offset.isZero(0)) AddOffset(textures.model_offset, folder / "model.glb");
 }
 
 }  // namespace stucco

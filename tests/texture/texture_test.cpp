@@ -316,6 +316,8 @@ TEST(RunTexture, TakesAFacetOfOnePixelAndLimitsALargeOne) {
   EXPECT_EQ(set.facets[0].width_px, 500);
   EXPECT_EQ(set.facets[0].height_px, 375);
   EXPECT_DOUBLE_EQ(set.facets[0].metres_per_texel, 0.008);
+  EXPECT_DOUBLE_EQ(set.facets[0].wanted_metres_per_texel, 0.0001);
+  EXPECT_DOUBLE_EQ(set.facets[1].wanted_metres_per_texel, set.facets[1].metres_per_texel);
   EXPECT_GT(TruthPsnr(survey, set.facets[0]), 25);
   EXPECT_EQ(set.facets[1].width_px, 30);
   options.texel_size = 0.01;
@@ -393,8 +395,17 @@ TEST(RunTexture, SaysWhatIsMissing) {
   Survey gone;
   gone.Add("a.jpg", {2, -4.2, 1.5}, {2, 0, 1.5});
   gone.Add("b.jpg", {3, -4.2, 1.5}, {2, 0, 1.5});
-  fs::remove(gone.Photos() / "a.jpg");
-  EXPECT_EQ(gone.Run().facets.at(0).photos, std::vector<std::string>{"b.jpg"});
+  fs::rename(gone.Photos() / "a.jpg", gone.Photos() / "elsewhere.jpg");
+  try {
+    gone.Run();
+    ADD_FAILURE() << "painted without a photo";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+    EXPECT_NE(std::string(error.what()).find("a.jpg"), std::string::npos);
+    EXPECT_FALSE(error.remedy().empty());
+  }
+  fs::rename(gone.Photos() / "elsewhere.jpg", gone.Photos() / "a.jpg");
+  EXPECT_EQ(gone.Run().facets.at(0).photos, std::vector<std::string>{"a.jpg"});
   WriteFile(gone.Photos() / "b.jpg", "not a picture");
   EXPECT_THROW(gone.Run(), Error);
   fs::remove(gone.Folder() / kFacetsFile);

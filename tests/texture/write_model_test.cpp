@@ -122,7 +122,7 @@ TEST_F(Model, ObjKeepsTheAreaOfPolygonsWithHoles) {
 }
 
 TEST_F(Model, GlbIsValidAndEmbedsItsPictures) {
-  WriteGlb(proxy_, textures_, folder_.path(), 4096, 90);
+  WriteGlb(proxy_, textures_, folder_.path(), {4096, 90});
   const std::string glb = Glb();
   uint32_t header[3];
   std::memcpy(header, glb.data(), 12);
@@ -154,7 +154,7 @@ TEST_F(Model, GlbIsValidAndEmbedsItsPictures) {
 }
 
 TEST_F(Model, GlbReadsBackYUpWithTextureCoordinates) {
-  WriteGlb(proxy_, textures_, folder_.path(), 16, 90);
+  WriteGlb(proxy_, textures_, folder_.path(), {16, 90});
   Assimp::Importer importer;
   const aiScene* scene =
       importer.ReadFile((folder_.path() / "model.glb").string(), aiProcess_ValidateDataStructure);
@@ -174,15 +174,65 @@ TEST_F(Model, GlbReadsBackYUpWithTextureCoordinates) {
   EXPECT_STREQ(scene->mRootNode->mChildren[0]->mName.C_Str(), "B0001/W01");
 }
 
+TEST_F(Model, OffsetIsTakenOffWhereCoordinatesAreLarge) {
+  EXPECT_EQ(ModelOffset(proxy_), Eigen::Vector3d::Zero());
+  EXPECT_EQ(ModelOffset({}), Eigen::Vector3d::Zero());
+  const Eigen::Vector3d utm(389123.4, 5819456.7, 33);
+  Proxy far = proxy_;
+  for (Facet& facet : far.buildings[0].facets) {
+    facet.offset += facet.normal.dot(utm);
+    for (auto& vertex : facet.outer) vertex += utm;
+    for (auto& hole : facet.holes) {
+      for (auto& vertex : hole) vertex += utm;
+    }
+  }
+  textures_.facets[0].origin += utm;
+  textures_.model_offset = ModelOffset(far);
+  EXPECT_EQ(textures_.model_offset, Eigen::Vector3d(389000, 5819000, 0));
+  WriteObj(far, textures_, folder_.path());
+  WriteGlb(far, textures_, folder_.path(), {64, 90});
+  EXPECT_EQ(ReadFile(folder_.path() / "model.obj").substr(0, 42),
+            "# add 389000 5819000 0 for world coordinat");
+  EXPECT_EQ(GlbJson().at("asset").at("extras").at("offset"), json({389000.0, 5819000.0, 0.0}));
+
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile((folder_.path() / "model.glb").string(), 0);
+  ASSERT_TRUE(scene) << importer.GetErrorString();
+  const aiMesh* wall = scene->mMeshes[0];
+  for (unsigned i = 0; i < wall->mNumVertices; ++i) {
+    const aiVector3D& at = wall->mVertices[i];  // (east, up, south)
+    EXPECT_NEAR(at.z, -456.7, 1e-4);
+    EXPECT_NEAR(wall->mTextureCoords[0][i].x, (at.x - 123.4) / 4, 1e-4);
+    EXPECT_NEAR(wall->mTextureCoords[0][i].y, (at.y - 33) / 3, 1e-4);
+  }
+}
+
+TEST_F(Model, PicturesInsideAreMadeSmallerTogether) {
+  TexturedFacet second = textures_.facets[0];
+  second.id = "B0001/W02";
+  textures_.facets[1] = second;
+  WriteGlb(proxy_, textures_, folder_.path(), {64, 90, 2, 600});  // of 2400
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile((folder_.path() / "model.glb").string(), 0);
+  ASSERT_TRUE(scene) << importer.GetErrorString();
+  ASSERT_EQ(scene->mNumTextures, 2u);
+  for (unsigned i = 0; i < 2; ++i) {
+    const auto* bytes = reinterpret_cast<const char*>(scene->mTextures[i]->pcData);
+    WriteFile(folder_.path() / "embedded.jpg", std::string(bytes, scene->mTextures[i]->mWidth));
+    EXPECT_EQ(ReadJpegSize(folder_.path() / "embedded.jpg").width_px, 20);
+    EXPECT_EQ(ReadJpegSize(folder_.path() / "embedded.jpg").height_px, 15);
+  }
+}
+
 TEST_F(Model, WithoutPicturesIsStillWritten) {
-  WriteGlb(proxy_, {}, folder_.path(), 64, 90);
+  WriteGlb(proxy_, {}, folder_.path(), {64, 90});
   WriteObj(proxy_, {}, folder_.path());
   EXPECT_FALSE(GlbJson().contains("images"));
 }
 
 TEST_F(Model, IntoAMissingFolderIsAnError) {
   EXPECT_THROW(WriteObj(proxy_, {}, folder_.path() / "missing"), Error);
-  EXPECT_THROW(WriteGlb(proxy_, {}, folder_.path() / "missing", 64, 90), Error);
+  EXPECT_THROW(WriteGlb(proxy_, {}, folder_.path() / "missing", {64, 90}), Error);
 }
 
 TEST_F(Model, WorldFileGivesHeightsOnWallsAndMapCoordinatesOnLevelRoofs) {
@@ -203,6 +253,7 @@ TEST_F(Model, OrthophotoJsonHoldsScaleAndPlane) {
   georef.origin_latitude_deg = 52.5;
   const json j = json::parse(
       OrthophotoJson(textures_.facets[0], proxy_.buildings[0].facets[0], proxy_, georef));
+  EXPECT_EQ(j.at("version"), 1);
   EXPECT_EQ(j.at("metres_per_pixel"), 0.1);
   EXPECT_EQ(j.at("plane").at("normal").at(1), -1.0);
   EXPECT_EQ(j.at("origin").at(2), 3.0);
