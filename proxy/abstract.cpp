@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "proxy/export_cityjson.h"
 #include "proxy/export_obj.h"
 #include "proxy/facets.h"
@@ -151,6 +153,13 @@ Proxy AbstractCloud(const PointCloud& cloud, const Stations& stations, const Geo
   return AbstractCloud(StreamOf(cloud), stations, georef, options, threads, findings);
 }
 
+int PointsWithin(uint64_t memory_limit_bytes, int max_points) {
+  constexpr uint64_t kBytesPerPoint = 1000;  // measured on a million: samples, grids, rasters
+  constexpr uint64_t kFewest = 100000;
+  const uint64_t room = std::max(kFewest, memory_limit_bytes / 2 / kBytesPerPoint);
+  return static_cast<int>(std::min<uint64_t>(room, static_cast<uint64_t>(max_points)));
+}
+
 void RunProxy(const ProxyOptions& options, StageContext& context) {
   Progress& progress = *context.progress;
   progress.Begin("abstracting the cloud to planes", 3);
@@ -160,7 +169,9 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
   context.ThrowIfCancelled();
   progress.Advance();
   ProxyFindings findings;
-  const Proxy proxy = AbstractCloud(cloud, stations, georef, options, context.threads, findings);
+  ProxyOptions affordable = options;
+  affordable.max_points = PointsWithin(context.memory_limit_bytes, options.max_points);
+  const Proxy proxy = AbstractCloud(cloud, stations, georef, affordable, context.threads, findings);
   for (const auto& note : findings.notes) progress.Note(note);
   for (const auto& warning : findings.warnings) progress.Warn(warning);
   context.ThrowIfCancelled();

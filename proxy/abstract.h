@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,11 @@ struct ProxyOptions {
   double epsilon = 0;
   double normal_angle_deg = 35;
   double min_area = 0;
-  int min_points = 60;
+  int min_points = 0;
   double fill_gap = 0;
   double vertical_tolerance_deg = 8;
   double align_tolerance_deg = 6;
-  int max_points = 500000;
+  int max_points = 2000000;
   bool solids = true;
   double solid_support = 0.65;
   int max_planes = 60;
@@ -49,6 +50,9 @@ Proxy AbstractCloud(const PointStream& cloud, const Stations& stations, const Ge
                     const ProxyOptions& options, int threads, ProxyFindings& findings);
 Proxy AbstractCloud(const PointCloud& cloud, const Stations& stations, const Georef& georef,
                     const ProxyOptions& options, int threads, ProxyFindings& findings);
+
+// `max_points`, or what half of the memory holds, but never under 100000.
+int PointsWithin(uint64_t memory_limit_bytes, int max_points);
 
 // dense/cloud.ply, calib/sparse/0 and calib/georef.json -> facets.json, proxy.obj, proxy.city.json.
 void RunProxy(const ProxyOptions& options, StageContext& context);

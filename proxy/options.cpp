@@ -9,7 +9,7 @@ void Describe(OptionTable& table, ProxyOptions& options) {
   table.Add("level_of_detail", options.level_of_detail, 0, kLargest,
             "Steps between parallel planes smaller than this are flattened (metres, or world units "
             "when the survey has no scale). 0: 0.3 m, or 0.8 % of the viewing distance without "
-            "scale, and never below three times the noise of the cloud.");
+            "scale, and never below three times the noise of the cloud or twice its spacing.");
   table.Add("epsilon", options.epsilon, 0, kLargest,
             "Largest distance of a point from its plane. 0: half of level_of_detail.");
   table.Add("normal_angle_deg", options.normal_angle_deg, 5, 80,
@@ -17,8 +17,9 @@ void Describe(OptionTable& table, ProxyOptions& options) {
   table.Add("min_area", options.min_area, 0, 1e12,
             "Smaller facets are dropped (square metres or squared world units). 0: a square of "
             "five times level_of_detail.");
-  table.Add("min_points", options.min_points, 3, 1000000,
-            "Planes with fewer points of the thinned cloud are dropped.");
+  table.Add("min_points", options.min_points, 0, 1000000,
+            "Planes with fewer points of the thinned cloud are dropped. 0: as many as make up a "
+            "third of min_area, 12 to 60.");
   table.Add("fill_gap", options.fill_gap, 0, kLargest,
             "Gaps of a facet up to about this width are closed (windows, occluded strips). 0: five "
             "times level_of_detail.");
@@ -29,7 +30,8 @@ void Describe(OptionTable& table, ProxyOptions& options) {
             "Directions this near to parallel or perpendicular become so, as far as no point "
             "moves by more than level_of_detail.");
   table.Add("max_points", options.max_points, 1000, 20000000,
-            "The cloud is thinned to a grid with at most this many points.");
+            "The cloud is thinned to a grid with at most this many points, or fewer where "
+            "run.memory_limit_gb does not hold them. More tell finer details of large surveys.");
   table.Add("solids", options.solids,
             "Close buildings to watertight solids where the points support it; false: open facets "
             "only.");

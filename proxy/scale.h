@@ -29,6 +29,12 @@ struct Tolerances {
   double radius = 0;  // neighbours for growing and smoothing
 };
 
+// What the options leave open follows from the scale of the cloud, and from its spacing where that
+// is coarse: nothing smaller than two spacings can be told, no gap under ten of them is a gap, and
+// no facet is less than ten by ten. What the options say is taken as it is.
 Tolerances DeriveTolerances(const CloudScale& scale, bool metric, const ProxyOptions& options);
+
+// Points that a plane of the smallest area must have at least, between 12 and 60.
+int LeastPoints(const Tolerances& tolerances);
 
 }  // namespace stucco

@@ -32,7 +32,7 @@ CloudScale PrepareSamples(const PointStream& cloud, const Stations& stations, bo
                           const ProxyOptions& options, Scene& scene) {
   constexpr double kSamplesPerDetail = 4;
   scene.samples = ThinCloud(cloud, stations, options.max_points, 0);
-  const auto fewest = static_cast<size_t>(std::max(8, options.min_points));
+  const auto fewest = static_cast<size_t>(std::max(12, options.min_points));
   if (scene.samples.size() < fewest) {
     throw Error(ErrorKind::kStageFailed,
                 fmt::format("the dense cloud has {} usable points ({} of {} are not finite or far "
@@ -56,17 +56,39 @@ CloudScale PrepareSamples(const PointStream& cloud, const Stations& stations, bo
   return scale;
 }
 
+// Says when points too far apart, by `max_points` or in the cloud itself, cost details.
+void WarnOfCoarseness(const CloudScale& scale, const Georef& georef, const ProxyOptions& options,
+                      const Scene& scene, ProxyFindings& findings) {
+  CloudScale dense = scale;
+  dense.spacing = 0;
+  const Tolerances wanted = DeriveTolerances(dense, georef.metric, options);
+  const Tolerances& got = scene.tolerances;
+  if (!(got.fill_gap > wanted.fill_gap || got.min_area > wanted.min_area ||
+        got.level_of_detail > wanted.level_of_detail)) {
+    return;
+  }
+  findings.warnings.push_back(fmt::format(
+      "points {:.3g} {} apart tell few details: the level of detail is {:.3g} instead of {:.3g}, "
+      "gaps are closed up to {:.3g}, facets below an area of {:.3g} are left out. {}",
+      scale.spacing, georef.metric ? "m" : "units", got.level_of_detail, wanted.level_of_detail,
+      got.fill_gap, got.min_area,
+      scene.samples.cell > 0 ? "Raise proxy.max_points (a million points take about 1 GB), or "
+                               "divide the survey."
+                             : "A finer dense quality gives more points."));
+}
+
 std::vector<Plane> FindPlanes(const Stations& stations, const ProxyOptions& options, int threads,
                               Scene& scene) {
   Samples& samples = scene.samples;
   const Tolerances& tolerances = scene.tolerances;
   const GridIndex index(samples.positions, tolerances.radius);
   const auto agreement = SmoothNormals(samples, index, tolerances.radius, stations, threads);
-  auto planes = DetectPlanes(samples, index, agreement,
-                             {.radius = tolerances.radius,
-                              .epsilon = tolerances.epsilon,
-                              .normal_angle_deg = options.normal_angle_deg,
-                              .min_points = options.min_points});
+  auto planes = DetectPlanes(
+      samples, index, agreement,
+      {.radius = tolerances.radius,
+       .epsilon = tolerances.epsilon,
+       .normal_angle_deg = options.normal_angle_deg,
+       .min_points = options.min_points > 0 ? options.min_points : LeastPoints(tolerances)});
   MergeCoplanar(samples, tolerances, options.normal_angle_deg, planes);
   AdoptNeighbours(samples, index, tolerances, options.normal_angle_deg, planes);
   MergeCoplanar(samples, tolerances, options.normal_angle_deg, planes);
@@ -126,6 +148,7 @@ Scene UnderstandCloud(const PointStream& cloud, const Stations& stations, const 
       fmt::format("{} points thinned to {}, {} dropped; noise {:.4g}, level of detail {:.4g} {}",
                   cloud.count, scene.samples.size(), scene.samples.dropped, scale.noise,
                   scene.tolerances.level_of_detail, georef.metric ? "m" : "units"));
+  WarnOfCoarseness(scale, georef, options, scene, findings);
   auto planes = FindPlanes(stations, options, threads, scene);
   if (planes.empty()) {
     throw Error(ErrorKind::kStageFailed,

@@ -282,6 +282,24 @@ TEST(AbstractCloud, SolidsCanBeSwitchedOff) {
   EXPECT_EQ(proxy.buildings[0].facets.size(), 5u);
 }
 
+TEST(AbstractCloud, AFewPointsMakeACoarserModelAndSaySo) {
+  const Captured captured =
+      Capture({testing::BoxHouse(14, 12, 9)}, {testing::GroundSquare(24)}, {.noise = 0.02});
+  ProxyFindings findings;
+  const Proxy proxy =
+      AbstractCloud(captured.cloud, captured.stations, Metric(), {.max_points = 6000}, 1, findings);
+  EXPECT_EQ(FindProblem(proxy), std::nullopt);
+  ASSERT_EQ(proxy.buildings.size(), 2u);
+  EXPECT_TRUE(proxy.buildings[0].watertight);
+  EXPECT_EQ(proxy.buildings[0].facets.size(), 6u);
+  EXPECT_THAT(findings.warnings,
+              ::testing::ElementsAre(::testing::AllOf(::testing::HasSubstr("instead of 0.3"),
+                                                      ::testing::HasSubstr("proxy.max_points"))));
+  ProxyFindings dense;
+  AbstractCloud(captured.cloud, captured.stations, Metric(), {}, 1, dense);
+  EXPECT_THAT(dense.warnings, ::testing::IsEmpty());
+}
+
 TEST(AbstractCloud, IsTheSameOnAnyNumberOfThreads) {
   const Captured captured = Capture({testing::GableHouse()}, {testing::GroundSquare(20)},
                                     {.noise = 0.05, .outliers = 0.1});

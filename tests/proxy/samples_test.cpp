@@ -131,6 +131,32 @@ TEST(DeriveTolerances, FollowScaleMetricAndOptions) {
   EXPECT_DOUBLE_EQ(DeriveTolerances(noisy, true, {}).level_of_detail, 0.6);
 }
 
+TEST(DeriveTolerances, GrowTogetherWithACoarseSpacing) {
+  const CloudScale coarse{.spacing = 0.7, .noise = 0.02, .viewing_distance = 60, .extent = 700};
+  const Tolerances derived = DeriveTolerances(coarse, true, {});
+  EXPECT_DOUBLE_EQ(derived.level_of_detail, 1.4);
+  EXPECT_DOUBLE_EQ(derived.epsilon, 0.7);
+  EXPECT_DOUBLE_EQ(derived.fill_gap, 7);
+  EXPECT_DOUBLE_EQ(derived.min_area, 49);
+  EXPECT_EQ(LeastPoints(derived), 30);
+  // What the user says stays; only the rest follows the spacing.
+  const Tolerances given = DeriveTolerances(coarse, true, {.level_of_detail = 0.3, .min_area = 5});
+  EXPECT_DOUBLE_EQ(given.level_of_detail, 0.3);
+  EXPECT_DOUBLE_EQ(given.min_area, 5);
+  EXPECT_DOUBLE_EQ(given.fill_gap, 7);
+  EXPECT_EQ(LeastPoints(given), 12);
+  const CloudScale fine{.spacing = 0.06, .noise = 0.01, .viewing_distance = 60, .extent = 700};
+  EXPECT_DOUBLE_EQ(DeriveTolerances(fine, true, {}).min_area, 2.25);
+  EXPECT_EQ(LeastPoints(DeriveTolerances(fine, true, {})), 60);
+}
+
+TEST(PointsWithin, HoldToTheMemoryLimit) {
+  EXPECT_EQ(PointsWithin(uint64_t{4} << 30, 2000000), 2000000);
+  EXPECT_EQ(PointsWithin(uint64_t{1} << 30, 2000000), 536870);
+  EXPECT_EQ(PointsWithin(1, 2000000), 100000);
+  EXPECT_EQ(PointsWithin(uint64_t{1} << 40, 5000), 5000);
+}
+
 TEST(GridIndex, FindsExactlyThePointsWithinTheRadius) {
   const PointCloud cloud = Grid(30, 0.1);
   const GridIndex index(cloud.positions, 0.37);
