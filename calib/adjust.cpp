@@ -5,6 +5,7 @@
 #include <ceres/loss_function.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
+#include <ceres/product_manifold.h>
 #include <ceres/solver.h>
 #include <fmt/format.h>
 
@@ -40,10 +41,24 @@ RefineIntrinsics LevelFor(int num_photos) {
   return num_photos < 5 ? RefineIntrinsics::kDistortion : RefineIntrinsics::kPrincipalPoint;
 }
 
-struct PoseBlocks {
-  Eigen::Quaterniond rotation;
-  Eigen::Vector3d translation;
+// A pose as one block of Ceres: few large blocks cost less than many small ones.
+struct PoseBlock {
+  explicit PoseBlock(const Pose& pose) {
+    Rotation() = pose.rotation;
+    Translation() = pose.translation;
+  }
+
+  Eigen::Map<Eigen::Quaterniond> Rotation() { return Eigen::Map<Eigen::Quaterniond>(values); }
+  Eigen::Map<Eigen::Vector3d> Translation() { return Eigen::Map<Eigen::Vector3d>(values + 4); }
+
+  double values[kPoseSize];
 };
+
+using PoseManifold =
+    ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
+// One coordinate of the translation is held.
+using ScaleHoldingManifold =
+    ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::SubsetManifold>;
 
 class Adjustment {
  public:
@@ -132,19 +147,17 @@ class Adjustment {
   void AddObservation(const SceneElement& element, Eigen::Vector3d& point) {
     ScenePhoto& photo = scene_.photos[element.photo];
     Camera& camera = scene_.cameras[photo.camera].intrinsics;
-    const auto [it, is_new] = poses_.try_emplace(element.photo);
-    PoseBlocks& pose = it->second;
-    if (is_new) pose = {photo.pose->rotation, photo.pose->translation};
+    const auto [it, is_new] = poses_.try_emplace(element.photo, *photo.pose);
+    double* pose = it->second.values;
     used_cameras_.insert(photo.camera);
     const Eigen::Vector2d& keypoint = photo.keypoints[element.keypoint];
     const double sigma = photo.keypoint_sigma_px;
     problem_.AddResidualBlock(CreateCost(camera, keypoint, sigma), &loss_, camera.params.data(),
-                              pose.rotation.coeffs().data(), pose.translation.data(), point.data());
+                              pose, point.data());
     if (!is_new) return;
-    problem_.SetManifold(pose.rotation.coeffs().data(), &quaternion_);
+    problem_.SetManifold(pose, &pose_manifold_);
     if (!IsVariable(element.photo)) {
-      problem_.SetParameterBlockConstant(pose.rotation.coeffs().data());
-      problem_.SetParameterBlockConstant(pose.translation.data());
+      problem_.SetParameterBlockConstant(pose);
     }
   }
 
@@ -232,7 +245,7 @@ class Adjustment {
       const Eigen::Vector3d sigma(prior->sigma_horizontal_m, prior->sigma_horizontal_m,
                                   prior->sigma_vertical_m);
       problem_.AddResidualBlock(PositionCost::Create(prior->position, sigma), &prior_loss_,
-                                pose.rotation.coeffs().data(), pose.translation.data());
+                                pose.values);
     }
     if (!has_priors) HoldFrame();
   }
@@ -240,19 +253,18 @@ class Adjustment {
   // Two photos that do not move hold the frame. Without any, the first one is held; with one, the
   // scale is still free and one coordinate of the photo farthest from it holds that.
   void HoldFrame() {
-    std::vector<PoseBlocks*> fixed;
+    std::vector<PoseBlock*> fixed;
     for (auto& [index, pose] : poses_) {
       if (!IsVariable(index)) fixed.push_back(&pose);
     }
     if (fixed.size() >= 2) return;
-    PoseBlocks& first = fixed.empty() ? poses_.begin()->second : *fixed[0];
-    problem_.SetParameterBlockConstant(first.rotation.coeffs().data());
-    problem_.SetParameterBlockConstant(first.translation.data());
-    const Eigen::Vector3d origin = -(first.rotation.conjugate() * first.translation);
-    PoseBlocks* farthest = nullptr;
+    PoseBlock& first = fixed.empty() ? poses_.begin()->second : *fixed[0];
+    problem_.SetParameterBlockConstant(first.values);
+    const Eigen::Vector3d origin = -(first.Rotation().conjugate() * first.Translation());
+    PoseBlock* farthest = nullptr;
     Eigen::Vector3d baseline = Eigen::Vector3d::Zero();
     for (auto& [index, pose] : poses_) {
-      const Eigen::Vector3d to_origin = pose.rotation * origin + pose.translation;
+      const Eigen::Vector3d to_origin = pose.Rotation() * origin + pose.Translation();
       if (to_origin.norm() <= baseline.norm()) continue;
       farthest = &pose;
       baseline = to_origin;
@@ -260,14 +272,15 @@ class Adjustment {
     if (farthest == nullptr) return;
     int axis = 0;
     baseline.cwiseAbs().maxCoeff(&axis);
-    subsets_.push_back(std::make_unique<ceres::SubsetManifold>(3, std::vector<int>{axis}));
-    problem_.SetManifold(farthest->translation.data(), subsets_.back().get());
+    scale_holding_ = std::make_unique<ScaleHoldingManifold>(
+        ceres::EigenQuaternionManifold(), ceres::SubsetManifold(3, std::vector<int>{axis}));
+    problem_.SetManifold(farthest->values, scale_holding_.get());
   }
 
   void WriteBack() {
-    for (const auto& [index, pose] : poses_) {
+    for (auto& [index, pose] : poses_) {
       if (IsVariable(index)) {
-        scene_.photos[index].pose = Pose{pose.rotation.normalized(), pose.translation};
+        scene_.photos[index].pose = Pose{pose.Rotation().normalized(), pose.Translation()};
       }
     }
   }
@@ -275,9 +288,10 @@ class Adjustment {
   const AdjustOptions& options_;
   Scene& scene_;
   std::vector<bool> variable_;
-  std::map<int, PoseBlocks> poses_;
+  std::map<int, PoseBlock> poses_;
   std::set<int> used_cameras_;
-  ceres::EigenQuaternionManifold quaternion_;
+  PoseManifold pose_manifold_;
+  std::unique_ptr<ScaleHoldingManifold> scale_holding_;
   std::vector<std::unique_ptr<ceres::SubsetManifold>> subsets_;
   ceres::CauchyLoss loss_{options_.loss_scale};
   ceres::CauchyLoss prior_loss_{kPriorLossScale};

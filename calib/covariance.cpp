@@ -44,17 +44,16 @@ bool Linearise(const Scene& scene, const SceneElement& element, const Eigen::Vec
   const int num_params = static_cast<int>(camera.params.size());
   const auto cost = CostOf(camera, photo.keypoints[element.keypoint], photo.keypoint_sigma_px);
   out.intrinsics.resize(2, num_params);
-  Eigen::Matrix<double, 2, 4, Eigen::RowMajor> by_quaternion;
-  Eigen::Matrix<double, 2, 3, Eigen::RowMajor> by_translation;
-  const double* blocks[] = {camera.params.data(), photo.pose->rotation.coeffs().data(),
-                            photo.pose->translation.data(), point.data()};
-  double* jacobians[] = {out.intrinsics.data(), by_quaternion.data(), by_translation.data(),
-                         out.point.data()};
+  Eigen::Matrix<double, 2, kPoseSize, Eigen::RowMajor> by_pose;
+  Eigen::Matrix<double, kPoseSize, 1> pose;
+  pose << photo.pose->rotation.coeffs(), photo.pose->translation;
+  const double* blocks[] = {camera.params.data(), pose.data(), point.data()};
+  double* jacobians[] = {out.intrinsics.data(), by_pose.data(), out.point.data()};
   if (!cost->Evaluate(blocks, out.residual.data(), jacobians)) return false;
   Eigen::Matrix<double, 4, 3, Eigen::RowMajor> plus;
   ceres::EigenQuaternionManifold().PlusJacobian(photo.pose->rotation.coeffs().data(), plus.data());
-  out.pose.leftCols<3>() = by_quaternion * plus;
-  out.pose.rightCols<3>() = by_translation;
+  out.pose.leftCols<3>() = by_pose.leftCols<4>() * plus;
+  out.pose.rightCols<3>() = by_pose.rightCols<3>();
   return true;
 }
 

@@ -74,19 +74,22 @@ Eigen::Vector2d DistortRay(const double* params, double x, double y,
   return {params[0] * distorted.x() + params[2], params[1] * distorted.y() + params[3]};
 }
 
-// (projected point - keypoint) / sigma. Blocks: intrinsics, rotation quaternion (x y z w, as Eigen
-// keeps it), translation of cam_from_world, point. Written out by hand because an adjustment spends
-// most of its time here; automatic differentiation takes about four times as long.
+// A pose as a block of Ceres: quaternion of cam_from_world (x y z w, as Eigen keeps it) and
+// translation.
+inline constexpr int kPoseSize = 7;
+
+// (projected point - keypoint) / sigma. Blocks: intrinsics, pose, point. The derivatives are
+// written out because an adjustment spends much of its time here.
 template <int kNumParams>
-class ReprojectionCost final : public ceres::SizedCostFunction<2, kNumParams, 4, 3, 3> {
+class ReprojectionCost final : public ceres::SizedCostFunction<2, kNumParams, kPoseSize, 3> {
  public:
   ReprojectionCost(const Eigen::Vector2d& keypoint, double sigma)
       : keypoint_(keypoint), inverse_sigma_(1 / sigma) {}
 
   bool Evaluate(const double* const* blocks, double* residual, double** jacobians) const override {
     const Eigen::Map<const Eigen::Quaterniond> rotation(blocks[1]);
-    const Eigen::Map<const Eigen::Vector3d> translation(blocks[2]);
-    const Eigen::Map<const Eigen::Vector3d> world(blocks[3]);
+    const Eigen::Map<const Eigen::Vector3d> translation(blocks[1] + 4);
+    const Eigen::Map<const Eigen::Vector3d> world(blocks[2]);
     const Eigen::Vector3d p = rotation * world + translation;
     if (p.z() < 1e-9) return false;
     const double x = p.x() / p.z();
@@ -102,9 +105,12 @@ class ReprojectionCost final : public ceres::SizedCostFunction<2, kNumParams, 4,
     Eigen::Matrix<double, 2, 3> by_p;
     by_p.leftCols<2>() = pixel_jacobians.by_ray * (inverse_sigma_ / p.z());
     by_p.col(2) = -(by_p.col(0) * x + by_p.col(1) * y);
-    if (jacobians[1] != nullptr) Map<4>(jacobians[1]) = by_p * RotatedByQuaternion(rotation, world);
-    if (jacobians[2] != nullptr) Map<3>(jacobians[2]) = by_p;
-    if (jacobians[3] != nullptr) Map<3>(jacobians[3]) = by_p * rotation.toRotationMatrix();
+    if (jacobians[1] != nullptr) {
+      Map<kPoseSize>(jacobians[1]).template leftCols<4>() =
+          by_p * RotatedByQuaternion(rotation, world);
+      Map<kPoseSize>(jacobians[1]).template rightCols<3>() = by_p;
+    }
+    if (jacobians[2] != nullptr) Map<3>(jacobians[2]) = by_p * rotation.toRotationMatrix();
     return true;
   }
 
@@ -137,9 +143,9 @@ struct PositionCost {
   Eigen::Vector3d inverse_sigma;
 
   template <typename T>
-  bool operator()(const T* rotation, const T* translation, T* residual) const {
-    const Eigen::Map<const Eigen::Quaternion<T>> q(rotation);
-    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> t(translation);
+  bool operator()(const T* pose, T* residual) const {
+    const Eigen::Map<const Eigen::Quaternion<T>> q(pose);
+    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> t(pose + 4);
     const Eigen::Matrix<T, 3, 1> center = -(q.conjugate() * t);
     for (int i = 0; i < 3; ++i) residual[i] = (center[i] - T(position[i])) * T(inverse_sigma[i]);
     return true;
@@ -147,7 +153,7 @@ struct PositionCost {
 
   static ceres::CostFunction* Create(const Eigen::Vector3d& position,
                                      const Eigen::Vector3d& sigma) {
-    return new ceres::AutoDiffCostFunction<PositionCost, 3, 4, 3>(
+    return new ceres::AutoDiffCostFunction<PositionCost, 3, kPoseSize>(
         new PositionCost{position, sigma.cwiseInverse()});
   }
 };

@@ -54,26 +54,24 @@ const Eigen::Vector3d kPoint(0.9, 0.7, 1.5);
 std::vector<double> AsVector(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
-std::vector<double> AsVector(const Eigen::Quaterniond& q) {
-  return {q.x(), q.y(), q.z(), q.w()};
-}
+const std::vector<double> kPose = {kRotation.x(),   kRotation.y(),    kRotation.z(),
+                                   kRotation.w(),   kTranslation.x(), kTranslation.y(),
+                                   kTranslation.z()};
 
 template <int kNumParams>
 void CheckReprojection(CameraModel model) {
   const Camera camera = MadeCamera(model);
   const Eigen::Vector2d pixel = *camera.Project(kRotation * kPoint + kTranslation);
   const ReprojectionCost<kNumParams> cost(pixel - Eigen::Vector2d(3, -1), 2.0);
-  std::vector<double> rotation = AsVector(kRotation);
-  const double* blocks[] = {camera.params.data(), rotation.data(), kTranslation.data(),
-                            kPoint.data()};
+  const double* blocks[] = {camera.params.data(), kPose.data(), kPoint.data()};
   double residual[2];
   ASSERT_TRUE(cost.Evaluate(blocks, residual, nullptr));
   EXPECT_NEAR(residual[0], 1.5, 1e-10);
   EXPECT_NEAR(residual[1], -0.5, 1e-10);
-  CheckJacobians(cost, {camera.params, rotation, AsVector(kTranslation), AsVector(kPoint)}, 1e-5);
+  CheckJacobians(cost, {camera.params, kPose, AsVector(kPoint)}, 1e-5);
 
   const Eigen::Vector3d behind(0, 0, -30);
-  blocks[3] = behind.data();
+  blocks[2] = behind.data();
   EXPECT_FALSE(cost.Evaluate(blocks, residual, nullptr));
 }
 
@@ -110,14 +108,13 @@ TEST(PositionCost, MeasuresTheCentreInStandardDeviations) {
   const Pose pose{kRotation, kTranslation};
   const Eigen::Vector3d measured = pose.Center() - Eigen::Vector3d(0.2, -0.4, 3);
   const std::unique_ptr<ceres::CostFunction> cost(PositionCost::Create(measured, {0.1, 0.2, 1.5}));
-  std::vector<double> rotation = AsVector(kRotation);
-  const double* blocks[] = {rotation.data(), kTranslation.data()};
+  const double* blocks[] = {kPose.data()};
   double residual[3];
   ASSERT_TRUE(cost->Evaluate(blocks, residual, nullptr));
   EXPECT_NEAR(residual[0], 2, 1e-9);
   EXPECT_NEAR(residual[1], -2, 1e-9);
   EXPECT_NEAR(residual[2], 2, 1e-9);
-  CheckJacobians(*cost, {rotation, AsVector(kTranslation)}, 1e-6);
+  CheckJacobians(*cost, {kPose}, 1e-6);
 }
 
 template <int kNumParams>
