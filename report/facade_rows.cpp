@@ -18,6 +18,8 @@ namespace {
 // How far a picture may be from a facet's plane and outline: its outermost texels stick out.
 constexpr double kFitSlack_px = 2;
 constexpr double kFitCosine = 0.9999;
+// A picture whose texels are this much larger than its photos' shows visibly less than they do.
+constexpr double kCoarseAbove = 1.25;
 
 // A measure that is bad when it is high, or, with `low_is_bad`, when it is low.
 struct Limit {
@@ -79,6 +81,13 @@ class Judge {
           return fmt::format("{} filled in without a photo (limit {})", Percent(value),
                              Percent(bound));
         });
+    const double coarser = texture.metres_per_texel / texture.wanted_metres_per_texel;
+    if (texture.wanted_metres_per_texel > 0 && coarser > kCoarseAbove) {
+      row.findings.push_back(
+          {Verdict::kAmber, fmt::format("picture {:.1f} times coarser than the photos: raise "
+                                        "texture.max_texture_px",
+                                        coarser)});
+    }
     if (texture.misregistration_px >= 0) {
       Add(row, {options_.misregistration_amber_above, options_.misregistration_red_above},
           texture.misregistration_px, [](double value, double bound) {

@@ -143,6 +143,19 @@ int PictureSide_px(int wanted_px, size_t count) {
   return std::min(wanted_px, std::max(240, static_cast<int>(shrunk)));
 }
 
+int PictureThreads(const std::vector<FacadeRow>& rows, int threads, uint64_t memory_limit_bytes) {
+  // The picture as read and with its channels turned round, and the label map.
+  constexpr uint64_t kBytesPerTexel = 3 + 3 + 1;
+  uint64_t largest = 1;
+  for (const FacadeRow& row : rows) {
+    if (!row.IsPainted()) continue;
+    largest = std::max(largest, kBytesPerTexel * static_cast<uint64_t>(row.texture->width_px) *
+                                    static_cast<uint64_t>(row.texture->height_px));
+  }
+  const uint64_t fit = std::max<uint64_t>(1, memory_limit_bytes / largest);
+  return static_cast<int>(std::min<uint64_t>(fit, static_cast<uint64_t>(std::max(1, threads))));
+}
+
 FacadePictures MakeFacadePictures(const FacadeRow& row, const std::filesystem::path& texture_folder,
                                   int picture_px) {
   FacadePictures pictures;

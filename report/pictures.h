@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -35,6 +36,10 @@ inline constexpr char kInpaintedColor[] = "#b9b9b9";
 // picture empty and names the problem; never throws for what the files hold.
 FacadePictures MakeFacadePictures(const FacadeRow& row, const std::filesystem::path& texture_folder,
                                   int picture_px);
+
+// How many of `threads` may make pictures at once within the memory limit: textures are read in
+// full size, whose bytes follow from textures.json.
+int PictureThreads(const std::vector<FacadeRow>& rows, int threads, uint64_t memory_limit_bytes);
 
 // Longer side of the pictures so that the page of `count` facades stays of a size that browsers
 // open at once: `wanted_px`, or less when there are many.

@@ -23,7 +23,8 @@ std::vector<FacadePictures> MakePictures(const std::vector<FacadeRow>& rows,
   const int side_px = PictureSide_px(options.picture_px, rows.size());
   std::vector<FacadePictures> pictures(rows.size());
   context.progress->Begin("facade pictures", rows.size());
-  ParallelFor(rows.size(), context.threads, [&](size_t i) {
+  const int threads = PictureThreads(rows, context.threads, context.memory_limit_bytes);
+  ParallelFor(rows.size(), threads, [&](size_t i) {
     context.ThrowIfCancelled();
     pictures[i] = MakeFacadePictures(rows[i], context.survey / "texture", side_px);
     context.progress->Advance();

@@ -113,6 +113,21 @@ TEST(MakeFacadeRows, NotANumberIsRed) {
   EXPECT_EQ(FirstRow(data).verdict, Verdict::kRed);
 }
 
+TEST(MakeFacadeRows, PicturesCoarserThanTheirPhotosAreAmber) {
+  SurveyData data = GoodWalls();
+  TexturedFacet& texture = data.textures->facets[0];
+  texture.metres_per_texel = 0.024;
+  texture.wanted_metres_per_texel = 0.01;
+  EXPECT_EQ(FirstRow(data).verdict, Verdict::kAmber);
+  ASSERT_EQ(FirstRow(data).findings.size(), 1U);
+  EXPECT_EQ(FirstRow(data).findings[0].text,
+            "picture 2.4 times coarser than the photos: raise texture.max_texture_px");
+  texture.metres_per_texel = 0.011;
+  EXPECT_EQ(FirstRow(data).verdict, Verdict::kGreen);
+  texture.wanted_metres_per_texel = 0;  // written by an older version
+  EXPECT_EQ(FirstRow(data).verdict, Verdict::kGreen);
+}
+
 TEST(MakeFacadeRows, OnePhotoHasNoMisfit) {
   SurveyData data = GoodWalls();
   data.textures->facets[0].misregistration_px = -1;

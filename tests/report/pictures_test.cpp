@@ -42,6 +42,19 @@ TEST_F(Pictures, AreEmbeddedAtTheirSize) {
   EXPECT_LT(pictures.thumbnail.uri.size(), 20000U);
 }
 
+TEST_F(Pictures, AreReadByAsManyThreadsAsFitIntoMemory) {
+  made_.textures.facets[0].width_px = 8192;
+  made_.textures.facets[0].height_px = 8192;
+  FacadeRow unpainted;
+  const std::vector<FacadeRow> rows = {unpainted, row_, unpainted};
+  const uint64_t gigabyte = uint64_t{1} << 30;
+  EXPECT_EQ(PictureThreads(rows, 16, 64 * gigabyte), 16);
+  EXPECT_EQ(PictureThreads(rows, 16, gigabyte), 2);  // 7 bytes for each of 64 M texels
+  EXPECT_EQ(PictureThreads(rows, 16, 1), 1);
+  EXPECT_EQ(PictureThreads({unpainted}, 16, gigabyte), 16);
+  EXPECT_EQ(PictureThreads({}, 0, 0), 1);
+}
+
 TEST_F(Pictures, SharesAreThoseOfTheLabelMap) {
   const auto shares = Make().photo_shares;
   ASSERT_EQ(shares.size(), 3U);
