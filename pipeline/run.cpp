@@ -157,6 +157,8 @@ class Runner {
       if (e.kind() != ErrorKind::kInterrupted) {
         throw;
       }
+      events_.Write("interrupted", {{"stage", stage.name}});
+      console_.Warning(fmt::format("{}; what was finished is kept", e.what()));
       result_.interrupted = true;
     }
   }

@@ -174,6 +174,29 @@ TEST(Interrupt, StopsResumablyWithItsExitCode) {
   }
 }
 
+// A stream that interrupts the program when it tells of hashing.
+ssize_t InterruptAtHashing(void*, const char* text, size_t size) {
+  if (std::string_view(text, size).find("hashing photos") != std::string_view::npos) {
+    SetInterrupted(true);
+  }
+  return static_cast<ssize_t>(size);
+}
+
+TEST(Interrupt, StopsAlsoWhilePhotosAreHashed) {
+  FakeSurvey fake;
+  std::FILE* stream = fopencookie(nullptr, "w", {nullptr, InterruptAtHashing, nullptr, nullptr});
+  ASSERT_NE(stream, nullptr);
+  Console console(stream, false, Verbosity::kNormal);
+  const RunResult result = stucco::Run(fake.survey, fake.table, {}, console);
+  SetInterrupted(false);
+  std::fclose(stream);
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(fake.Events("interrupted").size(), 1u);
+  EXPECT_TRUE(fake.Outputs().empty());
+  EXPECT_EQ(fake.Run().exit_code, 0);
+}
+
 TEST(Outputs, WorkWithoutTheExchangeOperation) {
   FakeSurvey fake;
   ForbidFolderExchange(true);
