@@ -98,6 +98,47 @@ class BadInput(stucco.TestCase):
         self.assertNotIn("notes.txt", captures)
         self.assertEqual(sum(photo["usable"] for photo in captures.values()), 3)
 
+    def test_a_folder_that_cannot_be_read_costs_only_itself(self):
+        photos = self.photo_folder(3)
+        locked = photos / "locked"
+        locked.mkdir()
+        locked.chmod(0)
+        self.addCleanup(locked.chmod, 0o755)
+        self.root.chmod(0o777)
+        # Root reads everything.
+        user = {"user": 65534} if os.geteuid() == 0 else {}
+        survey = self.root / "survey"
+        try:
+            self.check(stucco.run("init", survey, "--photos", photos, **user))
+        except PermissionError:
+            self.skipTest("another user cannot start the program here")
+        process = self.check(stucco.run("check", survey, **user))
+        self.assertIn("locked: the folder cannot be read", process.stdout)
+        self.assertIn("Ready", process.stdout)
+        process = self.check(stucco.run("ingest", survey, **user))
+        self.assertIn("locked is not used: the folder cannot be read", process.stderr)
+        captures = self.captures(survey)
+        self.assertFalse(captures["locked"]["usable"])
+        self.assertEqual(sum(photo["usable"] for photo in captures.values()), 3)
+
+    def test_photos_and_folders_of_the_user_are_never_replaced(self):
+        project = self.root / "project"
+        project.mkdir()
+        photos = self.photo_folder(3, "project/ingest")
+        self.watch(photos)
+        self.refused(stucco.run("init", project, "--photos", photos), 3, "which a run replaces",
+                     "move the photos")
+        self.refused(stucco.run("init", project, "--photos", self.photo_folder(3)), 3,
+                     "already has an entry ingest")
+        survey = self.init(self.root / "photos")
+        settings = survey / "survey.toml"
+        settings.write_text(settings.read_text().replace('photos = "', 'photos = "calib" # ', 1))
+        shutil.copytree(photos, survey / "calib")
+        self.watch(survey / "calib")
+        for words in (["check", survey], ["run", survey]):
+            process = self.check(stucco.run(*words), 3)
+            self.assertIn("which a run replaces", process.stdout + process.stderr)
+
     def test_only_bad_files(self):
         photos = self.root / "bad"
         photos.mkdir()
