@@ -18,10 +18,19 @@ namespace {
 
 constexpr int kCellSplit = 4;         // raster texels per cell side
 constexpr double kMostCells = 20000;  // of one facet
-// Bounds on what selection holds, about 60 bytes per view of a raster texel and 4 per seam.
+// Bounds on what selection holds.
 constexpr double kMostRasterViews = 1e7;  // raster texels times candidates
 constexpr double kMostSeams = 1e8;        // cells times two directions times pairs of candidates
 constexpr int kAlignSide = 1600;          // longest side of the alignment raster
+// Memory: bytes per texel of the picture (with masks, rasters, encoded files), per raster texel and
+// candidate, per seam, per texel of an aligned photo and of one being resampled, per photo pixel
+// (three channels and their halvings).
+constexpr double kBytesPerTexel = 24;
+constexpr double kBytesPerRasterView = 60;
+constexpr double kBytesPerSeam = 4;
+constexpr double kBytesPerAligned = 2;
+constexpr double kBytesPerSample = 13;
+constexpr double kBytesPerPhotoPixel = 4;
 constexpr int kPatchFillSide = 512;
 constexpr double kMostPatchFilled = 0.5;  // of the facet: beyond, copies would be invention
 constexpr uint32_t kFillSeed = 20260101;
@@ -232,6 +241,29 @@ void FillAndCount(const TextureOptions& options, PaintedFacet& painted) {
 }
 
 }  // namespace
+
+uint64_t PaintingBytes(const Facet& facet, const FacetLook& look, const PaintScene& scene,
+                       const TextureOptions& options) {
+  if (look.candidates.empty()) return 0;
+  const TexelGrid grid = MakeGrid(facet, scene.up, look.texel, options.max_texture_px);
+  const auto texels = static_cast<double>(grid.size());
+  const auto count = static_cast<double>(look.candidates.size());
+  const double step = CellSide(grid, options.cell_px, look.candidates.size()) / kCellSplit;
+  const double raster = texels / (step * step);
+  const double cells = raster / (kCellSplit * kCellSplit);
+  double shown = 0;
+  double photo_px = 0;
+  for (const Candidate& candidate : look.candidates) {
+    const Camera& camera = scene.photos[candidate.photo].camera;
+    shown += candidate.seen;
+    photo_px = std::max(photo_px, static_cast<double>(camera.width_px) * camera.height_px);
+  }
+  const double aligned = std::min(texels, static_cast<double>(kAlignSide) * kAlignSide);
+  return static_cast<uint64_t>(kBytesPerTexel * texels + kBytesPerRasterView * raster * count +
+                               kBytesPerSeam * 2 * cells * count * count +
+                               aligned * (kBytesPerAligned * shown + kBytesPerSample) +
+                               kBytesPerPhotoPixel * photo_px);
+}
 
 PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
                         std::span<const Eigen::Vector3d> gains, const PaintScene& scene,

@@ -31,6 +31,12 @@ struct PaintedFacet {
   AchievedQuality quality;
 };
 
+// About what PaintFacet holds at once, besides the photo cache: the facet's picture, the rasters
+// and seams of the selection, those of the alignment, and the photo that is being read in full
+// size.
+uint64_t PaintingBytes(const Facet& facet, const FacetLook& look, const PaintScene& scene,
+                       const TextureOptions& options);
+
 // Paints one facet with its candidates: selection, alignment, composition, filling, measures.
 // `gains` are per photo of the survey. No picture where no texel could be painted.
 PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,

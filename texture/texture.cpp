@@ -26,9 +26,7 @@ namespace {
 
 // Widest rasters in which points of the cloud in front of facets are looked up.
 constexpr int kNearestWidth = 640;
-// Bytes that painting needs per texel of a facet: picture, masks, rasters, encoded files.
-constexpr uint64_t kBytesPerTexel = 24;
-// That putting a finished picture into the model needs: decoded and turned round.
+// Bytes per texel that putting a finished picture into the model needs: decoded and turned round.
 constexpr uint64_t kBytesPerEncodedTexel = 9;
 
 // A picture this much coarser than its photos is worth a note.
@@ -92,9 +90,7 @@ int PaintingThreads(const std::vector<const Facet*>& facets, const std::vector<F
                     const StageContext& context) {
   uint64_t largest = 1;
   for (size_t i = 0; i < facets.size(); ++i) {
-    if (looks[i].candidates.empty()) continue;
-    const TexelGrid grid = MakeGrid(*facets[i], scene.up, looks[i].texel, options.max_texture_px);
-    largest = std::max(largest, kBytesPerTexel * grid.size());
+    largest = std::max(largest, PaintingBytes(*facets[i], looks[i], scene, options));
   }
   return ThreadsThatFit(largest, context);
 }
