@@ -154,7 +154,7 @@ Proxy AbstractCloud(const PointCloud& cloud, const Stations& stations, const Geo
 }
 
 int PointsWithin(uint64_t memory_limit_bytes, int max_points) {
-  constexpr uint64_t kBytesPerPoint = 1000;  // measured on a million: samples, grids, rasters
+  constexpr uint64_t kBytesPerPoint = 400;  // 220 measured on 1.8 million, and some to spare
   constexpr uint64_t kFewest = 100000;
   const uint64_t room = std::max(kFewest, memory_limit_bytes / 2 / kBytesPerPoint);
   return static_cast<int>(std::min<uint64_t>(room, static_cast<uint64_t>(max_points)));

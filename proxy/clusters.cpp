@@ -66,8 +66,10 @@ Extent ExtentOf(const Samples& samples, const Eigen::Vector3d& up, const Plane* 
 Clusters SplitIntoBuildings(const Samples& samples, const Tolerances& tolerances,
                             const Eigen::Vector3d& up, std::span<const Plane> ground,
                             const std::vector<Plane>& planes) {
-  constexpr double kFewestAreas = 12;   // of min_area
-  constexpr double kFewestDetails = 6;  // height in levels of detail
+  // Cars are less than 12 times min_area and 6 levels of detail high. Points far apart raise those
+  // two; cars do not grow with them, but a building must still be several facets.
+  const double fewest_areas = std::max(3.0, 12 / (tolerances.coarseness * tolerances.coarseness));
+  const double fewest_details = std::max(2.0, 6 / tolerances.coarseness);
   const Eigen::Vector3d east = AnyPerpendicular(up);
   const Eigen::Vector3d north = up.cross(east);
   const auto cell_of = [&](int i) {
@@ -101,9 +103,9 @@ Clusters SplitIntoBuildings(const Samples& samples, const Tolerances& tolerances
   std::vector<std::pair<double, std::vector<Plane>>> sized;
   for (auto& [label, group] : groups) {
     const Extent extent = ExtentOf(samples, up, GroundBelow(samples, up, ground, group), group);
-    if (extent.area < kFewestAreas * tolerances.min_area ||
+    if (extent.area < fewest_areas * tolerances.min_area ||
         std::max(extent.high - extent.low, extent.above_ground) <
-            kFewestDetails * tolerances.level_of_detail) {
+            fewest_details * tolerances.level_of_detail) {
       ++clusters.dropped;
       continue;
     }

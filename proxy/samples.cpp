@@ -59,6 +59,16 @@ uint64_t CellOf(const Eigen::Vector3d& point, const Box& box, double cell) {
   return key;
 }
 
+// Keys of neighbouring cells differ in few bits, of which the standard hash makes long chains
+// (the finaliser of MurmurHash3, Appleby 2011).
+struct MixedHash {
+  size_t operator()(uint64_t key) const {
+    key = (key ^ key >> 33) * 0xff51afd7ed558ccd;
+    key = (key ^ key >> 33) * 0xc4ceb9fe1a85ec53;
+    return key ^ key >> 33;
+  }
+};
+
 // The key of the cell of twice the size around a cell.
 uint64_t Coarser(uint64_t key) {
   constexpr uint64_t kAxis = (uint64_t{1} << kBitsPerAxis) - 1;
@@ -79,13 +89,13 @@ struct CellCount {
 // Counts the cells with points; doubles their size whenever there are more than `most`.
 CellCount CountCells(const PointStream& stream, const Box& box, double cell, size_t most) {
   CellCount result{.cell = cell};
-  std::unordered_set<uint64_t> keys;
+  std::unordered_set<uint64_t, MixedHash> keys;
   stream.for_each([&](const CloudPoint& point) {
     if (!box.Contains(point.position)) return;
     ++result.kept;
     keys.insert(CellOf(point.position, box, result.cell));
     if (keys.size() <= most) return;
-    std::unordered_set<uint64_t> coarser;
+    std::unordered_set<uint64_t, MixedHash> coarser;
     for (const uint64_t key : keys) coarser.insert(Coarser(key));
     keys.swap(coarser);
     result.cell *= 2;
@@ -138,7 +148,7 @@ struct CellSums {
 CellSums SumCells(const PointStream& stream, const Stations& stations, const Box& box, double cell,
                   size_t most) {
   CellSums result;
-  std::unordered_map<uint64_t, size_t> place;
+  std::unordered_map<uint64_t, size_t, MixedHash> place;
   size_t number = 0;
   stream.for_each([&](const CloudPoint& point) {
     const size_t i = number++;

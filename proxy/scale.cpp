@@ -102,7 +102,9 @@ Tolerances DeriveTolerances(const CloudScale& scale, bool metric, const ProxyOpt
   constexpr double kDetailPerDistance = 0.008;
   constexpr double kDetailPerExtent = 0.008;
   constexpr double kSpacingsPerDetail = 2;  // cells of the rasters are two spacings wide
-  constexpr double kDetailsPerGap = 5;
+  constexpr double kSpacingsPerGap = 6;
+  constexpr double kSpacingsPerSide = 7;  // of the smallest facet
+  constexpr double kDetails = 5;          // per gap, and per side
   Tolerances t;
   t.spacing = scale.spacing;
   t.level_of_detail = options.level_of_detail;
@@ -110,20 +112,24 @@ Tolerances DeriveTolerances(const CloudScale& scale, bool metric, const ProxyOpt
     t.level_of_detail = metric                       ? kDetail_m
                         : scale.viewing_distance > 0 ? kDetailPerDistance * scale.viewing_distance
                                                      : kDetailPerExtent * scale.extent;
-    t.level_of_detail =
-        std::max({t.level_of_detail, 3 * scale.noise, kSpacingsPerDetail * scale.spacing});
+    t.level_of_detail = std::max(t.level_of_detail, 3 * scale.noise);
   }
-  const double gap =
-      kDetailsPerGap * std::max(t.level_of_detail, kSpacingsPerDetail * scale.spacing);
+  const double wanted = t.level_of_detail;
+  if (options.level_of_detail <= 0) {
+    t.level_of_detail = std::max(wanted, kSpacingsPerDetail * scale.spacing);
+  }
+  t.coarseness = t.level_of_detail / wanted;
+  const double gap = std::max(kDetails * wanted, kSpacingsPerGap * scale.spacing);
+  const double side = std::max(kDetails * wanted, kSpacingsPerSide * scale.spacing);
   t.epsilon = options.epsilon > 0 ? options.epsilon : t.level_of_detail / 2;
-  t.min_area = options.min_area > 0 ? options.min_area : gap * gap;
+  t.min_area = options.min_area > 0 ? options.min_area : side * side;
   t.fill_gap = options.fill_gap > 0 ? options.fill_gap : gap;
   t.radius = 3 * scale.spacing;
   return t;
 }
 
 int LeastPoints(const Tolerances& tolerances) {
-  constexpr double kShare = 0.3;  // of the points that the smallest area has room for
+  constexpr double kShare = 0.4;  // of the points that the smallest area has room for
   const double room = tolerances.min_area / (tolerances.spacing * tolerances.spacing);
   return static_cast<int>(std::clamp(kShare * room, 12.0, 60.0));
 }

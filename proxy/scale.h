@@ -26,12 +26,13 @@ struct Tolerances {
   double min_area = 0;
   double fill_gap = 0;
   double spacing = 0;
-  double radius = 0;  // neighbours for growing and smoothing
+  double radius = 0;      // neighbours for growing and smoothing
+  double coarseness = 1;  // level_of_detail over what it would be with denser points
 };
 
 // What the options leave open follows from the scale of the cloud, and from its spacing where that
-// is coarse: nothing smaller than two spacings can be told, no gap under ten of them is a gap, and
-// no facet is less than ten by ten. What the options say is taken as it is.
+// is coarse: nothing smaller than two spacings can be told, no gap under six of them is a gap, and
+// no facet is less than seven by seven. What the options say is taken as it is.
 Tolerances DeriveTolerances(const CloudScale& scale, bool metric, const ProxyOptions& options);
 
 // Points that a plane of the smallest area must have at least, between 12 and 60.

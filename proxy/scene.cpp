@@ -63,8 +63,9 @@ void WarnOfCoarseness(const CloudScale& scale, const Georef& georef, const Proxy
   dense.spacing = 0;
   const Tolerances wanted = DeriveTolerances(dense, georef.metric, options);
   const Tolerances& got = scene.tolerances;
-  if (!(got.fill_gap > wanted.fill_gap || got.min_area > wanted.min_area ||
-        got.level_of_detail > wanted.level_of_detail)) {
+  constexpr double kWorthAWord = 1.25;
+  if (got.level_of_detail <= kWorthAWord * wanted.level_of_detail &&
+      got.fill_gap <= kWorthAWord * wanted.fill_gap) {
     return;
   }
   findings.warnings.push_back(fmt::format(
@@ -72,7 +73,7 @@ void WarnOfCoarseness(const CloudScale& scale, const Georef& georef, const Proxy
       "gaps are closed up to {:.3g}, facets below an area of {:.3g} are left out. {}",
       scale.spacing, georef.metric ? "m" : "units", got.level_of_detail, wanted.level_of_detail,
       got.fill_gap, got.min_area,
-      scene.samples.cell > 0 ? "Raise proxy.max_points (a million points take about 1 GB), or "
+      scene.samples.cell > 0 ? "Raise proxy.max_points (a million points take about 0.3 GB), or "
                                "divide the survey."
                              : "A finer dense quality gives more points."));
 }

@@ -280,6 +280,19 @@ TEST(SplitIntoBuildings, KeepsAHouseBesideAHall) {
   EXPECT_EQ(clusters.dropped, 0);
 }
 
+TEST(SplitIntoBuildings, KeepsAHouseThatFewPointsShow) {
+  Planes p;
+  p.Add({0, 0, 3.5}, -Vector3d::UnitY(), 10, 7);
+  p.Add({5, 4, 3.5}, Vector3d::UnitX(), 8, 7);
+  p.Add({0, 4, 7}, Vector3d::UnitZ(), 10, 8);
+  p.tolerances.level_of_detail = 1.2;
+  p.tolerances.min_area = 18;
+  p.tolerances.coarseness = 4;
+  EXPECT_EQ(
+      SplitIntoBuildings(p.samples, p.tolerances, Vector3d::UnitZ(), {}, p.planes).buildings.size(),
+      1u);
+}
+
 TEST(SplitIntoBuildings, SplitsAWallPlaneThatTwoHousesShare) {
   Planes p;
   p.Add({0, 0, 3}, -Vector3d::UnitY(), 10, 6);

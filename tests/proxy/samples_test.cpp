@@ -136,14 +136,14 @@ TEST(DeriveTolerances, GrowTogetherWithACoarseSpacing) {
   const Tolerances derived = DeriveTolerances(coarse, true, {});
   EXPECT_DOUBLE_EQ(derived.level_of_detail, 1.4);
   EXPECT_DOUBLE_EQ(derived.epsilon, 0.7);
-  EXPECT_DOUBLE_EQ(derived.fill_gap, 7);
-  EXPECT_DOUBLE_EQ(derived.min_area, 49);
-  EXPECT_EQ(LeastPoints(derived), 30);
+  EXPECT_DOUBLE_EQ(derived.fill_gap, 4.2);
+  EXPECT_NEAR(derived.min_area, 24.01, 1e-9);
+  EXPECT_EQ(LeastPoints(derived), 19);
   // What the user says stays; only the rest follows the spacing.
   const Tolerances given = DeriveTolerances(coarse, true, {.level_of_detail = 0.3, .min_area = 5});
   EXPECT_DOUBLE_EQ(given.level_of_detail, 0.3);
   EXPECT_DOUBLE_EQ(given.min_area, 5);
-  EXPECT_DOUBLE_EQ(given.fill_gap, 7);
+  EXPECT_DOUBLE_EQ(given.fill_gap, 4.2);
   EXPECT_EQ(LeastPoints(given), 12);
   const CloudScale fine{.spacing = 0.06, .noise = 0.01, .viewing_distance = 60, .extent = 700};
   EXPECT_DOUBLE_EQ(DeriveTolerances(fine, true, {}).min_area, 2.25);
@@ -152,7 +152,7 @@ TEST(DeriveTolerances, GrowTogetherWithACoarseSpacing) {
 
 TEST(PointsWithin, HoldToTheMemoryLimit) {
   EXPECT_EQ(PointsWithin(uint64_t{4} << 30, 2000000), 2000000);
-  EXPECT_EQ(PointsWithin(uint64_t{1} << 30, 2000000), 536870);
+  EXPECT_EQ(PointsWithin(uint64_t{1} << 30, 2000000), 1342177);
   EXPECT_EQ(PointsWithin(1, 2000000), 100000);
   EXPECT_EQ(PointsWithin(uint64_t{1} << 40, 5000), 5000);
 }
