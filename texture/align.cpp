@@ -203,29 +203,63 @@ std::vector<GridMatch> BelievedMatches(std::span<const GridMatch> matches) {
   return believed;
 }
 
-// Takes terms from the pictures that move too far, or all terms from the one that moves farthest
-// when none has terms to spare; the others start anew then. False where no picture moves too far.
-bool TakeTerms(std::span<const GridShift> shifts, std::span<const GridArea> areas, double limit_px,
-               std::vector<int>& terms) {
-  size_t worst = 0;
+// The picture that moves farthest beyond the limit, -1 where none does.
+int FindTooFar(std::span<const GridShift> shifts, std::span<const GridArea> areas,
+               double limit_px) {
+  int found = -1;
   double farthest = limit_px;
-  bool spared = false;
   for (size_t i = 0; i < shifts.size(); ++i) {
     const double shift = LargestShift(shifts[i], areas[i]);
-    if (shift <= limit_px) continue;
-    if (!(shift <= farthest)) {
-      farthest = shift;
-      worst = i;
-    }
-    if (terms[i] <= 2) continue;
-    terms[i] = terms[i] == 8 ? 6 : 2;
-    spared = true;
+    if (shift <= farthest) continue;
+    farthest = shift;
+    found = static_cast<int>(i);
   }
-  if (spared) return true;
-  if (farthest <= limit_px) return false;
-  for (int& count : terms) count = count > 0 ? 8 : 0;
-  terms[worst] = 0;
-  return true;
+  return found;
+}
+
+// Solves for the pictures that have terms, taking them from the one that moves farthest as long as
+// one moves too far.
+std::vector<GridShift> SolveTogether(std::vector<GridMatch> matches,
+                                     std::span<const GridArea> areas,
+                                     const std::vector<GridShift>& start, double limit_px,
+                                     std::vector<int>& terms) {
+  while (true) {
+    std::erase_if(matches, [&](const GridMatch& m) { return terms[m.a] == 0 || terms[m.b] == 0; });
+    std::vector<GridShift> shifts = SolveShifts(matches, start, terms, limit_px);
+    const int too_far = FindTooFar(shifts, areas, limit_px);
+    if (too_far < 0) return shifts;
+    terms[too_far] = 0;
+  }
+}
+
+// The matches of a picture that was left out with those that have terms, whose shifts are applied.
+std::vector<GridMatch> MatchesAgainst(std::span<const GridMatch> matches, int picture,
+                                      std::span<const int> terms,
+                                      std::span<const GridShift> shifts) {
+  std::vector<GridMatch> own;
+  for (GridMatch match : matches) {
+    const int other = match.a == picture ? match.b : match.a;
+    if ((match.a != picture && match.b != picture) || terms[other] == 0) continue;
+    const Eigen::Vector2d moved = shifts[other].At((match.in_a + match.in_b) / 2);
+    (match.a == other ? match.in_a : match.in_b) -= moved;
+    own.push_back(match);
+  }
+  return own;
+}
+
+// The shift of one picture by its own matches, in six or two terms; identity where neither keeps to
+// the limit. `start` are identities.
+GridShift FitAlone(std::span<const GridMatch> own, int picture, const GridArea& area,
+                   const std::vector<GridShift>& start, double limit_px) {
+  if (own.empty()) return start[picture];
+  for (int count : {6, 2}) {
+    std::vector<int> terms(start.size(), 0);
+    terms[picture] = count;
+    const std::vector<GridShift> fitted = SolveShifts(own, start, terms, limit_px);
+    if (!(LargestShift(fitted[picture], area) <= limit_px)) continue;
+    if (MedianResidual(own, fitted) < MedianResidual(own, start)) return fitted[picture];
+  }
+  return start[picture];
 }
 
 }  // namespace
@@ -269,17 +303,25 @@ Alignment SolveAlignment(std::span<const GridMatch> matches, std::span<const Gri
   out.after_px = out.before_px;
   if (!(limit_px > 0)) return out;
 
-  std::vector<int> terms(areas.size(), 8);
-  std::vector<GridMatch> kept = believed;
-  std::vector<GridShift> shifts;
-  do {
-    std::erase_if(kept, [&](const GridMatch& m) { return terms[m.a] == 0 || terms[m.b] == 0; });
-    if (kept.empty()) return out;
-    shifts = SolveShifts(kept, out.shifts, terms, limit_px);
-  } while (TakeTerms(shifts, areas, limit_px, terms));
-  if (!(MedianResidual(kept, shifts) < MedianResidual(kept, out.shifts))) return out;
-  out.shifts = std::move(shifts);
-  out.after_px = MedianResidual(believed, out.shifts);
+  const auto is_left_out = [](int count) { return count == 0; };
+  for (int count : {8, 6, 2}) {
+    std::vector<int> terms(areas.size(), count);
+    std::vector<GridShift> shifts = SolveTogether(believed, areas, out.shifts, limit_px, terms);
+    // When most pictures move too far it is the terms that are wrong, not the pictures.
+    const auto left_out = std::count_if(terms.begin(), terms.end(), is_left_out);
+    if (2 * static_cast<size_t>(left_out) >= areas.size() && count > 2) continue;
+    for (size_t i = 0; i < areas.size(); ++i) {
+      if (!is_left_out(terms[i])) continue;
+      const int picture = static_cast<int>(i);
+      const std::vector<GridMatch> own = MatchesAgainst(believed, picture, terms, shifts);
+      shifts[i] = FitAlone(own, picture, areas[i], out.shifts, limit_px);
+    }
+    const double after = MedianResidual(believed, shifts);
+    if (!(after < out.before_px)) continue;
+    out.shifts = std::move(shifts);
+    out.after_px = after;
+    break;
+  }
   return out;
 }
 

@@ -49,10 +49,11 @@ struct Alignment {
 
 // One smooth shift per picture that brings matched details together, all pictures at once: least
 // squares with a prior on identity (so that no picture is the reference and errors of poses and
-// proxy are shared), reweighted by Geman-McClure's function. A shift that would move a corner of
-// what its picture shows (`areas`) by more than `limit_px` is not believed: the picture gets six
-// terms (affine) instead of eight (homography), then two, then stays where it is, without its
-// matches, and the others are solved anew. Pairs with fewer than eight matches do not count.
+// proxy are shared), reweighted by Geman-McClure's function; with eight terms (homography), or six
+// (affine), or two. A shift that would move a corner of what its picture shows (`areas`) by more
+// than `limit_px` is not believed: that picture is left out and the others are solved anew, then it
+// is fitted to them with fewer terms if that keeps to the limit. When most would be left out, all
+// get fewer terms instead. Pairs with fewer than eight matches do not count.
 Alignment SolveAlignment(std::span<const GridMatch> matches, std::span<const GridArea> areas,
                          const Eigen::Vector2d& raster_size, double limit_px);
 

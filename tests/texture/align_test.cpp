@@ -145,6 +145,27 @@ TEST(SolveAlignment, LeavesOutOneBadPictureAndAlignsTheRest) {
   EXPECT_LT(alignment.after_px, alignment.before_px);
 }
 
+// One picture whose matches cover a corner of what it shows bends too far elsewhere.
+TEST(SolveAlignment, FitsAPictureThatBendsTooFarWithFewerTerms) {
+  const std::vector<GridShift> truth = {MakeShift({}), MakeShift({3, 1, 1, 0, 0, 1, 2, 1}),
+                                        MakeShift({-2, 2, 0, 1}), MakeShift({2, 2})};
+  std::vector<GridMatch> matches;
+  for (GridMatch match : MatchesFor(truth, 400, 0, 0)) {
+    if (match.b == 3) {
+      if (match.in_a.norm() > 150) continue;
+      const double bend = match.in_a.x() / 60;
+      match.in_b.x() -= bend * bend;
+    }
+    matches.push_back(match);
+  }
+  const Alignment alignment = SolveAlignment(matches, Whole(4), kSize, 8);
+  EXPECT_LT(RelativeError(alignment, truth[1]), 0.1);  // in all its eight terms
+  EXPECT_FALSE(alignment.shifts[3].IsZero());
+  for (const GridShift& shift : alignment.shifts) {
+    for (double x : {0.0, 400.0}) EXPECT_LE(shift.At({x, 300}).norm(), 8);
+  }
+}
+
 TEST(MatchPictures, MatchesPicturesOfPartsOfTheRaster) {
   const std::vector<GreyPicture> whole = {Shifted(MakeShift({})), Shifted(MakeShift({2.3, -1.6}))};
   GreyPicture part{250, 200, {}, std::vector<uint8_t>(250 * 200, 1), 150, 40};
