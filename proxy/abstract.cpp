@@ -171,6 +171,10 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
   ProxyFindings findings;
   ProxyOptions affordable = options;
   affordable.max_points = PointsWithin(context.memory_limit_bytes, options.max_points);
+  if (affordable.max_points < options.max_points) {
+    findings.notes.push_back(fmt::format("run.memory_limit_gb allows {} points of max_points {}",
+                                         affordable.max_points, options.max_points));
+  }
   const Proxy proxy = AbstractCloud(cloud, stations, georef, affordable, context.threads, findings);
   for (const auto& note : findings.notes) progress.Note(note);
   for (const auto& warning : findings.warnings) progress.Warn(warning);
