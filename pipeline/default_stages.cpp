@@ -17,7 +17,6 @@ Stage IngestStage() {
   Stage stage;
   stage.name = "ingest";
   stage.title = "the list of photos with metadata and health";
-  stage.version = 2;
   stage.photos_are_input = true;
   stage.opens_photos = true;
   stage.cost = {

@@ -24,7 +24,7 @@ std::string FileItem(const std::string& path, const char* what) {
 
 std::string TimeCells(const StageStatus& status) {
   const std::string memory =
-      status.peak_memory_mb >= 0 ? fmt::format("{:.0f} MB", status.peak_memory_mb) : "-";
+      status.peak_memory_mb >= 0 ? fmt::format("{:.0f} MiB", status.peak_memory_mb) : "-";
   return fmt::format("<td class=\"num\">{}</td><td class=\"num\">{}</td><td class=\"num\">{}</td>",
                      Duration(status.wall_s), Duration(status.cpu_s), memory);
 }
