@@ -211,7 +211,7 @@ TEST_F(Report, TimesOnlyOnRequest) {
   EXPECT_FALSE(Has(Page(), "3 min 20 s"));
   Run({.record_times = true}, {done});
   EXPECT_TRUE(Has(Page(), "3 min 20 s"));
-  EXPECT_TRUE(Has(Page(), "777 MB"));
+  EXPECT_TRUE(Has(Page(), "777 MiB"));
 }
 
 TEST_F(Report, BytesDependOnTheSurveyAlone) {
