@@ -3,18 +3,50 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <iostream>
 
 #include "cli/internal/json_output.h"
 #include "cli/program.h"
 #include "pipeline/export.h"
+#include "pipeline/import_cloud.h"
 #include "pipeline/import_colmap.h"
 #include "pipeline/shell.h"
 
 namespace stucco {
 namespace {
 
-int Import(const Program& program, const std::string& model) {
+int ImportPly(const Program& program, const std::string& cloud) {
+  const CommonOptions& common = program.common;
+  const CloudImportReport report = ImportCloud(common.survey, cloud, program.table);
+  const std::string next = "stucco run " + ShellWord(common.survey);
+  if (common.json) {
+    const Json json = {{"points", report.points},
+                       {"seen_share", report.seen_share},
+                       {"notes", report.notes},
+                       {"next", next}};
+    PrintJson(json);
+  } else if (!common.quiet) {
+    std::cout << fmt::format("Imported {} points as dense; the photos see {:.0f} % of them.\n",
+                             report.points, 100 * report.seen_share);
+    for (const std::string& note : report.notes) {
+      std::cout << "  " << note << "\n";
+    }
+    std::cout << "Next: " << next << "\n";
+  }
+  return 0;
+}
+
+bool IsPly(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension == ".ply";
+}
+
+int ImportModel(const Program& program, const std::string& model) {
   const CommonOptions& common = program.common;
   const ImportReport report = ImportColmap(common.survey, model, program.table);
   const std::string next = "stucco run " + ShellWord(common.survey);
@@ -48,17 +80,23 @@ std::string FormatHelp() {
 
 void AddImport(CLI::App& app, Program& program) {
   CLI::App& verb =
-      AddVerb(app, {"import", "Take camera poses that COLMAP computed in the place of calib",
+      AddVerb(app, {"import",
+                    "Take camera poses of COLMAP in the place of calib, or a PLY cloud in that of "
+                    "dense",
                     "stucco import castle ~/colmap/sparse/0 && stucco run castle\n"
-                    "stucco calib castle --force    (back to our own poses)",
+                    "stucco import castle scan.ply      (in the frame of the poses)\n"
+                    "stucco calib castle --force        (back to our own poses)",
                     kTransferGroup});
   AddSurveyArgument(verb, program);
   auto model = std::make_shared<std::string>();
-  verb.add_option("model", *model, "Folder with cameras, images and points3D as .bin or .txt")
-      ->type_name("FOLDER")
+  verb.add_option("model", *model,
+                  "Folder with cameras, images and points3D as .bin or .txt, or a .ply file")
+      ->type_name("PATH")
       ->required();
   verb.callback([&program, model] {
-    program.action = [&program, model] { return Import(program, *model); };
+    program.action = [&program, model] {
+      return IsPly(*model) ? ImportPly(program, *model) : ImportModel(program, *model);
+    };
   });
 }
 

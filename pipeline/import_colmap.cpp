@@ -9,12 +9,9 @@
 #include <map>
 #include <set>
 
+#include "pipeline/internal/publish_import.h"
 #include "pipeline/layout.h"
-#include "pipeline/lock.h"
-#include "pipeline/outputs.h"
-#include "pipeline/run_stage.h"
 #include "pipeline/settings.h"
-#include "pipeline/work_folder.h"
 #include "survey/calibration.h"
 #include "survey/captures.h"
 #include "survey/colmap_io.h"
@@ -202,31 +199,13 @@ ImportReport ImportColmap(const fs::path& survey, const fs::path& source, const 
   ImportReport report;
   MatchNames(settings.photos, model);
   ScaleToPhotos(settings.photos, model, report);
-  const SurveyLock lock(survey, fmt::format("import {}", source.string()));
-  if (!lock.held()) {
-    report.notes.emplace_back("this file system has no locks; start no run at the same time");
+  const Calibration calibration =
+      DescribeModel(model, survey, fs::absolute(source).lexically_normal());
+  for (std::string& note : PublishImport(survey, kCalibStage, source, [&](const fs::path& out) {
+         WriteCalib(model, calibration, out);
+       })) {
+    report.notes.push_back(std::move(note));
   }
-  CleanScratch(survey);
-  const fs::path absolute = fs::absolute(source).lexically_normal();
-  const Calibration calibration = DescribeModel(model, survey, absolute);
-  ScratchFolder scratch(survey, kCalibStage);
-  WriteCalib(model, calibration, scratch.path());
-  if (const auto moved = scratch.Publish()) {
-    report.notes.push_back(fmt::format("a folder {} that stucco did not make is now {}",
-                                       kCalibStage, moved->string()));
-  }
-
-  const WorkFolder work(survey);
-  HashCache hashes(work.Hashes());
-  Manifest manifest;
-  manifest.stage = kCalibStage;
-  manifest.program = ProgramVersion();
-  manifest.outputs = HashOutputs(survey, kCalibStage, 1, hashes);
-  manifest.imported_from = absolute.string();
-  WriteManifest(manifest, work.Manifest(kCalibStage));
-  hashes.Save();
-  std::error_code ignored;
-  fs::remove(work.Failure(kCalibStage), ignored);
   report.photos = calibration.photos_posed;
   report.points = calibration.points;
   report.cameras = static_cast<int>(model.cameras.size());

@@ -312,6 +312,34 @@ class ImportAndExport(stucco.TestCase):
         self.refused(stucco.run("import", survey, self.root / "none"), 3, "none")
         self.assertFalse((survey / "calib").exists())
 
+    def write_ply(self, name, points):
+        path = self.root / name
+        path.write_text("ply\nformat ascii 1.0\nelement vertex "
+                        f"{len(points)}\nproperty float x\nproperty float y\n"
+                        "property float z\nend_header\n" +
+                        "".join(f"{x} {y} {z}\n" for x, y, z in points))
+        return path
+
+    def test_an_imported_cloud_is_the_dense_one(self):
+        survey = self.init(self.photo_folder(3))
+        wall = [(4 + 0.01 * x, 0.01 * y, 10) for x in range(20) for y in range(20)]
+        cloud = self.write_ply("wall.PLY", wall)
+        self.refused(stucco.run("import", survey, cloud), 3, "no camera poses", "until calib")
+        width, height = jpeg_size(stucco.sample_photos(1)[0])
+        write_colmap(self.root / "model", [photo.name for photo in stucco.sample_photos(3)], width,
+                     height)
+        self.check(stucco.run("import", survey, self.root / "model"))
+        elsewhere = self.write_ply("utm.ply", [(x + 5e5, y + 5e6, z) for x, y, z in wall])
+        self.refused(stucco.run("import", survey, elsewhere), 3, "frame of the camera poses")
+        self.refused(stucco.run("import", survey, self.root / "gone.ply"), 3, "gone.ply")
+        self.assertFalse((survey / "dense").exists())
+        process = self.check(stucco.run("import", survey, cloud))
+        self.assertIn("Imported 400 points", process.stdout)
+        self.assertIn("no normals", process.stdout)
+        self.assertEqual(self.states(survey)["dense"], "done")
+        self.check(stucco.run("export", survey, "--format", "ply", "-o", self.root / "out.ply"))
+        self.assertIn(b"element vertex 400", (self.root / "out.ply").read_bytes())
+
     def test_export_says_what_has_to_run_first_and_overwrites_nothing(self):
         survey = self.init(self.photo_folder(2))
         self.refused(stucco.run("export", survey, "--format", "glb", "-o", self.root / "m.glb"), 3,
