@@ -27,11 +27,12 @@ constexpr char kCloudRemedy[] =
     "or "
     "a finer dense quality, give more points.";
 
-// Thins the cloud, measures it, and thins again when the tolerances need fewer points.
+// Thins the cloud, measures it, and thins again when the tolerances need fewer points or more.
 CloudScale PrepareSamples(const PointStream& cloud, const Stations& stations, bool metric,
                           const ProxyOptions& options, Scene& scene) {
   constexpr double kSamplesPerDetail = 4;
-  scene.samples = ThinCloud(cloud, stations, options.max_points, 0);
+  constexpr int kFirstLook = 500'000;  // points that tell the scale of any scene
+  scene.samples = ThinCloud(cloud, stations, std::min(options.max_points, kFirstLook), 0);
   const auto fewest = static_cast<size_t>(std::max(12, options.min_points));
   if (scene.samples.size() < fewest) {
     throw Error(ErrorKind::kStageFailed,
@@ -44,6 +45,13 @@ CloudScale PrepareSamples(const PointStream& cloud, const Stations& stations, bo
   if (!(scale.spacing > 0)) {
     throw Error(ErrorKind::kStageFailed, "all points of the dense cloud are at one place",
                 kCloudRemedy);
+  }
+  CloudScale dense = scale;
+  dense.spacing = 0;
+  const double fine = DeriveTolerances(dense, metric, options).level_of_detail / kSamplesPerDetail;
+  if (options.max_points > kFirstLook && 1.3 * fine < scale.spacing) {
+    scene.samples = ThinCloud(cloud, stations, options.max_points, fine);
+    scale = MeasureScale(scene.samples, stations);
   }
   scene.tolerances = DeriveTolerances(scale, metric, options);
   const double coarse = scene.tolerances.level_of_detail / kSamplesPerDetail;
