@@ -21,6 +21,20 @@ def tilt_deg(normal, up):
     return math.degrees(math.asin(min(1, abs(sum(a * b for a, b in zip(normal, up))) / length)))
 
 
+def stage_lines(survey):
+    """The peak of every stage: each resets the kernel's count, so that of the process says less."""
+    peaks = []
+    for path in sorted((survey / ".stucco/manifests").glob("*.json")):
+        usage = load(path).get("usage") or {}
+        peaks.append((usage.get("peak_memory_mb", -1), path.stem, usage.get("wall_s", -1)))
+    known = [peak for peak in peaks if peak[0] >= 0]
+    if known:
+        yield f"peak memory {max(known)[0]:.0f} MiB ({max(known)[1]})"
+        order = ["ingest", "calib", "dense", "proxy", "texture", "report"]
+        known.sort(key=lambda peak: order.index(peak[1]) if peak[1] in order else len(order))
+        yield "stages: " + ", ".join(f"{name} {wall:.0f} s" for _, name, wall in known)
+
+
 def calibration_lines(calibration):
     yield (f"photos posed: {calibration['photos_posed']} of {calibration['photos_total']}, "
            f"reprojection error {calibration['reprojection_error_px']:.3f} px, "
@@ -60,7 +74,9 @@ def main():
     survey = pathlib.Path(sys.argv[1])
     if len(sys.argv) > 2 and (cost := load(pathlib.Path(sys.argv[2]))):
         print(f"wall {cost['wall_s']:.0f} s, CPU {cost['cpu_s']:.0f} s, "
-              f"peak memory {cost['peak_memory_mb']:.0f} MB, exit code {cost['exit_code']}")
+              f"exit code {cost['exit_code']}")
+    for line in stage_lines(survey):
+        print(line)
     for name, lines in (("calib/calibration.json", calibration_lines),
                         ("proxy/facets.json", proxy_lines), ("report/report.json", report_lines)):
         content = load(survey / name)

@@ -6,6 +6,8 @@
   bench/measure.py OUT.json COMMAND...
 
 CPU time is of the command and all that it waited for; the peak is that of its largest process.
+Stucco resets its peak at the start of every stage: of a run of several stages this is the last
+one's, and key_figures.py tells those of all.
 """
 import json
 import os

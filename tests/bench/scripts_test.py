@@ -82,6 +82,18 @@ class KeyFigures(unittest.TestCase):
         self.assertAlmostEqual(key_figures.tilt_deg([1, 0, 0], [0, 0, 1]), 0)
         self.assertAlmostEqual(key_figures.tilt_deg([1, 0, 1], [0, 0, 2]), 45)
 
+    def test_the_peak_is_that_of_the_hungriest_stage(self):
+        with tempfile.TemporaryDirectory() as name:
+            survey = pathlib.Path(name)
+            self.assertEqual(list(key_figures.stage_lines(survey)), [])
+            manifests = survey / ".stucco/manifests"
+            manifests.mkdir(parents=True)
+            for stage, peak, wall in (("dense", 700, 90), ("calib", 1465.4, 33), ("ingest", -1, 0)):
+                (manifests / f"{stage}.json").write_text(
+                    json.dumps({"usage": {"peak_memory_mb": peak, "wall_s": wall}}))
+            self.assertEqual(list(key_figures.stage_lines(survey)),
+                             ["peak memory 1465 MiB (calib)", "stages: calib 33 s, dense 90 s"])
+
 
 class CompareColmap(unittest.TestCase):
     """With a stand-in for both programs that answers with the true cameras."""
