@@ -36,13 +36,13 @@ Solid CloseOrExplain(const std::function<Solid()>& close) {
     Solid solid = close();
     for (const Facet& facet : solid.facets) {
       if (const auto fault = FindFacetFault(facet))
-        failed.why_not = "has an unsound facet: " + *fault;
+        failed.why_not = fmt::format("has an unsound facet: {}", *fault);
     }
     if (failed.why_not.empty()) return solid;
   } catch (const std::bad_alloc&) {
     failed.why_not = "it needs more memory than there is";
   } catch (const std::exception& thrown) {
-    failed.why_not = "its geometry fails: " + FirstLine(thrown);
+    failed.why_not = fmt::format("its geometry fails: {}", FirstLine(thrown));
   }
   return failed;
 }
@@ -59,7 +59,8 @@ std::vector<Facet> OutlineOrWarn(const std::function<std::vector<Facet>()>& outl
       }
     }
   } catch (const std::exception& thrown) {
-    warnings.push_back("left out the facets of a plane, its geometry fails: " + FirstLine(thrown));
+    warnings.push_back(
+        fmt::format("left out the facets of a plane, its geometry fails: {}", FirstLine(thrown)));
     sound.clear();
   }
   return sound;
