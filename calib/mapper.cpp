@@ -226,8 +226,8 @@ std::string WhyUnposed(const MapperOptions& options, const Scene& scene,
         num_pairs);
   }
   return fmt::format(
-      "only {} of its keypoints see points of the reconstruction that agree on a pose "
-      "(at least {} are needed); its best pair has {} matches",
+      "only {} of its keypoints see points of the reconstruction, and fewer than the {} that are "
+      "needed agree on a pose; its best pair has {} matches",
       NumVisiblePoints(scene, photo), options.min_inliers, best);
 }
 
