@@ -12,7 +12,7 @@
 
 #include "capture_ingest/focal.h"
 #include "survey/error.h"
-#include "survey/photo_files.h"
+#include "survey/utf8.h"
 
 namespace stucco {
 namespace {

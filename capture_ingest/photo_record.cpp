@@ -12,6 +12,7 @@
 #include "capture_ingest/position.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/utf8.h"
 
 namespace stucco {
 namespace {

@@ -9,8 +9,8 @@
 #include "pipeline/settings.h"
 #include "survey/error.h"
 #include "survey/files.h"
-#include "survey/photo_files.h"
 #include "survey/survey_folder.h"
+#include "survey/utf8.h"
 
 namespace stucco {
 namespace {

@@ -13,7 +13,7 @@
 #include <map>
 #include <utility>
 
-#include "proxy/triangulate.h"
+#include "survey/triangulate.h"
 
 namespace stucco {
 namespace {
@@ -31,10 +31,10 @@ Soup SoupOf(const std::vector<Facet>& facets) {
   Soup soup;
   std::map<std::array<double, 3>, size_t> numbers;
   for (const Facet& facet : facets) {
-    const Triangulation triangulation = Triangulate(facet);
+    const FacetTriangles triangulation = TriangulateFacet(facet);
     for (const auto& triangle : triangulation.triangles) {
       auto& indices = soup.triangles.emplace_back();
-      for (const int corner : triangle) {
+      for (const uint32_t corner : triangle) {
         const Eigen::Vector3d& p = triangulation.vertices[corner];
         const auto [entry, added] = numbers.try_emplace({p.x(), p.y(), p.z()}, soup.points.size());
         if (added) soup.points.emplace_back(p.x(), p.y(), p.z());

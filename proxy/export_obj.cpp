@@ -9,7 +9,7 @@
 #include <iterator>
 #include <map>
 
-#include "proxy/triangulate.h"
+#include "survey/triangulate.h"
 
 namespace stucco {
 
@@ -21,10 +21,10 @@ std::string ObjText(const Proxy& proxy) {
       std::string name = facet.id;
       std::replace(name.begin(), name.end(), '/', '_');
       fmt::format_to(std::back_inserter(faces), "g {}\n", name);
-      const Triangulation triangulation = Triangulate(facet);
+      const FacetTriangles triangulation = TriangulateFacet(facet);
       for (const auto& triangle : triangulation.triangles) {
         faces += "f";
-        for (const int corner : triangle) {
+        for (const uint32_t corner : triangle) {
           const Eigen::Vector3d& p = triangulation.vertices[corner];
           const auto [entry, added] =
               numbers.try_emplace({p.x(), p.y(), p.z()}, static_cast<int>(numbers.size()) + 1);

@@ -8,7 +8,7 @@
 #include <new>
 #include <utility>
 
-#include "proxy/triangulate.h"
+#include "survey/triangulate.h"
 
 namespace stucco {
 namespace {
@@ -26,7 +26,7 @@ std::optional<std::string> FindFacetFault(const Facet& facet) {
   named.id = "-";
   const Proxy alone{.buildings = {{.id = "-", .source = {}, .facets = {named}}}};
   if (auto problem = FindProblem(alone)) return problem->substr(problem->find(": ") + 2);
-  if (Triangulate(facet).triangles.empty()) return "nothing lies inside its rings";
+  if (TriangulateFacet(facet).triangles.empty()) return "nothing lies inside its rings";
   return std::nullopt;
 }
 

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "survey/error.h"
+#include "survey/utf8.h"
 
 namespace stucco {
 namespace {
@@ -141,23 +142,6 @@ class FolderWalk {
   PhotoListing listing_;
 };
 
-// Length of the well-formed sequence at the front (Unicode 15, table 3-7), or 0.
-size_t SequenceLength(std::string_view text) {
-  const auto byte = [&](size_t i) -> unsigned { return static_cast<unsigned char>(text[i]); };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  const size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4 || text.size() < length) return 0;
-  for (size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  }
-  if ((first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F) ||
-      (first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) > 0x8F)) {
-    return 0;
-  }
-  return length;
-}
-
 }  // namespace
 
 PhotoListing ListPhotoFiles(const fs::path& folder) {
@@ -181,16 +165,6 @@ PhotoListing ListPhotoFiles(const fs::path& folder) {
 
 std::vector<PhotoFile> FindPhotoFiles(const fs::path& folder) {
   return ListPhotoFiles(folder).files;
-}
-
-bool IsPrintableUtf8(std::string_view text) {
-  while (!text.empty()) {
-    const unsigned first = static_cast<unsigned char>(text[0]);
-    const size_t length = SequenceLength(text);
-    if (length == 0 || first < 0x20 || first == 0x7f) return false;
-    text.remove_prefix(length);
-  }
-  return true;
 }
 
 }  // namespace stucco

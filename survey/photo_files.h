@@ -31,7 +31,4 @@ PhotoListing ListPhotoFiles(const std::filesystem::path& folder);
 // Only the files.
 std::vector<PhotoFile> FindPhotoFiles(const std::filesystem::path& folder);
 
-// Whether the bytes are well-formed UTF-8 without control characters.
-bool IsPrintableUtf8(std::string_view text);
-
 }  // namespace stucco

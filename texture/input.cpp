@@ -12,7 +12,7 @@
 #include "survey/colmap_io.h"
 #include "survey/error.h"
 #include "survey/files.h"
-#include "survey/point_cloud.h"
+#include "survey/ply.h"
 #include "survey/survey_folder.h"
 
 namespace stucco {
@@ -70,12 +70,16 @@ std::vector<TexturePhoto> ReadPhotos(const StageContext& context) {
   return photos;
 }
 
-// Every k-th point, so that about kMostPoints are left.
-std::vector<Eigen::Vector3d> Thinned(const std::vector<Eigen::Vector3d>& points) {
-  const size_t step = (points.size() + kMostPoints - 1) / kMostPoints;
-  std::vector<Eigen::Vector3d> out;
-  for (size_t i = 0; i < points.size(); i += std::max<size_t>(1, step)) out.push_back(points[i]);
-  return out;
+// Every k-th point of a cloud, so that about kMostPoints are left.
+std::vector<Eigen::Vector3d> ReadThinned(const std::filesystem::path& cloud) {
+  const uint64_t step =
+      std::max<uint64_t>(1, (ReadPlyLayout(cloud).points + kMostPoints - 1) / kMostPoints);
+  std::vector<Eigen::Vector3d> points;
+  uint64_t number = 0;
+  ForEachPoint(cloud, [&](const CloudPoint& point) {
+    if (number++ % step == 0) points.push_back(point.position);
+  });
+  return points;
 }
 
 }  // namespace
@@ -87,7 +91,7 @@ TextureInput ReadTextureInput(const StageContext& context, bool with_cloud) {
   std::string cloud_hash;
   const std::filesystem::path cloud = context.survey / kCloudFile;
   if (with_cloud && std::filesystem::exists(cloud)) {
-    input.cloud = Thinned(ReadPly(cloud).positions);
+    input.cloud = ReadThinned(cloud);
     cloud_hash = HashFile(cloud);
   } else if (with_cloud) {
     context.progress->Warn(fmt::format(

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "survey/error.h"
-#include "texture/triangulate.h"
+#include "survey/triangulate.h"
 
 namespace stucco {
 namespace {

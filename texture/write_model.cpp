@@ -25,8 +25,8 @@
 #include "survey/files.h"
 #include "survey/image.h"
 #include "survey/parallel.h"
+#include "survey/triangulate.h"
 #include "texture/grid.h"
-#include "texture/triangulate.h"
 
 namespace stucco {
 namespace {

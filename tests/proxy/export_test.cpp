@@ -10,7 +10,6 @@
 
 #include "proxy/export_cityjson.h"
 #include "proxy/export_obj.h"
-#include "proxy/triangulate.h"
 
 namespace stucco {
 namespace {
@@ -44,48 +43,6 @@ Proxy Model(bool watertight) {
                       .source = "cloud",
                       .facets = {Square("G0", FacetClass::kGround, {90, -9, 0}, 20 * x, 20 * y)}}};
   return proxy;
-}
-
-double AreaOf(const Triangulation& t) {
-  double area = 0;
-  for (const auto& i : t.triangles) {
-    const Vector3d a = t.vertices[i[1]] - t.vertices[i[0]], b = t.vertices[i[2]] - t.vertices[i[0]];
-    area += a.cross(b).norm() / 2;
-  }
-  return area;
-}
-
-TEST(Triangulate, CoversThePolygonWithoutItsHoles) {
-  const Proxy proxy = Model(false);
-  const Triangulation with_hole = Triangulate(proxy.buildings[0].facets[0]);
-  EXPECT_NEAR(AreaOf(with_hole), 11, 1e-9);
-  EXPECT_EQ(with_hole.vertices.size(), 8u);
-  EXPECT_EQ(with_hole.triangles.size(), 8u);
-  EXPECT_EQ(Triangulate(proxy.buildings[0].facets[1]).triangles.size(), 2u);
-}
-
-TEST(Triangulate, TrianglesFaceTheNormal) {
-  const Facet facet = Model(false).buildings[0].facets[0];
-  const Triangulation t = Triangulate(facet);
-  for (const auto& i : t.triangles) {
-    const Vector3d normal =
-        (t.vertices[i[1]] - t.vertices[i[0]]).cross(t.vertices[i[2]] - t.vertices[i[0]]);
-    EXPECT_GT(normal.dot(facet.normal), 0);
-  }
-}
-
-TEST(Triangulate, EdgesThatCrossMeetInAVertexOfTheirOwn) {
-  Facet facet = Model(false).buildings[0].facets[1];
-  const Vector3d origin = facet.outer[0];
-  const auto at = [&](double x, double y) { return Vector3d(origin + Vector3d(x, y, 0)); };
-  facet.outer = {at(0, 0), at(4, 0), at(0, 4), at(4, 4)};  // an hourglass
-  const Triangulation crossed = Triangulate(facet);
-  ASSERT_EQ(crossed.vertices.size(), 5u);
-  EXPECT_LT((crossed.vertices[4] - at(2, 2)).norm(), 1e-9);
-  EXPECT_NEAR(AreaOf(crossed), 8, 1e-9);
-  // A ring that touches itself in a corner.
-  facet.outer = {at(0, 0), at(2, 2), at(4, 0), at(4, 4), at(2, 2), at(0, 4)};
-  EXPECT_NEAR(AreaOf(Triangulate(facet)), 8, 1e-9);
 }
 
 TEST(ObjText, HasAGroupPerFacetAndSharedVertices) {
