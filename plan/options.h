@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "survey/options.h"
+
+namespace stucco::plan {
+
+struct PlanOptions {
+  std::string method = "cocapture";
+  std::string camera = "mavic-3e";
+  double altitude_m = 0;      // H above the ground; 0: d_min above the tallest building
+  double gsd_m = 0.04;        // the coarsest acceptable pixel; gives d_max
+  double d_min_m = 10;        // distance to buildings
+  double d_max_m = 0;         // 0: from gsd_m
+  double min_altitude_m = 5;  // above the ground
+  double forward_overlap = 0.8;
+  double side_overlap = 0.8;
+  double margin_m = 0;            // how far views go beyond the buildings; 0: as H
+  double vertical_step = 0.8;     // k_d of the paper
+  double reconstructability = 0;  // tau_r; 0: ten times that of one good pair
+  double battery_percent = 80;    // used up per flight at most
+  std::string map_layer;          // empty: the first with polygons
+  std::string height_field;       // empty: the usual names
+  std::string id_field;           // empty: the usual names
+  std::string map_crs;            // for maps that name none: "EPSG:25832"
+};
+
+void Describe(OptionTable& table, PlanOptions& options);
+
+}  // namespace stucco::plan
