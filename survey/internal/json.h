@@ -116,9 +116,12 @@ class JsonReader {
     field = json.get<T>();
   }
 
-  void Get(const Json& json, const std::string& where, Eigen::Vector3d& field) const {
-    if (!json.is_array() || json.size() != 3) FailAt(where, "must be a list of 3 numbers");
-    for (int i = 0; i < 3; ++i) Get(json[i], fmt::format("{}[{}]", where, i), field[i]);
+  template <int N>
+  void Get(const Json& json, const std::string& where, Eigen::Matrix<double, N, 1>& field) const {
+    if (!json.is_array() || json.size() != N) {
+      FailAt(where, fmt::format("must be a list of {} numbers", N));
+    }
+    for (int i = 0; i < N; ++i) Get(json[i], fmt::format("{}[{}]", where, i), field[i]);
   }
 
   template <typename T>
@@ -202,8 +205,11 @@ class JsonWriter {
     }
   }
 
-  Json Put(const char* name, const Eigen::Vector3d& field) const {
-    return Json::array({Put(name, field.x()), Put(name, field.y()), Put(name, field.z())});
+  template <int N>
+  Json Put(const char* name, const Eigen::Matrix<double, N, 1>& field) const {
+    Json array = Json::array();
+    for (const double number : field) array.push_back(Put(name, number));
+    return array;
   }
 
   template <typename T>
