@@ -60,10 +60,14 @@ struct Site {
   double safe_altitude_m = 0;        // H: above the ground, d_min above the highest top
   double min_altitude_m = 5;         // above the ground
   std::vector<std::string> repairs;  // what was wrong with the map and was mended, a line each
+  Terrain ceiling;                   // of CeilingAt; no samples: the safe altitude everywhere
 
-  // z from which on nothing of the site is within d_min: H above the highest ground nearby. A
-  // constant where the terrain is flat.
+  // z from which on nothing of the site is within d_min: H above the highest ground nearby (30 m),
+  // and not below the `blocked_to_m` of any footprint within d_min. A constant where the terrain is
+  // flat.
   double CeilingAt(const Eigen::Vector2d& position) const;
+  // The highest ceiling over the segment from p to q.
+  double CeilingBetween(const Eigen::Vector2d& p, const Eigen::Vector2d& q) const;
   // z below which a view may not be.
   double FloorAt(const Eigen::Vector2d& position) const {
     return terrain.HeightAt(position) + min_altitude_m;

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/map/facades.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "plan/internal/box_grid.h"
+
+namespace stucco::plan {
+namespace {
+
+// Shorter or lower pieces are leftovers of imprecise maps, not walls to photograph.
+constexpr double kLeastLength_m = 0.1;
+constexpr double kLeastUpperWall_m = 1;
+// Size of the cells in which neighbours are looked for: about a long wall.
+constexpr double kCell_m = 20;
+
+struct Edge {
+  int footprint = 0;
+  int number = 0;  // in its building
+  Eigen::Vector2d a;
+  Eigen::Vector2d b;
+};
+
+// Where something stands against an edge.
+struct Cover {
+  Interval along_m;
+  Interval z_m;
+};
+
+std::vector<Edge> EdgesOf(const std::vector<Footprint>& footprints) {
+  std::vector<Edge> edges;
+  std::map<std::string, int> counts;
+  for (size_t f = 0; f < footprints.size(); ++f) {
+    int& count = counts[footprints[f].building];
+    for (const Ring& ring : footprints[f].outline.rings) {
+      for (size_t i = 0; i < ring.size(); ++i) {
+        edges.push_back({static_cast<int>(f), count++, ring[i], ring[(i + 1) % ring.size()]});
+      }
+    }
+  }
+  return edges;
+}
+
+// The part of `edge` along which `other` runs the other way within the tolerance; empty where it
+// does not.
+Interval Shared(const Edge& edge, const Edge& other) {
+  const Eigen::Vector2d u = (edge.b - edge.a).normalized();
+  const Eigen::Vector2d v = other.b - other.a;
+  constexpr double kOpposite = -0.98;  // walls that meet at more than 11 degrees only touch
+  if (!(u.dot(v) < kOpposite * v.norm())) return {};
+  const auto offset = [&](const Eigen::Vector2d& p) {
+    return u.x() * (p - edge.a).y() - u.y() * (p - edge.a).x();
+  };
+  // Offsets change linearly along `other`: cut it down to |offset| <= tolerance.
+  const double start = offset(other.a);
+  const double change = offset(other.b) - start;
+  double low = 0;
+  double high = 1;
+  for (const double sign : {1.0, -1.0}) {
+    const double room = kSnap_m - sign * start;
+    if (sign * change > 0) high = std::min(high, room / (sign * change));
+    if (sign * change < 0) low = std::max(low, room / (sign * change));
+    if (change == 0 && room < 0) return {};
+  }
+  if (!(low < high)) return {};
+  const double length = (edge.b - edge.a).norm();
+  const double from = std::max(0.0, u.dot(other.a + high * v - edge.a));
+  const double to = std::min(length, u.dot(other.a + low * v - edge.a));
+  return from < to ? Interval{from, to} : Interval{};
+}
+
+bool Overlap(const Interval& a, const Interval& b) {
+  return a.from_m < b.to_m && b.from_m < a.to_m;
+}
+
+std::vector<Cover> CoversOf(const Edge& edge, const std::vector<int>& near,
+                            const std::vector<Edge>& edges,
+                            const std::vector<Footprint>& footprints) {
+  const Footprint& own = footprints[edge.footprint];
+  std::vector<Cover> covers;
+  for (const int index : near) {
+    const Edge& other = edges[index];
+    if (other.footprint == edge.footprint) continue;
+    const Footprint& neighbour = footprints[other.footprint];
+    if (!Overlap(own.z_m, neighbour.z_m)) continue;
+    const Interval along = Shared(edge, other);
+    if (!(along.length_m() > 0)) continue;
+    const bool only_its_height =
+        neighbour.building == own.building && own.top_known && neighbour.top_known;
+    covers.push_back({along, only_its_height ? neighbour.z_m : own.z_m});
+  }
+  return covers;
+}
+
+// `whole` without the intervals, from low to high.
+std::vector<Interval> Without(const Interval& whole, std::vector<Interval> taken) {
+  std::sort(taken.begin(), taken.end(),
+            [](const Interval& a, const Interval& b) { return a.from_m < b.from_m; });
+  std::vector<Interval> left;
+  double from = whole.from_m;
+  for (const Interval& interval : taken) {
+    if (interval.from_m > from) left.push_back({from, std::min(interval.from_m, whole.to_m)});
+    from = std::max(from, interval.to_m);
+    if (from >= whole.to_m) return left;
+  }
+  left.push_back({from, whole.to_m});
+  return left;
+}
+
+// What stands free of an edge, cut where covers begin and end.
+std::vector<Cover> FreePieces(double length, const Interval& z, const std::vector<Cover>& covers) {
+  std::vector<double> stops = {0, length};
+  for (const Cover& cover : covers) {
+    stops.push_back(cover.along_m.from_m);
+    stops.push_back(cover.along_m.to_m);
+  }
+  std::sort(stops.begin(), stops.end());
+  std::vector<Cover> pieces;
+  for (size_t i = 1; i < stops.size(); ++i) {
+    const Interval along{stops[i - 1], stops[i]};
+    if (!(along.length_m() > 0)) continue;
+    std::vector<Interval> taken;
+    for (const Cover& cover : covers) {
+      if (Overlap(cover.along_m, along)) taken.push_back(cover.z_m);
+    }
+    for (const Interval& free : Without(z, taken)) {
+      if (free.length_m() < kLeastUpperWall_m && !(free == z)) continue;
+      const auto same = [&](const Cover& piece) {
+        return piece.z_m == free && piece.along_m.to_m == along.from_m;
+      };
+      const auto before = std::find_if(pieces.begin(), pieces.end(), same);
+      if (before != pieces.end()) {
+        before->along_m.to_m = along.to_m;
+      } else {
+        pieces.push_back({along, free});
+      }
+    }
+  }
+  std::erase_if(pieces, [](const Cover& p) { return p.along_m.length_m() < kLeastLength_m; });
+  return pieces;
+}
+
+// F03, then F03b, F03c ... (F03-27 after the last letter).
+std::string FacadeId(const std::string& building, int edge, size_t piece) {
+  std::string id = fmt::format("{}/F{:02}", building, edge);
+  if (piece >= 26) return fmt::format("{}-{}", id, piece + 1);
+  if (piece > 0) id += static_cast<char>('a' + piece);
+  return id;
+}
+
+}  // namespace
+
+Ring FromSouthWest(Ring ring) {
+  const auto farther = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return std::pair(a.x() + a.y(), a.x()) < std::pair(b.x() + b.y(), b.x());
+  };
+  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), farther), ring.end());
+  return ring;
+}
+
+std::vector<Facade> MakeFacades(const std::vector<Footprint>& footprints) {
+  const std::vector<Edge> edges = EdgesOf(footprints);
+  std::vector<Eigen::AlignedBox2d> boxes;
+  boxes.reserve(edges.size());
+  for (const Edge& edge : edges) {
+    boxes.emplace_back(edge.a.cwiseMin(edge.b).array() - kSnap_m,
+                       edge.a.cwiseMax(edge.b).array() + kSnap_m);
+  }
+  const internal::BoxGrid grid(boxes, kCell_m);
+  std::vector<Facade> facades;
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const Edge& edge = edges[i];
+    const Footprint& footprint = footprints[edge.footprint];
+    if (!footprint.in_area) continue;
+    const double length = (edge.b - edge.a).norm();
+    const auto covers = CoversOf(edge, grid.Touching(boxes[i]), edges, footprints);
+    const auto pieces = FreePieces(length, footprint.z_m, covers);
+    const auto at = [&](double along) -> Eigen::Vector2d {
+      return along == length ? edge.b
+                             : Eigen::Vector2d(edge.a + along / length * (edge.b - edge.a));
+    };
+    for (size_t k = 0; k < pieces.size(); ++k) {
+      facades.push_back({.id = FacadeId(footprint.building, edge.number, k),
+                         .footprint = edge.footprint,
+                         .a = at(pieces[k].along_m.from_m),
+                         .b = at(pieces[k].along_m.to_m),
+                         .z_m = pieces[k].z_m,
+                         .top_known = footprint.top_known});
+    }
+  }
+  return facades;
+}
+
+}  // namespace stucco::plan

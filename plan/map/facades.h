@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "plan/site.h"
+
+namespace stucco::plan {
+
+// Two walls nearer than this are one: neighbours rarely agree better on where their common wall is.
+inline constexpr double kSnap_m = 0.05;
+
+// The ring in its own direction, from the corner that lies farthest to the south-west: the same
+// facade numbers come out wherever a map starts its rings.
+Ring FromSouthWest(Ring ring);
+
+// The walls of the footprints that stand free. Where two buildings share an edge or a part of it,
+// that part is a party wall and no facade, whatever their heights. Where two parts of one building
+// touch, the higher one's wall above the other is a facade. Footprints that are obstacles only
+// (`in_area` false) get none.
+//
+// Ids count the edges of a building, party walls included, over its footprints, rings and edges, so
+// that a neighbour that is built or torn down renumbers nothing: B0012/F03. Of an edge that falls
+// into several facades the later ones get a letter: B0012/F03b.
+std::vector<Facade> MakeFacades(const std::vector<Footprint>& footprints);
+
+}  // namespace stucco::plan
