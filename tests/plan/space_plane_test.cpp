@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "plan/space/plane.h"
+
+namespace stucco::plan {
+namespace {
+
+TEST(Plane, DistanceOfSegments) {
+  const Segment2 s{{0, 0}, {10, 0}};
+  EXPECT_DOUBLE_EQ(SquaredDistance(s, {{5, -1}, {5, 1}}), 0);    // cross
+  EXPECT_DOUBLE_EQ(SquaredDistance(s, {{10, 0}, {20, 5}}), 0);   // touch at an end
+  EXPECT_DOUBLE_EQ(SquaredDistance(s, {{0, 3}, {10, 3}}), 9);    // parallel
+  EXPECT_DOUBLE_EQ(SquaredDistance(s, {{13, 4}, {20, 4}}), 25);  // ends
+  EXPECT_DOUBLE_EQ(SquaredDistance(s, {{12, 0}, {15, 0}}), 4);   // on one line
+  EXPECT_DOUBLE_EQ(SquaredDistance(s, {{4, 2}, {4, 2}}), 4);     // a point
+  EXPECT_DOUBLE_EQ(SquaredDistance({{1, 1}, {1, 1}}, {{4, 5}, {4, 5}}), 25);
+}
+
+TEST(Plane, PartNearASegmentIsThatOfACapsule) {
+  const Segment2 wall{{0, 0}, {0, 10}};
+  const auto across = PartNear({{-10, 5}, {10, 5}}, wall, 4);
+  ASSERT_TRUE(across);
+  EXPECT_NEAR(across->from_m, 0.3, 1e-12);
+  EXPECT_NEAR(across->to_m, 0.7, 1e-12);
+  const auto round_the_end = PartNear({{-10, 13}, {10, 13}}, wall, 5);
+  ASSERT_TRUE(round_the_end);
+  EXPECT_NEAR(round_the_end->from_m, 0.3, 1e-12);
+  EXPECT_NEAR(round_the_end->to_m, 0.7, 1e-12);
+  EXPECT_FALSE(PartNear({{-10, 15}, {10, 15}}, wall, 5));  // touches only
+  EXPECT_FALSE(PartNear({{5, 0}, {5, 10}}, wall, 5));
+  EXPECT_EQ(PartNear({{1, 5}, {1, 5}}, wall, 5), (Interval{0, 1}));
+  EXPECT_FALSE(PartNear({{1, 5}, {1, 5}}, {{9, 9}, {9, 9}}, 5));
+}
+
+TEST(Plane, PartNearAgreesWithDistances) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> at(-10, 10);
+  const auto point = [&] { return Eigen::Vector2d(at(random), at(random)); };
+  for (int k = 0; k < 500; ++k) {
+    const Segment2 s{point(), point()};
+    const Segment2 t{point(), point()};
+    const auto part = PartNear(s, t, 3);
+    EXPECT_EQ(part.has_value(), SquaredDistance(s, t) < 9);
+    for (double at_s = 0; at_s <= 1; at_s += 0.01) {
+      const double squared = SquaredDistance(Eigen::Vector2d(s.a + at_s * (s.b - s.a)), t);
+      if (std::abs(squared - 9) < 1e-9) continue;
+      EXPECT_EQ(squared < 9, part && at_s >= part->from_m && at_s <= part->to_m);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace stucco::plan
