@@ -16,7 +16,7 @@ double SquaredDistance(const Vector2d& point, const Segment2& segment) {
 
 namespace {
 
-bool Cross(const Segment2& s, const Segment2& t) {
+bool Intersect(const Segment2& s, const Segment2& t) {
   const Vector2d u = s.b - s.a;
   const Vector2d v = t.b - t.a;
   const double from_t_a = Cross(v, Vector2d(s.a - t.a));
@@ -67,7 +67,7 @@ void Clip(double offset, double slope, const Interval& within, Interval& part) {
 }  // namespace
 
 double SquaredDistance(const Segment2& s, const Segment2& t) {
-  if (Cross(s, t)) return 0;
+  if (Intersect(s, t)) return 0;
   return std::min({SquaredDistance(s.a, t), SquaredDistance(s.b, t), SquaredDistance(t.a, s),
                    SquaredDistance(t.b, s)});
 }

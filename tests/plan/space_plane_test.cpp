@@ -17,7 +17,7 @@ TEST(Plane, DistanceOfSegments) {
   EXPECT_DOUBLE_EQ(SquaredDistance(s, {{13, 4}, {20, 4}}), 25);  // ends
   EXPECT_DOUBLE_EQ(SquaredDistance(s, {{12, 0}, {15, 0}}), 4);   // on one line
   EXPECT_DOUBLE_EQ(SquaredDistance(s, {{4, 2}, {4, 2}}), 4);     // a point
-  EXPECT_DOUBLE_EQ(SquaredDistance({{1, 1}, {1, 1}}, {{4, 5}, {4, 5}}), 25);
+  EXPECT_DOUBLE_EQ(SquaredDistance(Segment2{{1, 1}, {1, 1}}, Segment2{{4, 5}, {4, 5}}), 25);
 }
 
 TEST(Plane, PartNearASegmentIsThatOfACapsule) {
