@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+#include <ogr_spatialref.h>
+
+#include <memory>
+#include <random>
+
+#include "plan/map/frame.h"
+
+namespace stucco::plan {
+namespace {
+
+struct DestroyTransformation {
+  void operator()(OGRCoordinateTransformation* transformation) const {
+    OGRCoordinateTransformation::DestroyCT(transformation);
+  }
+};
+using Transformation = std::unique_ptr<OGRCoordinateTransformation, DestroyTransformation>;
+
+// PROJ's way from WGS 84 (longitude, latitude) into the frame.
+Transformation Reference(const PlanOrigin& origin) {
+  OGRSpatialReference wgs84;
+  wgs84.SetWellKnownGeogCS("WGS84");
+  wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  OGRSpatialReference frame;
+  EXPECT_EQ(frame.SetFromUserInput(FrameCrs(origin).c_str()), OGRERR_NONE);
+  frame.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return Transformation(OGRCreateCoordinateTransformation(&wgs84, &frame));
+}
+
+TEST(Frame, AgreesWithProj) {
+  for (const PlanOrigin origin :
+       {PlanOrigin{50.10419, 14.40238, 0}, PlanOrigin{-33.85678, 151.21529, 0}, PlanOrigin{0, 0, 0},
+        PlanOrigin{69.64921, -179.99995, 0}}) {
+    const Transformation reference = Reference(origin);
+    std::mt19937 random(1);
+    for (int i = 0; i < 200; ++i) {
+      const Geodetic place{origin.latitude_deg + (random() % 4001 - 2000.0) * 1e-4,
+                           origin.longitude_deg + (random() % 4001 - 2000.0) * 1e-4};
+      double x = place.longitude_deg;
+      double y = place.latitude_deg;
+      ASSERT_TRUE(reference->Transform(1, &x, &y));
+      const Eigen::Vector2d position = PlanFromGeodetic(origin, place);
+      EXPECT_NEAR(position.x(), x, 1e-6);
+      EXPECT_NEAR(position.y(), y, 1e-6);
+    }
+  }
+}
+
+TEST(Frame, ThereAndBackAgain) {
+  const PlanOrigin origin{52.01102, 4.35715, 0};
+  for (double x = -15000; x <= 15000; x += 1234.5) {
+    for (double y = -15000; y <= 15000; y += 2345.6) {
+      const Geodetic place = GeodeticFromPlan(origin, {x, y});
+      EXPECT_NEAR((PlanFromGeodetic(origin, place) - Eigen::Vector2d(x, y)).norm(), 0, 1e-6);
+    }
+  }
+}
+
+TEST(Frame, OriginIsZeroAndNorthIsNorth) {
+  const PlanOrigin origin{47.37692, 8.54173, 400};
+  EXPECT_NEAR(PlanFromGeodetic(origin, {47.37692, 8.54173}).norm(), 0, 1e-9);
+  const Eigen::Vector2d north = PlanFromGeodetic(origin, {47.38692, 8.54173});
+  EXPECT_NEAR(north.x(), 0, 1e-9);
+  EXPECT_NEAR(north.y(), 1112, 2);
+}
+
+TEST(Frame, SpansTheDateLine) {
+  const PlanOrigin origin{-18.0, 179.9999, 0};
+  const Eigen::Vector2d east = PlanFromGeodetic(origin, {-18.0, -179.9999});
+  EXPECT_NEAR(east.x(), 21.2, 0.1);
+  EXPECT_NEAR(GeodeticFromPlan(origin, east).longitude_deg, -179.9999, 1e-9);
+}
+
+TEST(Frame, OriginLiesOnALattice) {
+  const PlanOrigin origin = OriginNear({50.1041234567, 14.4023987654});
+  EXPECT_EQ(origin.latitude_deg, 50.10412);
+  EXPECT_EQ(origin.longitude_deg, 14.40240);
+  const PlanOrigin moved = OriginNear({50.1041234967, 14.4023987354});
+  EXPECT_EQ(origin.latitude_deg, moved.latitude_deg);
+  EXPECT_EQ(origin.longitude_deg, moved.longitude_deg);
+}
+
+}  // namespace
+}  // namespace stucco::plan
