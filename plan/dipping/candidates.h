@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "plan/dipping/level.h"
+
+namespace stucco::plan {
+
+// A point where the drone may dip, and what it sees from there in all directions.
+struct Candidate {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  std::vector<SeenFacade> seen;
+};
+
+// Points from which the walls of the level may be captured: a regular grid over the site's area,
+// points straight in front of every wall, and, for wall parts that none of these sees, any other
+// allowed point that sees them: rays from the wall are followed until they leave the no-dipping
+// zone, so that nothing remains hidden that an allowed point could see (to 1.5 degrees). Only
+// points that see something are returned.
+std::vector<Candidate> FindCandidates(const Level& level, const DippingSetting& setting);
+
+}  // namespace stucco::plan

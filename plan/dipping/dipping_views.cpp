@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/dipping/dipping_views.h"
+
+#include <iterator>
+
+#include "plan/dipping/candidates.h"
+#include "plan/dipping/directions.h"
+#include "plan/dipping/lift.h"
+#include "plan/dipping/optimise.h"
+#include "plan/dipping/select.h"
+
+namespace stucco::plan {
+namespace {
+
+void NoteUnobservable(const Level& level, const DippingSetting& setting,
+                      const std::vector<Candidate>& candidates, DippingReport& report) {
+  std::vector<Intervals> seen(setting.site.facades.size());
+  for (const Candidate& candidate : candidates) {
+    for (const SeenFacade& part : candidate.seen) {
+      seen[part.facade].insert(seen[part.facade].end(), part.seen.begin(), part.seen.end());
+    }
+  }
+  for (const int facade : level.facades) {
+    const Interval whole{0, setting.site.facades[facade].length_m()};
+    report.unobservable_m[facade] = Gaps(Union(std::move(seen[facade])), whole);
+  }
+}
+
+}  // namespace
+
+DippingReport PlanDippingViews(const DippingSetting& setting, Progress& progress) {
+  DippingReport report;
+  report.unobservable_m.resize(setting.site.facades.size());
+  const std::vector<Level> levels = SplitIntoLevels(setting.site);
+  progress.Begin("dipping views", levels.size());
+  for (const Level& level : levels) {
+    const std::vector<Candidate> candidates = FindCandidates(level, setting);
+    NoteUnobservable(level, setting, candidates, report);
+    std::vector<double> turns = InitialTurns(level, setting, candidates);
+    std::vector<DippingPoint> points = SelectPoints(setting, ViewsOf(setting, candidates, turns));
+    report.candidates += static_cast<int>(candidates.size());
+    report.initial_points += static_cast<int>(points.size());
+    report.rounds += OptimiseViews(level, setting, turns, points).rounds;
+    report.points += static_cast<int>(points.size());
+    for (const DippingPoint& point : points) {
+      std::vector<Hover> hovers = Lift(level, setting, point);
+      std::move(hovers.begin(), hovers.end(), std::back_inserter(report.hovers));
+    }
+    progress.Advance();
+  }
+  return report;
+}
+
+}  // namespace stucco::plan

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "plan/dipping/level.h"
+#include "plan/hover.h"
+#include "survey/stage.h"
+
+namespace stucco::plan {
+
+struct DippingReport {
+  std::vector<Hover> hovers;
+  int candidates = 0;
+  int initial_points = 0;  // before the optimisation
+  int points = 0;
+  int rounds = 0;
+  // By facade, along it from a: what no allowed position sees within d_max and 75 degrees.
+  std::vector<std::vector<Interval>> unobservable_m;
+};
+
+// Paper, section 4: views from between the buildings at every wall that can be seen from there.
+DippingReport PlanDippingViews(const DippingSetting& setting, Progress& progress);
+
+}  // namespace stucco::plan

@@ -1,0 +1,324 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/dipping/optimise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include "plan/dipping/lift.h"
+#include "survey/parallel.h"
+
+namespace stucco::plan {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kMostRounds = 20;  // five are usual
+constexpr int kDirections = 8;
+constexpr std::array<double, 2> kStepsM = {1, 4};  // tau_p
+constexpr double kTurnStep = 2.5 * M_PI / 180;     // tau_s
+constexpr double kLeastGain = 1e-3;                // in the sum of qualities or in hovers
+constexpr double kNoLoss = 1e-9;
+
+// One view of a facade: which point it belongs to.
+struct User {
+  int point = 0;
+  int view = 0;
+};
+
+struct Quality {
+  double value = 0;    // eq. 1
+  double covered = 0;  // metres
+};
+
+class Optimiser {
+ public:
+  Optimiser(const Level& level, const DippingSetting& setting, std::vector<double>& turns,
+            std::vector<DippingPoint>& points)
+      : level_(level), setting_(setting), turns_(turns), points_(points) {
+    CollectUsers();
+  }
+
+  OptimiseReport Run() {
+    OptimiseReport report;
+    for (; report.rounds < kMostRounds; ++report.rounds) {
+      const int moved = AdjustPoints(), turned = AdjustTurns(), removed = RemoveRedundant();
+      report.moved += moved;
+      report.turned += turned;
+      report.removed += removed;
+      if (moved + turned + removed == 0) break;
+    }
+    return report;
+  }
+
+ private:
+  const Facade& FacadeOf(const WallView& view) const { return setting_.site.facades[view.facade]; }
+
+  void CollectUsers() {
+    users_.assign(setting_.site.facades.size(), {});
+    for (size_t i = 0; i < points_.size(); ++i) {
+      for (size_t k = 0; k < points_[i].views.size(); ++k) {
+        users_[points_[i].views[k].facade].push_back({static_cast<int>(i), static_cast<int>(k)});
+      }
+    }
+  }
+
+  // Of a facade when point number `changed` (-1: none) were `instead`.
+  Quality QualityOf(int facade, int changed, const DippingPoint* instead) const {
+    std::vector<SeenPart> parts;
+    Intervals seen;
+    const Facade& wall = setting_.site.facades[facade];
+    for (const User& user : users_[facade]) {
+      const DippingPoint& point = user.point == changed ? *instead : points_[user.point];
+      const WallView& view = point.views[user.view];
+      parts.push_back(PartOf(wall, point.position, view));
+      seen.insert(seen.end(), view.seen.begin(), view.seen.end());
+    }
+    const double covered = Length(Union(std::move(seen)));
+    const double share = covered / wall.length_m();
+    return {QualityOfFacade(parts, share, setting_.d_min_m, setting_.d_max_m).sum(), covered};
+  }
+
+  double CostOf(const DippingPoint& point) const {
+    std::vector<Dip> dips;
+    for (const WallView& view : point.views) {
+      dips.push_back(MakeDip(level_, setting_, FacadeOf(view), point.position));
+    }
+    return HoveringCost(dips, setting_.vertical_step);
+  }
+
+  static std::vector<int> FacadesOf(const DippingPoint& point) {
+    std::set<int> facades;
+    for (const WallView& view : point.views) facades.insert(view.facade);
+    return {facades.begin(), facades.end()};
+  }
+
+  // The same views from another place; nothing when one of them would see nothing there.
+  std::optional<DippingPoint> Moved(const DippingPoint& point, const Vector2d& position) const {
+    if (!MayDip(level_, setting_, position)) return std::nullopt;
+    const std::vector<SeenFacade> visible = SeenFrom(level_, setting_, position);
+    DippingPoint moved{position, point.views};
+    for (WallView& view : moved.views) {
+      const auto seen =
+          std::lower_bound(visible.begin(), visible.end(), view.facade,
+                           [](const SeenFacade& a, int facade) { return a.facade < facade; });
+      if (seen == visible.end() || seen->facade != view.facade) return std::nullopt;
+      view.seen = InField(seen->seen,
+                          FieldWindow(FacadeOf(view), position, view.turn_rad, setting_.hfov_rad));
+      if (view.seen.empty()) return std::nullopt;
+    }
+    return moved;
+  }
+
+  // The best neighbouring position that dominates the present one.
+  std::optional<DippingPoint> BetterPlace(int index) const {
+    const DippingPoint& point = points_[index];
+    const std::vector<int> facades = FacadesOf(point);
+    std::vector<Quality> before;
+    for (const int facade : facades) before.push_back(QualityOf(facade, -1, nullptr));
+    const double cost = CostOf(point);
+    double best_gain = kLeastGain;
+    std::optional<DippingPoint> best;
+    for (const double step : kStepsM) {
+      for (int k = 0; k < kDirections; ++k) {
+        const double angle = 2 * M_PI * k / kDirections;
+        const Vector2d to = point.position + step * Vector2d(std::cos(angle), std::sin(angle));
+        std::optional<DippingPoint> moved = Moved(point, to);
+        if (!moved) continue;
+        double gain = cost - CostOf(*moved);
+        bool dominates = gain >= -kNoLoss;
+        for (size_t i = 0; dominates && i < facades.size(); ++i) {
+          const Quality after = QualityOf(facades[i], index, &*moved);
+          dominates = after.value >= before[i].value - kNoLoss &&
+                      after.covered >= before[i].covered - kNoLoss;
+          gain += after.value - before[i].value;
+        }
+        if (dominates && gain > best_gain) {
+          best_gain = gain;
+          best = std::move(moved);
+        }
+      }
+    }
+    return best;
+  }
+
+  // Points in groups within which no two have a facade in common.
+  std::vector<std::vector<int>> IndependentGroups() const {
+    std::vector<std::vector<int>> groups;
+    std::vector<std::set<int>> colours_of_facade(users_.size());
+    for (size_t i = 0; i < points_.size(); ++i) {
+      const std::vector<int> facades = FacadesOf(points_[i]);
+      int colour = 0;
+      while (std::any_of(facades.begin(), facades.end(),
+                         [&](int facade) { return colours_of_facade[facade].contains(colour); })) {
+        ++colour;
+      }
+      for (const int facade : facades) colours_of_facade[facade].insert(colour);
+      if (static_cast<size_t>(colour) >= groups.size()) groups.emplace_back();
+      groups[colour].push_back(static_cast<int>(i));
+    }
+    return groups;
+  }
+
+  int AdjustPoints() {
+    int moved = 0;
+    for (const std::vector<int>& group : IndependentGroups()) {
+      std::vector<std::optional<DippingPoint>> better(group.size());
+      ParallelFor(group.size(), setting_.threads,
+                  [&](size_t i) { better[i] = BetterPlace(group[i]); });
+      for (size_t i = 0; i < group.size(); ++i) {
+        if (!better[i]) continue;
+        points_[group[i]] = std::move(*better[i]);
+        ++moved;
+      }
+    }
+    return moved;
+  }
+
+  // The facade's views in another direction, in the order of users_.
+  std::optional<std::vector<WallView>> Turned(int facade, double turn) const {
+    std::vector<WallView> views;
+    for (const User& user : users_[facade]) {
+      WallView view = points_[user.point].views[user.view];
+      if (!view.own_turn) {
+        const Vector2d& position = points_[user.point].position;
+        const std::vector<SeenFacade> visible = SeenFrom(level_, setting_, position);
+        const auto seen = std::find_if(visible.begin(), visible.end(),
+                                       [&](const SeenFacade& f) { return f.facade == facade; });
+        if (seen == visible.end()) return std::nullopt;
+        view.turn_rad = turn;
+        view.seen =
+            InField(seen->seen, FieldWindow(FacadeOf(view), position, turn, setting_.hfov_rad));
+        if (view.seen.empty()) return std::nullopt;
+      }
+      views.push_back(std::move(view));
+    }
+    return views;
+  }
+
+  Quality QualityWith(int facade, const std::vector<WallView>& views) const {
+    const Facade& wall = setting_.site.facades[facade];
+    std::vector<SeenPart> parts;
+    Intervals seen;
+    for (size_t i = 0; i < views.size(); ++i) {
+      parts.push_back(PartOf(wall, points_[users_[facade][i].point].position, views[i]));
+      seen.insert(seen.end(), views[i].seen.begin(), views[i].seen.end());
+    }
+    const double covered = Length(Union(std::move(seen)));
+    const double share = covered / wall.length_m();
+    return {QualityOfFacade(parts, share, setting_.d_min_m, setting_.d_max_m).sum(), covered};
+  }
+
+  struct BetterTurn {
+    double turn = 0;
+    std::vector<WallView> views;
+  };
+
+  std::optional<BetterTurn> FindBetterTurn(int facade) const {
+    if (users_[facade].empty()) return std::nullopt;
+    const Quality before = QualityOf(facade, -1, nullptr);
+    double best_gain = kLeastGain;
+    std::optional<BetterTurn> best;
+    for (const double step : {-kTurnStep, kTurnStep}) {
+      const double turn = turns_[facade] + step;
+      std::optional<std::vector<WallView>> views = Turned(facade, turn);
+      if (!views) continue;
+      const Quality after = QualityWith(facade, *views);
+      const double gain = after.value - before.value;
+      if (gain > best_gain && after.covered >= before.covered - kNoLoss) {
+        best_gain = gain;
+        best = BetterTurn{turn, std::move(*views)};
+      }
+    }
+    return best;
+  }
+
+  // The direction of a facade influences only its own quality, so that all can turn at once.
+  int AdjustTurns() {
+    std::vector<std::optional<BetterTurn>> better(level_.facades.size());
+    ParallelFor(level_.facades.size(), setting_.threads,
+                [&](size_t i) { better[i] = FindBetterTurn(level_.facades[i]); });
+    int turned = 0;
+    for (size_t i = 0; i < better.size(); ++i) {
+      if (!better[i]) continue;
+      const int facade = level_.facades[i];
+      turns_[facade] = better[i]->turn;
+      for (size_t k = 0; k < users_[facade].size(); ++k) {
+        const User& user = users_[facade][k];
+        points_[user.point].views[user.view] = std::move(better[i]->views[k]);
+      }
+      ++turned;
+    }
+    return turned;
+  }
+
+  // Views whose whole part other views of the facade see too; the lowest score first.
+  int RemoveRedundant() {
+    std::vector<std::vector<int>> removed(level_.facades.size());  // positions in users_
+    ParallelFor(level_.facades.size(), setting_.threads,
+                [&](size_t i) { removed[i] = RedundantViews(level_.facades[i]); });
+    int count = 0;
+    for (size_t i = 0; i < removed.size(); ++i) {
+      for (const int k : removed[i]) {
+        const User& user = users_[level_.facades[i]][k];
+        points_[user.point].views[user.view].seen.clear();
+        ++count;
+      }
+    }
+    if (count == 0) return 0;
+    for (DippingPoint& point : points_) {
+      std::erase_if(point.views, [](const WallView& view) { return view.seen.empty(); });
+    }
+    std::erase_if(points_, [](const DippingPoint& point) { return point.views.empty(); });
+    CollectUsers();
+    return count;
+  }
+
+  std::vector<int> RedundantViews(int facade) const {
+    const std::vector<User>& users = users_[facade];
+    std::vector<double> scores;
+    for (const User& user : users) {
+      const DippingPoint& point = points_[user.point];
+      scores.push_back(ScoreOf(setting_, point.position, point.views[user.view]));
+    }
+    std::vector<int> order(users.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return scores[a] < scores[b]; });
+    std::vector<char> gone(users.size(), 0);
+    std::vector<int> removed;
+    for (const int k : order) {
+      Intervals others;
+      for (size_t i = 0; i < users.size(); ++i) {
+        if (gone[i] || static_cast<int>(i) == k) continue;
+        const Intervals& seen = points_[users[i].point].views[users[i].view].seen;
+        others.insert(others.end(), seen.begin(), seen.end());
+      }
+      const WallView& view = points_[users[k].point].views[users[k].view];
+      if (Difference(view.seen, Union(std::move(others))).empty()) {
+        gone[k] = 1;
+        removed.push_back(k);
+      }
+    }
+    return removed;
+  }
+
+  const Level& level_;
+  const DippingSetting& setting_;
+  std::vector<double>& turns_;
+  std::vector<DippingPoint>& points_;
+  std::vector<std::vector<User>> users_;  // by facade
+};
+
+}  // namespace
+
+OptimiseReport OptimiseViews(const Level& level, const DippingSetting& setting,
+                             std::vector<double>& turns, std::vector<DippingPoint>& points) {
+  return Optimiser(level, setting, turns, points).Run();
+}
+
+}  // namespace stucco::plan

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/dipping/wall_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stucco::plan {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kLeastPieceM = 0.05;
+
+// Along the facade's line from a, in metres.
+double FootOf(const Facade& facade, const Vector2d& p) {
+  return (p - facade.a).dot(facade.along());
+}
+
+}  // namespace
+
+double DistanceTo(const Facade& facade, const Vector2d& p) {
+  return (p - facade.a).dot(facade.normal());
+}
+
+Vector2d Direction(const Facade& facade, double turn_rad) {
+  return std::cos(turn_rad) * -facade.normal() + std::sin(turn_rad) * facade.along();
+}
+
+Interval FrontalWindow(const Facade& facade, const Vector2d& p) {
+  const double foot = FootOf(facade, p);
+  const double half = std::max(0.0, DistanceTo(facade, p)) * std::tan(kMaxIncidence);
+  return {foot - half, foot + half};
+}
+
+Interval FieldWindow(const Facade& facade, const Vector2d& p, double turn_rad, double hfov_rad) {
+  const double foot = FootOf(facade, p), distance = std::max(0.0, DistanceTo(facade, p));
+  const double low = std::clamp(turn_rad - hfov_rad / 2, -kMaxIncidence, kMaxIncidence);
+  const double high = std::clamp(turn_rad + hfov_rad / 2, -kMaxIncidence, kMaxIncidence);
+  return {foot + distance * std::tan(low), foot + distance * std::tan(high)};
+}
+
+double TurnTowards(const Facade& facade, const Vector2d& p, double along_m) {
+  return std::atan2(along_m - FootOf(facade, p), DistanceTo(facade, p));
+}
+
+Intervals InField(std::span<const Interval> visible, const Interval& window) {
+  const Interval rounded{std::ceil(window.from_m * 100) / 100, std::floor(window.to_m * 100) / 100};
+  Intervals result;
+  for (const Interval& part : Intersection(visible, rounded)) {
+    if (part.length_m() >= kLeastPieceM) result.push_back(part);
+  }
+  return result;
+}
+
+SeenPart PartOf(const Facade& facade, const Vector2d& p, const WallView& view) {
+  SeenPart part;
+  part.share = Length(view.seen) / facade.length_m();
+  part.frontality = std::cos(view.turn_rad);
+  part.direction.head<2>() = Direction(facade, view.turn_rad);
+  part.distance_m = DistanceTo(facade, p);
+  return part;
+}
+
+double ScoreOf(const DippingSetting& setting, const Vector2d& p, const WallView& view) {
+  const Facade& facade = setting.site.facades[view.facade];
+  const SeenPart part = PartOf(facade, p, view);
+  const double widest = setting.width_per_m * part.distance_m / facade.length_m();
+  return ViewScore(QualityOfView(part, widest, setting.d_min_m, setting.d_max_m));
+}
+
+}  // namespace stucco::plan
