@@ -94,6 +94,18 @@ double Prisms::Distance(const Vector2d& position, double z) const {
   return std::sqrt(squared);
 }
 
+double Prisms::TopWithin(const Vector2d& position, double radius) const {
+  double top = -std::numeric_limits<double>::infinity();
+  const Segment2 point{position, position};
+  tree_.Any([&](const Box2& box) { return box.MayTouch(point, radius); },
+            [&](int k) {
+              const Prism& prism = prisms_[k];
+              if (prism.top_m > top && prism.IsNear(point, radius)) top = prism.top_m;
+              return false;
+            });
+  return top;
+}
+
 void Prisms::FindCrossings(const Segment2& segment, double above_m, double radius,
                            std::vector<Crossing>& crossings) const {
   tree_.Any([&](const Box2& box) { return box.MayTouch(segment, radius); },

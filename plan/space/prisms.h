@@ -32,6 +32,9 @@ class Prisms {
   // there is none.
   double Distance(const Eigen::Vector2d& position, double z) const;
 
+  // The highest top among prisms nearer than `radius` to a position; minus infinity without any.
+  double TopWithin(const Eigen::Vector2d& position, double radius) const;
+
   // The prisms higher than `above_m` that the segment crosses or passes nearer than `radius`, each
   // with one interval that holds all its parts there.
   void FindCrossings(const Segment2& segment, double above_m, double radius,
