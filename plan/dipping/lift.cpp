@@ -25,17 +25,21 @@ std::optional<double> FootPitch(double above_foot_m, double distance_m, double h
   return -std::min(kSteepest, depression - vfov / 2 + kFootMargin);
 }
 
-// Stops from the top down, those to be merged in one group.
-std::vector<std::vector<Stop>> GroupStops(std::span<const Dip> dips, double vertical_step) {
+std::vector<Stop> StopsFromTop(std::span<const Dip> dips) {
   std::vector<Stop> stops;
   for (size_t i = 0; i < dips.size(); ++i) {
     for (const double z : dips[i].z_m) stops.push_back({z, i, dips[i].height_m});
   }
   std::stable_sort(stops.begin(), stops.end(),
                    [](const Stop& a, const Stop& b) { return a.z_m > b.z_m; });
+  return stops;
+}
+
+// Stops from the top down, those to be merged in one group.
+std::vector<std::vector<Stop>> GroupStops(std::span<const Dip> dips, double vertical_step) {
   std::vector<std::vector<Stop>> groups;
   double reach_m = 0;  // overlap of the smallest photo of the last group
-  for (const Stop& stop : stops) {
+  for (const Stop& stop : StopsFromTop(dips)) {
     const double overlap_m = (1 - vertical_step) * stop.height_m;
     const bool joins = !groups.empty() &&
                        groups.back().front().z_m - stop.z_m <= std::min(reach_m, overlap_m) &&
@@ -90,21 +94,19 @@ Dip MakeDip(const Level& level, const DippingSetting& setting, const Facade& fac
 }
 
 double HoveringCost(std::span<const Dip> dips, double vertical_step) {
-  double cost = 0;
-  for (size_t i = 0; i < dips.size(); ++i) {
-    cost += static_cast<double>(dips[i].z_m.size());
-    for (size_t k = 0; k < i; ++k) {
+  const std::vector<Stop> stops = StopsFromTop(dips);
+  double cost = static_cast<double>(stops.size());
+  for (size_t i = 1; i < stops.size(); ++i) {
+    double saved = 0;
+    for (size_t k = i; k-- > 0;) {
       const double reach =
-          (1 - vertical_step) * std::min(dips[i].height_m, dips[k].height_m);  // tau_d
-      const double sigma = reach / 3;
-      for (const double a : dips[i].z_m) {
-        for (const double b : dips[k].z_m) {
-          const double d = std::abs(a - b);
-          // The paper counts both orders of a pair with one half each.
-          if (d <= reach) cost -= std::exp(-d * d / (2 * sigma * sigma));
-        }
-      }
+          (1 - vertical_step) * std::min(stops[i].height_m, stops[k].height_m);  // tau_d
+      const double d = stops[k].z_m - stops[i].z_m, sigma = reach / 3;
+      if (d > (1 - vertical_step) * stops[i].height_m) break;
+      if (stops[k].dip == stops[i].dip || d > reach) continue;
+      saved = std::max(saved, std::exp(-d * d / (2 * sigma * sigma)));
     }
+    cost -= saved;
   }
   return cost;
 }

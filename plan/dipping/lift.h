@@ -28,7 +28,9 @@ Dip MakeDip(const Level& level, const DippingSetting& setting, const Facade& fac
             const Eigen::Vector2d& p);
 
 // Paper, section 4.3: the number of hovers of the sequences that start from one point, less what
-// merging photos at nearly the same height saves.
+// merging photos at nearly the same height saves: delta(d) for both orders of a pair. The paper
+// sums over all pairs, which saves more hovers than there are as soon as three sequences meet; here
+// a photo is merged with one other at most, the nearest above. For two sequences it is the same.
 double HoveringCost(std::span<const Dip> dips, double vertical_step);
 
 // The hovers of a point: photos of different sequences that are nearer to each other than their

@@ -153,6 +153,8 @@ TEST(HoveringCost, MergingSavesOneOfTwoStopsAtTheSameHeight) {
   const Dip a{{20, 12}, 10, {}}, b{{20, 5}, 10, {}};
   EXPECT_DOUBLE_EQ(HoveringCost(std::vector<Dip>{a}, 0.8), 2);
   EXPECT_NEAR(HoveringCost(std::vector<Dip>{a, b}, 0.8), 3, 1e-9);
+  const std::vector<Dip> five(5, b);
+  EXPECT_NEAR(HoveringCost(five, 0.8), 2, 1e-9);  // never less than the heights there are
   const Dip far{{24, 16}, 10, {}};  // farther than the overlap of 2 m
   EXPECT_DOUBLE_EQ(HoveringCost(std::vector<Dip>{a, far}, 0.8), 4);
 }
