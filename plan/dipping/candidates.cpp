@@ -7,6 +7,8 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "plan/dipping/wall_view.h"
 #include "survey/parallel.h"
@@ -106,6 +108,16 @@ std::optional<Vector2d> FirstAllowed(const Level& level, const DippingSetting& s
   return std::nullopt;
 }
 
+// Far fewer rays than are followed give points that differ: the first in each square metre stands
+// for the others, of each stretch of wall apart.
+struct SquareMetres {
+  std::set<std::pair<int, int>> taken;
+  bool Take(const Vector2d& p) {
+    return taken.emplace(static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())))
+        .second;
+  }
+};
+
 std::vector<Vector2d> PointsThatSee(const Level& level, const DippingSetting& setting,
                                     const Facade& facade, const Intervals& parts) {
   std::vector<Vector2d> points;
@@ -114,9 +126,11 @@ std::vector<Vector2d> PointsThatSee(const Level& level, const DippingSetting& se
     for (int i = 0; i < samples; ++i) {
       const double along = part.from_m + part.length_m() * (i + 0.5) / samples;
       const Vector2d x = facade.a + facade.along() * along;
+      SquareMetres squares;
       for (double turn = -kMaxIncidence + kRayStep / 2; turn < kMaxIncidence; turn += kRayStep) {
         const Vector2d ray = -Direction(facade, turn);
-        if (const auto p = FirstAllowed(level, setting, x, ray)) points.push_back(*p);
+        const auto p = FirstAllowed(level, setting, x, ray);
+        if (p && squares.Take(*p)) points.push_back(*p);
       }
     }
   }

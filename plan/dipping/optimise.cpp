@@ -21,6 +21,7 @@ constexpr int kMostRounds = 20;  // five are usual
 constexpr int kDirections = 8;
 constexpr std::array<double, 2> kStepsM = {1, 4};  // tau_p
 constexpr double kTurnStep = 2.5 * M_PI / 180;     // tau_s
+constexpr int kTurnSteps = 4;                      // to either side
 constexpr double kLeastGain = 1e-3;                // in the sum of qualities or in hovers
 constexpr double kNoLoss = 1e-9;
 
@@ -39,7 +40,13 @@ class Optimiser {
  public:
   Optimiser(const Level& level, const DippingSetting& setting, std::vector<double>& turns,
             std::vector<DippingPoint>& points)
-      : level_(level), setting_(setting), turns_(turns), points_(points) {
+      : level_(level),
+        setting_(setting),
+        turns_(turns),
+        points_(points),
+        changed_at_(setting.site.facades.size(), 0),
+        facade_looked_at_(setting.site.facades.size(), 0),
+        point_looked_at_(points.size(), 0) {
     CollectUsers();
   }
 
@@ -164,15 +171,29 @@ class Optimiser {
     return groups;
   }
 
+  // Whether anything that the point's place depends on changed since it was last looked at.
+  bool IsStale(const DippingPoint& point, int looked_at) const {
+    return std::any_of(point.views.begin(), point.views.end(),
+                       [&](const WallView& view) { return changed_at_[view.facade] >= looked_at; });
+  }
+  void MarkChanged(const DippingPoint& point) {
+    for (const WallView& view : point.views) changed_at_[view.facade] = step_;
+  }
+
   int AdjustPoints() {
     int moved = 0;
-    for (const std::vector<int>& group : IndependentGroups()) {
+    for (std::vector<int>& group : IndependentGroups()) {
+      ++step_;
+      std::erase_if(group, [&](int i) { return !IsStale(points_[i], point_looked_at_[i]); });
       std::vector<std::optional<DippingPoint>> better(group.size());
       ParallelFor(group.size(), setting_.threads,
                   [&](size_t i) { better[i] = BetterPlace(group[i]); });
       for (size_t i = 0; i < group.size(); ++i) {
+        point_looked_at_[group[i]] = step_ + 1;
         if (!better[i]) continue;
+        point_looked_at_[group[i]] = step_;  // there may be a still better place beyond
         points_[group[i]] = std::move(*better[i]);
+        MarkChanged(points_[group[i]]);
         ++moved;
       }
     }
@@ -223,8 +244,9 @@ class Optimiser {
     const Quality before = QualityOf(facade, -1, nullptr);
     double best_gain = kLeastGain;
     std::optional<BetterTurn> best;
-    for (const double step : {-kTurnStep, kTurnStep}) {
-      const double turn = turns_[facade] + step;
+    for (int step = -kTurnSteps; step <= kTurnSteps; ++step) {
+      if (step == 0) continue;
+      const double turn = turns_[facade] + step * kTurnStep;
       std::optional<std::vector<WallView>> views = Turned(facade, turn);
       if (!views) continue;
       const Quality after = QualityWith(facade, *views);
@@ -239,13 +261,19 @@ class Optimiser {
 
   // The direction of a facade influences only its own quality, so that all can turn at once.
   int AdjustTurns() {
+    ++step_;
     std::vector<std::optional<BetterTurn>> better(level_.facades.size());
-    ParallelFor(level_.facades.size(), setting_.threads,
-                [&](size_t i) { better[i] = FindBetterTurn(level_.facades[i]); });
+    ParallelFor(level_.facades.size(), setting_.threads, [&](size_t i) {
+      const int facade = level_.facades[i];
+      if (changed_at_[facade] >= facade_looked_at_[facade]) better[i] = FindBetterTurn(facade);
+    });
     int turned = 0;
     for (size_t i = 0; i < better.size(); ++i) {
-      if (!better[i]) continue;
       const int facade = level_.facades[i];
+      facade_looked_at_[facade] = step_ + 1;
+      if (!better[i]) continue;
+      facade_looked_at_[facade] = step_;
+      changed_at_[facade] = step_;
       turns_[facade] = better[i]->turn;
       for (size_t k = 0; k < users_[facade].size(); ++k) {
         const User& user = users_[facade][k];
@@ -261,10 +289,12 @@ class Optimiser {
     std::vector<std::vector<int>> removed(level_.facades.size());  // positions in users_
     ParallelFor(level_.facades.size(), setting_.threads,
                 [&](size_t i) { removed[i] = RedundantViews(level_.facades[i]); });
+    ++step_;
     int count = 0;
     for (size_t i = 0; i < removed.size(); ++i) {
       for (const int k : removed[i]) {
         const User& user = users_[level_.facades[i]][k];
+        MarkChanged(points_[user.point]);  // its cost changes too
         points_[user.point].views[user.view].seen.clear();
         ++count;
       }
@@ -273,9 +303,20 @@ class Optimiser {
     for (DippingPoint& point : points_) {
       std::erase_if(point.views, [](const WallView& view) { return view.seen.empty(); });
     }
-    std::erase_if(points_, [](const DippingPoint& point) { return point.views.empty(); });
+    DropEmptyPoints();
     CollectUsers();
     return count;
+  }
+
+  void DropEmptyPoints() {
+    size_t kept = 0;
+    for (size_t i = 0; i < points_.size(); ++i) {
+      if (points_[i].views.empty()) continue;
+      if (kept != i) points_[kept] = std::move(points_[i]);
+      point_looked_at_[kept++] = point_looked_at_[i];
+    }
+    points_.resize(kept);
+    point_looked_at_.resize(kept);
   }
 
   std::vector<int> RedundantViews(int facade) const {
@@ -312,6 +353,11 @@ class Optimiser {
   std::vector<double>& turns_;
   std::vector<DippingPoint>& points_;
   std::vector<std::vector<User>> users_;  // by facade
+  // Steps are numbered, so that only what has changed is looked at again.
+  int step_ = 0;
+  std::vector<int> changed_at_;        // by facade
+  std::vector<int> facade_looked_at_;  // by facade: its direction
+  std::vector<int> point_looked_at_;   // by point: its place
 };
 
 }  // namespace
