@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "plan/mission/wpml.h"
+
+namespace stucco::plan {
+
+struct MissionFiles {
+  std::vector<std::string> names;  // in the folder, sorted by kind
+  std::vector<std::string> notes;  // what the user has to know or to set, a line each
+};
+
+// Writes mission.kmz (DJI WPML; checked by LintKmz), mission.csv (Litchi), mission.plan
+// (QGroundControl), mission.kml and plan.geojson into a folder that exists; mission_1.kmz and so on
+// where there are several flights. Throws Error when a file cannot be written, or when the linter
+// finds fault with ours.
+MissionFiles WriteMissionFiles(const Plan& plan, const MissionOptions& options,
+                               const std::filesystem::path& folder);
+
+}  // namespace stucco::plan

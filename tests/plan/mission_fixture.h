@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "plan/mission/wpml.h"
+#include "survey/plan.h"
+
+namespace stucco::plan::test {
+
+// Two buildings, one with a courtyard, a no-fly area, and two flights of hovers with one to five
+// photos and with corners between them.
+Plan MakePlan();
+
+// Back from the geodetic coordinates of a file to the plan's frame, by PROJ itself.
+Eigen::Vector2d PlanFromLonLat(const Plan& plan, double longitude_deg, double latitude_deg);
+
+MissionOptions Mavic3E();
+
+// A folder of its own, removed afterwards.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Fields of lines separated by `separator`, without quoting.
+std::vector<std::vector<std::string>> Table(const std::string& text, char separator);
+
+// `text` with the first `from` replaced; a test failure when it does not occur.
+std::string Replaced(std::string text, const std::string& from, const std::string& to);
+
+}  // namespace stucco::plan::test

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/mission/route.h"
+
+#include <gtest/gtest.h>
+
+#include "survey/error.h"
+#include "tests/plan/mission_fixture.h"
+
+namespace stucco::plan {
+namespace {
+
+TEST(Route, LeavesOutThePointsOnTheGround) {
+  const Plan plan = test::MakePlan();
+  const std::vector<Route> routes = RoutesOf(plan);
+  ASSERT_EQ(routes.size(), 2u);
+  ASSERT_EQ(routes[0].stops.size(), 5u);
+  EXPECT_EQ(routes[0].stops.front().height_m, 30);
+  EXPECT_EQ(routes[0].stops.back().height_m, 30);
+  EXPECT_EQ(routes[0].length_m, 231.5);
+  EXPECT_EQ(routes[0].time_min, 3.25);
+}
+
+TEST(Route, KeepsPhotosInOrderAndTurnsBeforeItArrives) {
+  const Plan plan = test::MakePlan();
+  const std::vector<RouteStop> stops = RoutesOf(plan)[0].stops;
+  ASSERT_EQ(stops[1].views.size(), 2u);
+  EXPECT_EQ(stops[1].views[0].id, "h000v0");
+  EXPECT_EQ(stops[1].views[1].id, "h000v1");
+  EXPECT_EQ(stops[0].yaw_deg, 0);
+  EXPECT_TRUE(stops[2].views.empty());
+  EXPECT_NEAR(stops[2].yaw_deg, -89.875, 1e-9);  // of the photo to come
+  EXPECT_NEAR(stops[3].yaw_deg, -89.875, 1e-9);
+  EXPECT_EQ(stops[4].yaw_deg, 90);  // of the last photo
+}
+
+TEST(Route, HeightsCountFromHome) {
+  Plan plan = test::MakePlan();
+  plan.home_m.z() = 4;
+  const std::vector<Route> routes = RoutesOf(plan);
+  EXPECT_EQ(routes[0].stops[1].height_m, 4);
+  EXPECT_EQ(routes[0].take_off_height_m, 30);  // above the ground at home: more than blocked_to
+}
+
+TEST(Route, ReturnsAboveEverything) {
+  Plan plan = test::MakePlan();
+  plan.footprints[1].blocked_to_m = 44;
+  EXPECT_EQ(RoutesOf(plan)[0].return_height_m, 44);
+  plan.flights[1].waypoints[0].position_m.z() = 51;  // a flight over higher ground
+  EXPECT_EQ(RoutesOf(plan)[0].return_height_m, 51);
+}
+
+TEST(Route, MergesPointsThatCoincide) {
+  Plan plan = test::MakePlan();
+  auto& waypoints = plan.flights[0].waypoints;
+  waypoints.insert(waypoints.begin() + 2, {waypoints[2].position_m, -1});
+  EXPECT_EQ(RoutesOf(plan)[0].stops.size(), 5u);
+  EXPECT_EQ(RoutesOf(plan)[0].stops[1].views.size(), 2u);
+}
+
+TEST(Route, GivesALoneStopAPointAboveIt) {
+  Plan plan = test::MakePlan();
+  plan.flights[0].waypoints = {{plan.home_m, -1}, {{20, -15, 8}, 0}, {plan.home_m, -1}};
+  const std::vector<RouteStop> stops = RoutesOf(plan)[0].stops;
+  ASSERT_EQ(stops.size(), 2u);
+  EXPECT_EQ(stops[0].position_m, Eigen::Vector3d(20, -15, 30));
+  EXPECT_TRUE(stops[0].views.empty());
+  EXPECT_EQ(stops[1].views.size(), 2u);
+}
+
+TEST(Route, ApproachesFromAbove) {
+  const Plan plan = test::MakePlan();
+  const Route route = RoutesOf(plan)[0];
+  const auto low = WithApproach(plan, route, {route.stops[1], route.stops[2]});
+  ASSERT_EQ(low.size(), 4u);
+  EXPECT_EQ(low.front().position_m, Eigen::Vector3d(20, -15, 30));
+  EXPECT_EQ(low.back().position_m, Eigen::Vector3d(52, -12, 30));
+  EXPECT_EQ(low.back().height_m, 30);
+  EXPECT_TRUE(low.front().views.empty());
+  EXPECT_EQ(WithApproach(plan, route, route.stops).size(), route.stops.size());
+  EXPECT_TRUE(WithApproach(plan, route, {}).empty());
+}
+
+TEST(Route, RefusesAPlanWithoutAPath) {
+  Plan plan = test::MakePlan();
+  plan.flights.clear();
+  EXPECT_THROW(RoutesOf(plan), Error);
+  plan = test::MakePlan();
+  plan.flights[0].waypoints[2].hover = 77;
+  EXPECT_THROW(RoutesOf(plan), Error);
+}
+
+TEST(Route, AFlightOnTheGroundHasNoStops) {
+  Plan plan = test::MakePlan();
+  plan.flights[0].waypoints = {{plan.home_m, -1}, {plan.home_m, -1}};
+  EXPECT_TRUE(RoutesOf(plan)[0].stops.empty());
+  plan.flights[0].waypoints.clear();
+  EXPECT_TRUE(RoutesOf(plan)[0].stops.empty());
+}
+
+TEST(Degrees, AreWrapped) {
+  EXPECT_EQ(SignedDegrees(270), -90);
+  EXPECT_EQ(SignedDegrees(-180), 180);
+  EXPECT_EQ(SignedDegrees(540), 180);
+  EXPECT_EQ(SignedDegrees(-725), -5);
+  EXPECT_EQ(CompassDegrees(-90), 270);
+  EXPECT_EQ(CompassDegrees(360), 0);
+}
+
+TEST(NumberedName, NumbersSeveral) {
+  EXPECT_EQ(NumberedName("mission", ".kmz", 0, 1), "mission.kmz");
+  EXPECT_EQ(NumberedName("mission", ".kmz", 1, 2), "mission_2.kmz");
+}
+
+}  // namespace
+}  // namespace stucco::plan
