@@ -25,9 +25,9 @@ struct Writer {
   std::string text;
 
   Json At(const Eigen::Vector3d& position) const {
-    const Geodetic point = GeodeticFromPlan(plan.origin, position);
+    const Geodetic point = GeodeticFromPlan(plan.origin, position.head<2>());
     return Json::array({RoundTo(point.longitude_deg, 1e8), RoundTo(point.latitude_deg, 1e8),
-                        Rounded(point.height_m)});
+                        Rounded(plan.origin.height_m + position.z())});
   }
   Json At(const Eigen::Vector2d& position) const {
     Json point = At(Eigen::Vector3d(position.x(), position.y(), 0));

@@ -22,9 +22,9 @@ struct Writer {
   const char* altitude_mode;
 
   std::string Coordinate(const Eigen::Vector3d& position) const {
-    const Geodetic point = GeodeticFromPlan(plan.origin, position);
+    const Geodetic point = GeodeticFromPlan(plan.origin, position.head<2>());
     return fmt::format("{:.8f},{:.8f},{:.2f}", point.longitude_deg, point.latitude_deg,
-                       point.height_m);
+                       plan.origin.height_m + position.z());
   }
   std::string Ring(const std::vector<Eigen::Vector3d>& corners) const {
     std::vector<std::string> texts;

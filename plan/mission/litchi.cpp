@@ -61,7 +61,7 @@ std::vector<RouteStop> SplitStops(const Plan& plan, const std::vector<RouteStop>
         next.yaw_deg = SignedDegrees(view.yaw_deg);
         next.position_m.z() += kNextWaypoint;
         next.height_m += kNextWaypoint;
-        next.geodetic = GeodeticFromPlan(plan.origin, next.position_m);
+        next.geodetic = GeodeticFromPlan(plan.origin, next.position_m.head<2>());
         split.push_back(next);
         actions = ActionsFor(nullptr, view, options).size();
       } else {

@@ -22,7 +22,9 @@ void Write(const std::filesystem::path& folder, const std::string& name, const s
 
 void WriteDji(const Plan& plan, const std::vector<Route>& routes, const MissionOptions& options,
               const std::filesystem::path& folder, MissionFiles& files) {
-  if (options.dji.drone == 0) {
+  const bool is_known =
+      options.dji.drone != 0 && (options.dji.payload != 0 || options.dji.drone == kDjiFlyDrone);
+  if (!is_known) {
     files.notes.push_back("no mission.kmz: DJI's mission files do not know " +
                           (plan.camera.label.empty() ? "this drone" : plan.camera.label));
     return;

@@ -105,7 +105,7 @@ Json FencePolygon(const Plan& plan, const std::vector<Eigen::Vector2d>& ring) {
   }
   std::vector<Json> corners;
   for (const Eigen::Vector2d& corner : ring) {
-    corners.push_back(Position(GeodeticFromPlan(plan.origin, {corner.x(), corner.y(), 0})));
+    corners.push_back(Position(GeodeticFromPlan(plan.origin, corner)));
   }
   if (twice_area > 0) std::ranges::reverse(corners);
   return {{"inclusion", false}, {"polygon", corners}, {"version", 1}};
@@ -115,7 +115,7 @@ Json FencePolygon(const Plan& plan, const std::vector<Eigen::Vector2d>& ring) {
 
 std::string QGroundControlPlan(const Plan& plan, const Route& route,
                                const MissionOptions& options) {
-  const Geodetic home = GeodeticFromPlan(plan.origin, plan.home_m);
+  const Geodetic home = GeodeticFromPlan(plan.origin, plan.home_m.head<2>());
   Items items;
   items.AddPlace(kTakeOff, {0, 0, 0, nullptr}, home, route.take_off_height_m);
   items.AddCommand(kSpeed, {1, options.speed_m_per_s, -1});
@@ -137,7 +137,8 @@ std::string QGroundControlPlan(const Plan& plan, const Route& route,
         {"hoverSpeed", options.speed_m_per_s},
         {"globalPlanAltitudeMode", kRelativeAltitude},
         {"plannedHomePosition",
-         {Degrees8(home.latitude_deg), Degrees8(home.longitude_deg), Centi(home.height_m)}},
+         {Degrees8(home.latitude_deg), Degrees8(home.longitude_deg),
+          Centi(plan.origin.height_m + plan.home_m.z())}},
         {"items", items.Take()}}},
       {"geoFence", {{"version", 2}, {"circles", Json::array()}, {"polygons", polygons}}},
       {"rallyPoints", {{"version", 2}, {"points", Json::array()}}},

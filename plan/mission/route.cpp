@@ -52,7 +52,7 @@ void Append(const Plan& plan, const Eigen::Vector3d& position, std::vector<Plann
     return;
   }
   stops.push_back({.position_m = position,
-                   .geodetic = GeodeticFromPlan(plan.origin, position),
+                   .geodetic = GeodeticFromPlan(plan.origin, position.head<2>()),
                    .height_m = position.z() - plan.home_m.z(),
                    .views = std::move(views)});
 }
@@ -91,7 +91,7 @@ RouteStop Above(const Plan& plan, const RouteStop& stop, double z) {
   RouteStop above = stop;
   above.views.clear();
   above.position_m.z() = z;
-  above.geodetic = GeodeticFromPlan(plan.origin, above.position_m);
+  above.geodetic = GeodeticFromPlan(plan.origin, above.position_m.head<2>());
   above.height_m = z - plan.home_m.z();
   return above;
 }

@@ -78,9 +78,10 @@ void AddConfig(pugi::xml_node document, const Plan* plan, const Route& route,
   PutHeight(config, "wpml:takeOffSecurityHeight",
             std::clamp(route.take_off_height_m, kLowestTakeOff, kHighestTakeOff));
   if (plan != nullptr) {
-    const Geodetic home = GeodeticFromPlan(plan->origin, plan->home_m);
+    const Geodetic home = GeodeticFromPlan(plan->origin, plan->home_m.head<2>());
     Put(config, "wpml:takeOffRefPoint",
-        fmt::format("{:.8f},{:.8f},{:.2f}", home.latitude_deg, home.longitude_deg, home.height_m));
+        fmt::format("{:.8f},{:.8f},{:.2f}", home.latitude_deg, home.longitude_deg,
+                    plan->origin.height_m + plan->home_m.z()));
   }
   PutDecimal(config, "wpml:globalTransitionalSpeed", options.transfer_speed_m_per_s, 1);
   PutHeight(config, "wpml:globalRTHHeight", route.return_height_m);

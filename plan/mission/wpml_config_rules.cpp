@@ -49,7 +49,7 @@ const Rules& DroneRules() {
 
 const Rules& PayloadRules() {
   static const Rules rules = {
-      {"wpml:payloadEnumValue", true, FieldRule::kWhole, 1, 65534},
+      {"wpml:payloadEnumValue", true, FieldRule::kWhole, 1, 1e6},
       {"wpml:payloadPositionIndex", true, FieldRule::kWhole, 0, 2},
   };
   return rules;

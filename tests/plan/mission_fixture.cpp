@@ -102,6 +102,10 @@ OGRSpatialReference Reference(const std::string& proj) {
 }  // namespace
 
 Plan MakePlan() {
+  return MakePlan(0);
+}
+
+Plan MakePlan(double home_z_m) {
   Plan plan;
   plan.method = "cocapture";
   plan.origin = {52.0116, 4.3571, 0};
@@ -112,7 +116,7 @@ Plan MakePlan() {
   plan.d_max_m = 60;
   plan.safe_altitude_m = kHigh;
   plan.min_altitude_m = 5;
-  plan.home_m = {-30, -40, 0};
+  plan.home_m = {-30, -40, home_z_m};
   AddBuilding(plan, "B0001", {{0, 0}, {40, 0}, {40, 25}, {0, 25}});
   AddBuilding(plan, "B<2>&", {{70, 0}, {95, 0}, {95, 25}, {70, 25}});
   plan.footprints[0].rings_m.push_back({{15, 8}, {15, 17}, {25, 17}, {25, 8}});

@@ -15,6 +15,8 @@ namespace stucco::plan::test {
 // Two buildings, one with a courtyard, a no-fly area, and two flights of hovers with one to five
 // photos and with corners between them.
 Plan MakePlan();
+// The same with a home above z = 0.
+Plan MakePlan(double home_z_m);
 
 // Back from the geodetic coordinates of a file to the plan's frame, by PROJ itself.
 Eigen::Vector2d PlanFromLonLat(const Plan& plan, double longitude_deg, double latitude_deg);

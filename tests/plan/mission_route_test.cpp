@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/mission/route.h"
-
 #include <gtest/gtest.h>
 
+#include "plan/mission/route.h"
 #include "survey/error.h"
 #include "tests/plan/mission_fixture.h"
 
@@ -35,9 +34,7 @@ TEST(Route, KeepsPhotosInOrderAndTurnsBeforeItArrives) {
 }
 
 TEST(Route, HeightsCountFromHome) {
-  Plan plan = test::MakePlan();
-  plan.home_m.z() = 4;
-  const std::vector<Route> routes = RoutesOf(plan);
+  const std::vector<Route> routes = RoutesOf(test::MakePlan(4));
   EXPECT_EQ(routes[0].stops[1].height_m, 4);
   EXPECT_EQ(routes[0].take_off_height_m, 30);  // above the ground at home: more than blocked_to
 }

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/mission/wpml.h"
-
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <time.h>
@@ -10,6 +8,7 @@
 
 #include "plan/mission/internal/zip_archive.h"
 #include "plan/mission/mission.h"
+#include "plan/mission/wpml.h"
 #include "plan/mission/wpml_lint.h"
 #include "survey/error.h"
 #include "survey/files.h"
@@ -52,11 +51,13 @@ std::vector<Taken> Fly(const Plan& plan, const std::string& waylines) {
     state.position_m = test::PlanFromLonLat(plan, lon, lat);
     state.height_m = Number(placemark, "wpml:executeHeight");
     state.yaw_deg = Number(placemark, "wpml:waypointHeadingParam/wpml:waypointHeadingAngle");
-    for (const pugi::xml_node action : placemark.child("wpml:actionGroup").children("wpml:action")) {
+    for (const pugi::xml_node action :
+         placemark.child("wpml:actionGroup").children("wpml:action")) {
       const std::string function = Text(action, "wpml:actionActuatorFunc");
       const pugi::xml_node param = action.child("wpml:actionActuatorFuncParam");
       if (function == "rotateYaw") state.yaw_deg = Number(param, "wpml:aircraftHeading");
-      if (function == "gimbalRotate") state.pitch_deg = Number(param, "wpml:gimbalPitchRotateAngle");
+      if (function == "gimbalRotate")
+        state.pitch_deg = Number(param, "wpml:gimbalPitchRotateAngle");
       if (function == "hover") hovered_s = Number(param, "wpml:hoverTime");
       if (function != "takePhoto") continue;
       EXPECT_GE(hovered_s, 1);
@@ -81,8 +82,7 @@ void ExpectViews(const Plan& plan, const std::vector<Taken>& photos, size_t firs
 }
 
 TEST(Wpml, TakesEveryPlannedPhoto) {
-  Plan plan = test::MakePlan();
-  plan.home_m.z() = 1.25;
+  const Plan plan = test::MakePlan(1.25);
   const std::vector<Route> routes = RoutesOf(plan);
   const auto first = Fly(plan, WpmlWaylines(routes[0], test::Mavic3E()));
   const auto second = Fly(plan, WpmlWaylines(routes[1], test::Mavic3E()));
@@ -95,9 +95,8 @@ TEST(Wpml, TakesEveryPlannedPhoto) {
 TEST(Wpml, PassesTheLinter) {
   const Plan plan = test::MakePlan();
   const TemporaryFolder folder;
-  for (const DroneEnums& dji :
-       {DroneEnums{77, 0, 66}, DroneEnums{89, 0, 42}, DroneEnums{67, 0, 52},
-        DroneEnums{kDjiFlyDrone, 0, 0}}) {
+  for (const DroneEnums& dji : {DroneEnums{77, 0, 66}, DroneEnums{89, 0, 42}, DroneEnums{67, 0, 52},
+                                DroneEnums{kDjiFlyDrone, 0, 0}}) {
     MissionOptions options;
     options.dji = dji;
     for (const Route& route : RoutesOf(plan)) {
@@ -196,9 +195,9 @@ TEST(MissionFiles, WritesAllThatTheDroneAllows) {
   const Plan plan = test::MakePlan();
   const TemporaryFolder folder;
   const MissionFiles files = WriteMissionFiles(plan, test::Mavic3E(), folder.path());
-  const std::vector<std::string> expected = {
-      "mission_1.kmz",  "mission_2.kmz",  "mission_1.csv", "mission_2.csv",
-      "mission_1.plan", "mission_2.plan", "mission.kml",   "plan.geojson"};
+  const std::vector<std::string> expected = {"mission_1.kmz", "mission_2.kmz",  "mission_1.csv",
+                                             "mission_2.csv", "mission_1.plan", "mission_2.plan",
+                                             "mission.kml",   "plan.geojson"};
   EXPECT_EQ(files.names, expected);
   for (const std::string& name : files.names) {
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
