@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/planar/planar_views.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "plan/model/cells.h"
+#include "plan/model/sightings.h"
+#include "plan/planar/move_hovers.h"
+#include "plan/planar/reconstructability.h"
+#include "plan/planar/thin_out.h"
+#include "plan/planar/view_graph.h"
+#include "plan/space/obstacles.h"
+
+namespace stucco::plan {
+namespace {
+
+constexpr double kGoodPairs = 10;  // Zhou et al. 2020
+// Samples need not be denser than the photos change from hover to hover; windows and cornices are
+// no part of the 2.5D model.
+constexpr double kSpacingOfGrid = 0.75;
+constexpr double kFinest_m = 3.5;
+constexpr double kCoarsest_m = 8;
+// Ground counts up to this many d_min from the buildings.
+constexpr double kGroundReach = 2;
+// The ground in the middle of a tilted photo still counts as covered where it is beyond d_max: from
+// a high ceiling there is nothing better.
+constexpr double kReachOfAltitude = 1.5;
+// Of the mean grid step, for a move.
+constexpr double kMoveOfGrid = 0.5;
+
+double MeanStep(const GridStep& step) {
+  return std::sqrt(step.forward_m * step.side_m);
+}
+
+double SpacingOf(const PlanarOptions& options, const GridStep& step) {
+  if (options.sample_spacing_m > 0) return options.sample_spacing_m;
+  return std::clamp(kSpacingOfGrid * MeanStep(step), kFinest_m, kCoarsest_m);
+}
+
+double TauOf(const Site& site, const PlanarOptions& options, Progress& progress) {
+  if (options.tau_r > 0) return options.tau_r;
+  const double tau = kGoodPairs * GoodPair(site.safe_altitude_m, options.d_max_m);
+  if (!(tau > 0)) {
+    progress.Warn(fmt::format(
+        "views from the safe altitude of {:.0f} m are beyond d_max = {:.0f} m: their photos are "
+        "coarser than asked for, and only coverage decides which of them stay",
+        site.safe_altitude_m, options.d_max_m));
+  }
+  return tau;
+}
+
+// The grid less what was removed.
+std::vector<Hover> Kept(const std::vector<Hover>& grid, const ViewGraph& graph) {
+  std::vector<Hover> out;
+  for (uint32_t i = 0; i < grid.size(); ++i) {
+    if (!graph.removed(i)) out.push_back(grid[i]);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
+                               const PlanarOptions& options, std::span<const Hover> dipping,
+                               int threads, Progress& progress) {
+  std::vector<Hover> grid = GridHovers(site, camera, options.grid);
+  if (grid.empty()) return grid;
+  const GridStep step = StepOf(site, camera, options.grid);
+  const double tau = TauOf(site, options, progress);
+  const SurfaceView view(site, camera,
+                         SampleSurface(site, {.spacing_m = SpacingOf(options, step),
+                                              .ground_reach_m = kGroundReach * site.d_min_m}),
+                         std::max(options.d_max_m, kReachOfAltitude * site.safe_altitude_m));
+  ViewGraph graph(view, options.d_max_m, threads);
+  std::vector<Hover> all = grid;
+  all.insert(all.end(), dipping.begin(), dipping.end());
+  progress.Begin("planar views: what they see", 1);
+  graph.AddAll(all);
+  progress.Advance();
+  const std::vector<Requirement> requirements = RequirementsOf(graph, view.samples, tau);
+
+  const Obstacles obstacles(site);
+  const MoveOptions moves{.step_m = kMoveOfGrid * MeanStep(step),
+                          .axis = MainAxis(site.area),
+                          .tau_r = tau,
+                          .threads = threads};
+  const auto count = static_cast<uint32_t>(grid.size());
+  for (int round = 0; round < options.most_rounds; ++round) {
+    const size_t moved =
+        round == 0 ? 0 : MoveHovers(graph, obstacles, requirements, grid, moves);
+    const size_t removed = RemoveRedundant(graph, requirements, tau, count, progress);
+    if (round > 0 && moved == 0 && removed == 0) break;
+  }
+  return Kept(grid, graph);
+}
+
+}  // namespace stucco::plan

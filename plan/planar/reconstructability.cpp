@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/planar/reconstructability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace stucco::plan {
+namespace {
+
+// Slopes and centres of the two logistic weights (Smith et al. 2018).
+constexpr double kParallaxSlope = 32;
+constexpr double kParallaxAngle = std::numbers::pi / 16;
+constexpr double kMatchSlope = 8;
+constexpr double kMatchAngle = std::numbers::pi / 4;
+constexpr double kGoodIncidence = 8.66 * std::numbers::pi / 180;  // of both rays of a good pair
+
+}  // namespace
+
+double ParallaxWeight(double angle_rad) {
+  return 1 / (1 + std::exp(-kParallaxSlope * (angle_rad - kParallaxAngle)));
+}
+
+double ResolutionWeight(double distance_m, double d_max_m) {
+  return 1 - std::min(distance_m / d_max_m, 1.0);
+}
+
+double MatchWeight(double angle_rad) {
+  return 1 - 1 / (1 + std::exp(-kMatchSlope * (angle_rad - kMatchAngle)));
+}
+
+double PairReconstructability(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
+                              const Eigen::Vector3d& c, const Eigen::Vector3d& d, double d_max_m) {
+  const double c_distance = (c - point).norm();
+  const double d_distance = (d - point).norm();
+  if (!(c_distance > 0) || !(d_distance > 0)) return 0;
+  const Eigen::Vector3d to_c = (c - point) / c_distance;
+  const Eigen::Vector3d to_d = (d - point) / d_distance;
+  const double angle = std::acos(std::clamp(to_c.dot(to_d), -1.0, 1.0));
+  const double cosine = std::min(to_c.dot(normal), to_d.dot(normal));
+  if (!(cosine > 0)) return 0;
+  return ParallaxWeight(angle) * ResolutionWeight(std::max(c_distance, d_distance), d_max_m) *
+         MatchWeight(angle) * cosine;
+}
+
+double Reconstructability(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
+                          std::span<const Eigen::Vector3d> cameras, double d_max_m) {
+  double sum = 0;
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    for (size_t j = i + 1; j < cameras.size(); ++j) {
+      sum += PairReconstructability(point, normal, cameras[i], cameras[j], d_max_m);
+    }
+  }
+  return sum;
+}
+
+double GoodPair(double distance_m, double d_max_m) {
+  return ParallaxWeight(2 * kGoodIncidence) * ResolutionWeight(distance_m, d_max_m) *
+         MatchWeight(2 * kGoodIncidence) * std::cos(kGoodIncidence);
+}
+
+}  // namespace stucco::plan

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "plan/planar/view_graph.h"
+#include "survey/stage.h"
+
+namespace stucco::plan {
+
+// What thinning out must leave to every sample.
+struct Requirement {
+  double reconstructability = 0;
+  int hovers = 0;
+  int nadirs = 0;  // photos straight down, of roofs and ground
+
+  bool MetBy(const SampleState& state) const {
+    return state.reconstructability >= reconstructability && state.hovers >= hovers &&
+           state.nadirs >= nadirs;
+  }
+};
+
+// From what the full set of hovers gives. A sample that reaches `tau_r` may fall to it; one that
+// does not keeps half of what it has. A sample keeps three hovers that see it, or as many as it
+// has, and on roofs and ground a photo straight down.
+std::vector<Requirement> RequirementsOf(const ViewGraph& graph,
+                                        std::span<const SurfaceSample> samples, double tau_r);
+
+// Takes hovers with the numbers 0 to `count` - 1 out of the graph, always the most redundant one,
+// until none can go without a sample losing what it requires. The redundancy of a hover is the sum
+// over its samples of its share times how far h is above tau_r: share (1 - tau_r / h). Both that
+// and what may go only ever shrink while hovers go, so that a lazy queue finds the same order as
+// asking all of them each time. Returns how many went. Throws Error (kInterrupted).
+size_t RemoveRedundant(ViewGraph& graph, std::span<const Requirement> requirements, double tau_r,
+                       uint32_t count, Progress& progress);
+
+}  // namespace stucco::plan

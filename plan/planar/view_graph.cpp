@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/planar/view_graph.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "plan/planar/reconstructability.h"
+#include "survey/parallel.h"
+
+namespace stucco::plan {
+namespace {
+
+constexpr int kShotBits = 3;
+constexpr uint32_t kMostShots = (1U << kShotBits) - 1;  // of one hover on one sample; more count so
+constexpr uint32_t kNobody = ~0U >> kShotBits;
+// Hovers with fewer sightings are not worth a second thread.
+constexpr size_t kSightingsPerTask = 256;
+
+// w1 w3 by the square of the chord between two unit rays, which spares the arc cosine.
+constexpr int kTableSize = 1 << 13;
+constexpr float kTableScale = kTableSize / 4.0F;
+
+std::array<float, kTableSize + 2> MakeTable() {
+  std::array<float, kTableSize + 2> out{};
+  for (int i = 0; i <= kTableSize; ++i) {
+    const double chord_square = std::min(4.0, i / static_cast<double>(kTableScale));
+    const double angle = 2 * std::asin(0.5 * std::sqrt(chord_square));
+    out[i] = static_cast<float>(ParallaxWeight(angle) * MatchWeight(angle));
+  }
+  out[kTableSize + 1] = out[kTableSize];
+  return out;
+}
+const std::array<float, kTableSize + 2> kAngleTable = MakeTable();
+
+float AngleWeight(float cosine) {
+  const float at = std::clamp((2 - 2 * cosine) * kTableScale, 0.0F, static_cast<float>(kTableSize));
+  const int i = static_cast<int>(at);
+  return kAngleTable[i] + (at - static_cast<float>(i)) * (kAngleTable[i + 1] - kAngleTable[i]);
+}
+
+int Counted(const Sighting& sighting) {
+  return std::min<int>(sighting.shots, kMostShots);
+}
+
+}  // namespace
+
+ViewGraph::ViewGraph(const SurfaceView& view, double d_max_m, int threads)
+    : view_(view), d_max_m_(d_max_m), threads_(threads), rays_(view.samples.size()), states_(view.samples.size()) {}
+
+void ViewGraph::AddAll(std::span<const Hover> hovers) {
+  sightings_.resize(hovers.size());
+  removed_.assign(hovers.size(), 0);
+  for (const Hover& hover : hovers) positions_.push_back(hover.position);
+  ParallelFor(hovers.size(), threads_,
+              [&](size_t i) { sightings_[i] = SightingsOf(view_, hovers[i]); });
+  std::vector<uint32_t> counts(rays_.size());
+  for (const auto& list : sightings_) {
+    for (const Sighting& sighting : list) ++counts[sighting.sample];
+  }
+  for (size_t s = 0; s < rays_.size(); ++s) rays_[s].reserve(counts[s]);
+  for (uint32_t hover = 0; hover < hovers.size(); ++hover) {
+    for (const Sighting& sighting : sightings_[hover]) {
+      Ray ray = RayTo(sighting.sample, positions_[hover]);
+      ray.hover_and_shots = hover << kShotBits | Counted(sighting);
+      rays_[sighting.sample].push_back(ray);
+      ++states_[sighting.sample].hovers;
+      states_[sighting.sample].nadirs += sighting.nadir;
+    }
+  }
+  constexpr size_t kPerTask = 64;
+  ParallelFor((rays_.size() + kPerTask - 1) / kPerTask, threads_, [&](size_t task) {
+    const size_t end = std::min(rays_.size(), (task + 1) * kPerTask);
+    for (size_t s = task * kPerTask; s < end; ++s) Sum(static_cast<uint32_t>(s));
+  });
+}
+
+ViewGraph::Ray ViewGraph::RayTo(uint32_t sample, const Eigen::Vector3d& position) const {
+  const Eigen::Vector3d way = position - view_.samples[sample].position;
+  const double distance = way.norm();
+  const Eigen::Vector3f unit = (way / distance).cast<float>();
+  return {unit.x(), unit.y(), unit.z(),
+          static_cast<float>(ResolutionWeight(distance, d_max_m_)), 0};
+}
+
+double ViewGraph::Share(uint32_t sample, const Ray& ray, int shots, uint32_t self) const {
+  const Eigen::Vector3f normal = view_.samples[sample].normal.cast<float>();
+  const auto facing = [&](const Ray& r) {
+    return r.x * normal.x() + r.y * normal.y() + r.z * normal.z();
+  };
+  const float own = facing(ray);
+  double sum = 0;
+  for (const Ray& other : rays_[sample]) {
+    if (other.hover_and_shots >> kShotBits == self) continue;
+    const float cosine = ray.x * other.x + ray.y * other.y + ray.z * other.z;
+    const float pair = AngleWeight(cosine) * std::min(ray.closeness, other.closeness) *
+                       std::min(own, facing(other));
+    sum += static_cast<float>(other.hover_and_shots & kMostShots) * pair;
+  }
+  const double among_themselves =
+      0.5 * (shots - 1) * kAngleTable[0] * static_cast<double>(ray.closeness * own);
+  return shots * (sum + among_themselves);
+}
+
+void ViewGraph::Sum(uint32_t sample) {
+  // Every pair of different hovers counts twice in the sum of the shares.
+  double pairs = 0, alone = 0;
+  const Eigen::Vector3f normal = view_.samples[sample].normal.cast<float>();
+  for (const Ray& ray : rays_[sample]) {
+    const int shots = static_cast<int>(ray.hover_and_shots & kMostShots);
+    const float own = ray.x * normal.x() + ray.y * normal.y() + ray.z * normal.z();
+    const double among_themselves =
+        0.5 * shots * (shots - 1) * kAngleTable[0] * static_cast<double>(ray.closeness * own);
+    pairs += Share(sample, ray, shots, ray.hover_and_shots >> kShotBits) - among_themselves;
+    alone += among_themselves;
+  }
+  states_[sample].reconstructability = 0.5 * pairs + alone;
+}
+
+std::vector<double> ViewGraph::Shares(uint32_t hover) const {
+  const std::vector<Sighting>& list = sightings_[hover];
+  std::vector<double> out(list.size());
+  ParallelFor((list.size() + kSightingsPerTask - 1) / kSightingsPerTask, threads_,
+              [&](size_t task) {
+                const size_t end = std::min(list.size(), (task + 1) * kSightingsPerTask);
+                for (size_t i = task * kSightingsPerTask; i < end; ++i) {
+                  const Ray ray = RayTo(list[i].sample, positions_[hover]);
+                  out[i] = Share(list[i].sample, ray, Counted(list[i]), hover);
+                }
+              });
+  return out;
+}
+
+std::vector<double> ViewGraph::SharesFrom(const Eigen::Vector3d& position,
+                                          std::span<const Sighting> sightings) const {
+  std::vector<double> out;
+  out.reserve(sightings.size());
+  for (const Sighting& sighting : sightings) {
+    out.push_back(Share(sighting.sample, RayTo(sighting.sample, position), Counted(sighting),
+                        kNobody));
+  }
+  return out;
+}
+
+void ViewGraph::Remove(uint32_t hover, std::span<const double> shares) {
+  for (size_t i = 0; i < sightings_[hover].size(); ++i) {
+    const Sighting& sighting = sightings_[hover][i];
+    std::vector<Ray>& rays = rays_[sighting.sample];
+    const auto ray = std::ranges::find(rays, hover,
+                                       [](const Ray& r) { return r.hover_and_shots >> kShotBits; });
+    *ray = rays.back();
+    rays.pop_back();
+    SampleState& state = states_[sighting.sample];
+    state.reconstructability -= shares[i];
+    --state.hovers;
+    state.nadirs -= sighting.nadir;
+  }
+  removed_[hover] = 1;
+}
+
+void ViewGraph::Insert(uint32_t hover, const Eigen::Vector3d& position,
+                       std::vector<Sighting> sightings, std::span<const double> shares) {
+  for (size_t i = 0; i < sightings.size(); ++i) {
+    Ray ray = RayTo(sightings[i].sample, position);
+    ray.hover_and_shots = hover << kShotBits | Counted(sightings[i]);
+    rays_[sightings[i].sample].push_back(ray);
+    SampleState& state = states_[sightings[i].sample];
+    state.reconstructability += shares[i];
+    ++state.hovers;
+    state.nadirs += sightings[i].nadir;
+  }
+  positions_[hover] = position;
+  sightings_[hover] = std::move(sightings);
+  removed_[hover] = 0;
+}
+
+}  // namespace stucco::plan
