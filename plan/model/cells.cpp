@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "plan/internal/polygons.h"
+
 namespace stucco::plan {
 namespace {
 
@@ -54,27 +56,6 @@ Ring HullOf(Ring points) {
 
 }  // namespace
 
-bool Inside(const Polygon& polygon, const Eigen::Vector2d& point) {
-  bool inside = false;
-  for (const Ring& ring : polygon.rings) {
-    for (size_t i = 0; i < ring.size(); ++i) {
-      const Eigen::Vector2d& a = ring[i];
-      const Eigen::Vector2d& b = ring[(i + 1) % ring.size()];
-      if ((a.y() <= point.y()) == (b.y() <= point.y())) continue;
-      inside ^= point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-    }
-  }
-  return inside;
-}
-
-double DistanceToSegment(const Eigen::Vector2d& point, const Eigen::Vector2d& a,
-                         const Eigen::Vector2d& b) {
-  const Eigen::Vector2d way = b - a;
-  const double square = way.squaredNorm();
-  const double t = square > 0 ? std::clamp((point - a).dot(way) / square, 0.0, 1.0) : 0;
-  return (point - a - t * way).norm();
-}
-
 std::vector<Cell> CellsInside(const Polygon& polygon, double size_m) {
   std::vector<Cell> out;
   if (polygon.rings.empty() || polygon.rings.front().empty()) return out;
@@ -108,7 +89,8 @@ std::vector<Cell> CellsNear(const Polygon& polygon, double size_m, double reach_
         for (int32_t column = CellOf(low.x(), size_m); column <= CellOf(high.x(), size_m);
              ++column) {
           const Cell cell{row, column};
-          if (DistanceToSegment(CenterOf(cell, size_m), a, b) <= reach_m) out.push_back(cell);
+          if (internal::DistanceToSegment(CenterOf(cell, size_m), a, b) <= reach_m)
+            out.push_back(cell);
         }
       }
     }

@@ -10,11 +10,6 @@
 
 namespace stucco::plan {
 
-// Inside the outer ring and outside the holes; on the border either way.
-bool Inside(const Polygon& polygon, const Eigen::Vector2d& point);
-double DistanceToSegment(const Eigen::Vector2d& point, const Eigen::Vector2d& a,
-                         const Eigen::Vector2d& b);
-
 // A cell of the square grid that covers the plane, cell (0, 0) having the origin as its corner.
 struct Cell {
   int32_t row = 0;

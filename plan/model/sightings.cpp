@@ -25,9 +25,8 @@ Cell CellAt(const Eigen::Vector3d& position, double size_m) {
 SampleIndex::SampleIndex(std::span<const SurfaceSample> samples, double cell_m)
     : cell_m_(cell_m), order_(samples.size()) {
   std::iota(order_.begin(), order_.end(), 0U);
-  std::ranges::stable_sort(order_, {}, [&](uint32_t i) {
-    return CellAt(samples[i].position, cell_m_);
-  });
+  std::ranges::stable_sort(order_, {},
+                           [&](uint32_t i) { return CellAt(samples[i].position, cell_m_); });
   for (uint32_t k = 0; k < order_.size(); ++k) {
     const Eigen::Vector3d& at = samples[order_[k]].position;
     const Cell cell = CellAt(at, cell_m_);

@@ -41,7 +41,7 @@ class SampleIndex {
     Eigen::Vector3d low, high;  // box around its samples
   };
   double cell_m_;
-  std::vector<Bin> bins_;         // ascending by cell
+  std::vector<Bin> bins_;        // ascending by cell
   std::vector<uint32_t> order_;  // samples by bin
 };
 

@@ -73,8 +73,7 @@ void AddGround(const Terrain& terrain, Mesh& mesh) {
   const auto first = static_cast<uint32_t>(mesh.vertices.size());
   for (int row = 0; row < terrain.rows; ++row) {
     for (int column = 0; column < terrain.columns; ++column) {
-      const Eigen::Vector2d at =
-          terrain.corner + terrain.step_m * Eigen::Vector2d(column, row);
+      const Eigen::Vector2d at = terrain.corner + terrain.step_m * Eigen::Vector2d(column, row);
       const double z = terrain.z_m[static_cast<size_t>(row) * terrain.columns + column];
       mesh.Add({at.x(), at.y(), z - kGroundLowered_m});
     }

@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 
+#include "plan/internal/polygons.h"
 #include "plan/model/cells.h"
 
 namespace stucco::plan {
@@ -55,7 +56,7 @@ bool BuiltOver(const Site& site, const std::vector<size_t>& parts, size_t self,
   return std::ranges::any_of(parts, [&](size_t other) {
     const Footprint& above = site.footprints[other];
     return other != self && above.z_m.from_m <= z + kSameHeight_m &&
-           above.z_m.to_m > z + kSameHeight_m && Inside(above.outline, at);
+           above.z_m.to_m > z + kSameHeight_m && internal::Contains(above.outline, at);
   });
 }
 
@@ -73,7 +74,7 @@ Eigen::Vector2d PointInside(const Polygon& polygon) {
   int longest = 0, run = 0;
   for (int i = 0; i < steps; ++i) {
     const double x = low.x() + (i + 0.5) / steps * (high.x() - low.x());
-    run = Inside(polygon, {x, y}) ? run + 1 : 0;
+    run = internal::Contains(polygon, {x, y}) ? run + 1 : 0;
     if (run <= longest) continue;
     longest = run;
     best = {x - 0.5 * (run - 1) / steps * (high.x() - low.x()), y};
@@ -93,8 +94,8 @@ void SampleRoof(const Site& site, const Parts& parts, size_t index, double spaci
   const std::vector<size_t>& stack = parts.at(footprint.building);
   for (const Eigen::Vector2d& at : points) {
     if (BuiltOver(site, stack, index, at)) continue;
-    out.push_back({{at.x(), at.y(), footprint.z_m.to_m}, Eigen::Vector3d::UnitZ(),
-                   SurfaceKind::kRoof, -1});
+    out.push_back(
+        {{at.x(), at.y(), footprint.z_m.to_m}, Eigen::Vector3d::UnitZ(), SurfaceKind::kRoof, -1});
   }
 }
 
@@ -109,8 +110,7 @@ void Append(std::vector<Cell>& cells, const std::vector<Cell>& more) {
   cells.insert(cells.end(), more.begin(), more.end());
 }
 
-void SampleGround(const Site& site, const SampleOptions& options,
-                  std::vector<SurfaceSample>& out) {
+void SampleGround(const Site& site, const SampleOptions& options, std::vector<SurfaceSample>& out) {
   const double size = options.spacing_m;
   std::vector<Cell> near, built;
   for (const Footprint& footprint : site.footprints) {
@@ -127,9 +127,11 @@ void SampleGround(const Site& site, const SampleOptions& options,
   near.erase(std::unique(near.begin(), near.end()), near.end());
   for (const Cell& cell : Without(near, std::move(built))) {
     const Eigen::Vector2d at = CenterOf(cell, size);
-    if (!Inside(site.area, at)) continue;
-    out.push_back({{at.x(), at.y(), site.terrain.HeightAt(at)}, Eigen::Vector3d::UnitZ(),
-                   SurfaceKind::kGround, -1});
+    if (!internal::Contains(site.area, at)) continue;
+    out.push_back({{at.x(), at.y(), site.terrain.HeightAt(at)},
+                   Eigen::Vector3d::UnitZ(),
+                   SurfaceKind::kGround,
+                   -1});
   }
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "plan/internal/polygons.h"
 #include "plan/model/cells.h"
 #include "plan/space/obstacles.h"
 #include "survey/error.h"
@@ -21,7 +22,7 @@ constexpr double kTilt_rad = std::numbers::pi / 4;
 constexpr double kMostHovers = 300000;
 
 struct Frame {
-  Eigen::Vector2d u, v;      // along and across the flight lines
+  Eigen::Vector2d u, v;       // along and across the flight lines
   Eigen::Vector2d low, size;  // of the area in them
 };
 
@@ -87,10 +88,11 @@ std::vector<Hover> GridHovers(const Site& site, const CameraPreset& camera,
   for (int line = 0; line < lines; ++line) {
     for (int i = 0; i < columns; ++i) {
       const int column = line % 2 == 0 ? i : columns - 1 - i;
-      const Eigen::Vector2d at = (x0 + column * step.forward_m) * frame.u +
-                                 (y0 + line * step.side_m) * frame.v;
+      const Eigen::Vector2d at =
+          (x0 + column * step.forward_m) * frame.u + (y0 + line * step.side_m) * frame.v;
       const Eigen::Vector3d position(at.x(), at.y(), site.CeilingAt(at));
-      if (Inside(site.area, at) && obstacles.IsFree(position)) out.push_back({position, shots});
+      if (internal::Contains(site.area, at) && obstacles.IsFree(position))
+        out.push_back({position, shots});
     }
   }
   return out;

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "plan/model/cells.h"
+#include "plan/internal/polygons.h"
 #include "survey/parallel.h"
 
 namespace stucco::plan {
@@ -22,9 +22,7 @@ struct PlaneCoverage {
   double seen = 0;
   double sightings = 0;
 
-  double Quality() const {
-    return sightings > 0 && all > 0 ? seen / sightings + seen / all : 0;
-  }
+  double Quality() const { return sightings > 0 && all > 0 ? seen / sightings + seen / all : 0; }
 };
 
 PlaneCoverage CoverageOf(const ViewGraph& graph, std::span<const SurfaceSample> samples) {
@@ -56,8 +54,8 @@ struct Place {
 
 class Mover {
  public:
-  Mover(ViewGraph& graph, const Obstacles& obstacles,
-        std::span<const Requirement> requirements, const MoveOptions& options)
+  Mover(ViewGraph& graph, const Obstacles& obstacles, std::span<const Requirement> requirements,
+        const MoveOptions& options)
       : graph_(graph),
         view_(graph.view()),
         obstacles_(obstacles),
@@ -144,7 +142,8 @@ bool Mover::Move(uint32_t number, Hover& hover) {
     const Eigen::Vector2d at = hover.position.head<2>() + steps[k];
     Place place;
     place.position = {at.x(), at.y(), obstacles_.site().CeilingAt(at)};
-    if (!Inside(obstacles_.site().area, at) || !obstacles_.IsFree(place.position)) return;
+    if (!internal::Contains(obstacles_.site().area, at) || !obstacles_.IsFree(place.position))
+      return;
     place.sightings = SightingsOf(view_, {place.position, hover.shots});
     place.shares = graph_.SharesFrom(place.position, place.sightings);
     places[k] = Assess(place);

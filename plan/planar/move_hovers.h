@@ -14,7 +14,7 @@ namespace stucco::plan {
 
 // How hovers move.
 struct MoveOptions {
-  double step_m = 0;                               // tau_p
+  double step_m = 0;                                // tau_p
   Eigen::Vector2d axis = Eigen::Vector2d::UnitX();  // of the steps
   double tau_r = 0;
   int threads = 1;

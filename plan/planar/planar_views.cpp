@@ -90,9 +90,8 @@ std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
                           .threads = threads};
   const auto count = static_cast<uint32_t>(grid.size());
   for (int round = 0; round < options.most_rounds; ++round) {
-    const size_t moved =
-        round == 0 ? 0 : MoveHovers(graph, obstacles, requirements, grid, moves);
-    const size_t removed = RemoveRedundant(graph, requirements, tau, count, progress);
+    const size_t moved = round == 0 ? 0 : MoveHovers(graph, obstacles, requirements, grid, moves);
+    const size_t removed = RemoveRedundant(graph, requirements, count, progress);
     if (round > 0 && moved == 0 && removed == 0) break;
   }
   return Kept(grid, graph);

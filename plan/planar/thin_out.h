@@ -29,12 +29,13 @@ struct Requirement {
 std::vector<Requirement> RequirementsOf(const ViewGraph& graph,
                                         std::span<const SurfaceSample> samples, double tau_r);
 
-// Takes hovers with the numbers 0 to `count` - 1 out of the graph, always the most redundant one,
-// until none can go without a sample losing what it requires. The redundancy of a hover is the sum
-// over its samples of its share times how far h is above tau_r: share (1 - tau_r / h). Both that
-// and what may go only ever shrink while hovers go, so that a lazy queue finds the same order as
-// asking all of them each time. Returns how many went. Throws Error (kInterrupted).
-size_t RemoveRedundant(ViewGraph& graph, std::span<const Requirement> requirements, double tau_r,
-                       uint32_t count, Progress& progress);
+// Takes hovers with the numbers 0 to `count` - 1 out of the graph, always (nearly) the most
+// redundant one, until none can go without a sample losing what it requires. The redundancy of a
+// hover is how many times what it requires its worst-off sample has left without the hover. The
+// paper sums what samples have above tau_r; that takes the hovers that contribute most first and
+// leaves a quarter more of them. Redundancy only ever shrinks while hovers go, so a lazy queue
+// suffices. Returns how many went. Throws Error (kInterrupted).
+size_t RemoveRedundant(ViewGraph& graph, std::span<const Requirement> requirements, uint32_t count,
+                       Progress& progress);
 
 }  // namespace stucco::plan

@@ -48,7 +48,11 @@ int Counted(const Sighting& sighting) {
 }  // namespace
 
 ViewGraph::ViewGraph(const SurfaceView& view, double d_max_m, int threads)
-    : view_(view), d_max_m_(d_max_m), threads_(threads), rays_(view.samples.size()), states_(view.samples.size()) {}
+    : view_(view),
+      d_max_m_(d_max_m),
+      threads_(threads),
+      rays_(view.samples.size()),
+      states_(view.samples.size()) {}
 
 void ViewGraph::AddAll(std::span<const Hover> hovers) {
   sightings_.resize(hovers.size());
@@ -81,11 +85,11 @@ ViewGraph::Ray ViewGraph::RayTo(uint32_t sample, const Eigen::Vector3d& position
   const Eigen::Vector3d way = position - view_.samples[sample].position;
   const double distance = way.norm();
   const Eigen::Vector3f unit = (way / distance).cast<float>();
-  return {unit.x(), unit.y(), unit.z(),
-          static_cast<float>(ResolutionWeight(distance, d_max_m_)), 0};
+  return {unit.x(), unit.y(), unit.z(), static_cast<float>(ResolutionWeight(distance, d_max_m_)),
+          0};
 }
 
-double ViewGraph::Share(uint32_t sample, const Ray& ray, int shots, uint32_t self) const {
+double ViewGraph::ShareOf(uint32_t sample, const Ray& ray, int shots, uint32_t self) const {
   const Eigen::Vector3f normal = view_.samples[sample].normal.cast<float>();
   const auto facing = [&](const Ray& r) {
     return r.x * normal.x() + r.y * normal.y() + r.z * normal.z();
@@ -105,31 +109,30 @@ double ViewGraph::Share(uint32_t sample, const Ray& ray, int shots, uint32_t sel
 }
 
 void ViewGraph::Sum(uint32_t sample) {
-  // Every pair of different hovers counts twice in the sum of the shares.
-  double pairs = 0, alone = 0;
-  const Eigen::Vector3f normal = view_.samples[sample].normal.cast<float>();
-  for (const Ray& ray : rays_[sample]) {
-    const int shots = static_cast<int>(ray.hover_and_shots & kMostShots);
-    const float own = ray.x * normal.x() + ray.y * normal.y() + ray.z * normal.z();
-    const double among_themselves =
-        0.5 * shots * (shots - 1) * kAngleTable[0] * static_cast<double>(ray.closeness * own);
-    pairs += Share(sample, ray, shots, ray.hover_and_shots >> kShotBits) - among_themselves;
-    alone += among_themselves;
+  std::vector<Ray> rays = std::move(rays_[sample]);
+  rays_[sample].clear();
+  rays_[sample].reserve(rays.size());
+  double sum = 0;
+  for (const Ray& ray : rays) {
+    sum += ShareOf(sample, ray, static_cast<int>(ray.hover_and_shots & kMostShots), kNobody);
+    rays_[sample].push_back(ray);
   }
-  states_[sample].reconstructability = 0.5 * pairs + alone;
+  states_[sample].reconstructability = sum;
+}
+
+double ViewGraph::Share(uint32_t hover, uint32_t sighting) const {
+  const Sighting& s = sightings_[hover][sighting];
+  return ShareOf(s.sample, RayTo(s.sample, positions_[hover]), Counted(s), hover);
 }
 
 std::vector<double> ViewGraph::Shares(uint32_t hover) const {
-  const std::vector<Sighting>& list = sightings_[hover];
-  std::vector<double> out(list.size());
-  ParallelFor((list.size() + kSightingsPerTask - 1) / kSightingsPerTask, threads_,
-              [&](size_t task) {
-                const size_t end = std::min(list.size(), (task + 1) * kSightingsPerTask);
-                for (size_t i = task * kSightingsPerTask; i < end; ++i) {
-                  const Ray ray = RayTo(list[i].sample, positions_[hover]);
-                  out[i] = Share(list[i].sample, ray, Counted(list[i]), hover);
-                }
-              });
+  std::vector<double> out(sightings_[hover].size());
+  ParallelFor((out.size() + kSightingsPerTask - 1) / kSightingsPerTask, threads_, [&](size_t task) {
+    const size_t end = std::min(out.size(), (task + 1) * kSightingsPerTask);
+    for (size_t i = task * kSightingsPerTask; i < end; ++i) {
+      out[i] = Share(hover, static_cast<uint32_t>(i));
+    }
+  });
   return out;
 }
 
@@ -137,9 +140,8 @@ std::vector<double> ViewGraph::SharesFrom(const Eigen::Vector3d& position,
                                           std::span<const Sighting> sightings) const {
   std::vector<double> out;
   out.reserve(sightings.size());
-  for (const Sighting& sighting : sightings) {
-    out.push_back(Share(sighting.sample, RayTo(sighting.sample, position), Counted(sighting),
-                        kNobody));
+  for (const Sighting& s : sightings) {
+    out.push_back(ShareOf(s.sample, RayTo(s.sample, position), Counted(s), kNobody));
   }
   return out;
 }
@@ -148,8 +150,8 @@ void ViewGraph::Remove(uint32_t hover, std::span<const double> shares) {
   for (size_t i = 0; i < sightings_[hover].size(); ++i) {
     const Sighting& sighting = sightings_[hover][i];
     std::vector<Ray>& rays = rays_[sighting.sample];
-    const auto ray = std::ranges::find(rays, hover,
-                                       [](const Ray& r) { return r.hover_and_shots >> kShotBits; });
+    const auto ray =
+        std::ranges::find(rays, hover, [](const Ray& r) { return r.hover_and_shots >> kShotBits; });
     *ray = rays.back();
     rays.pop_back();
     SampleState& state = states_[sighting.sample];

@@ -41,6 +41,8 @@ class ViewGraph {
   // What each of the sightings of a hover that is in the graph adds to its sample: h(s, V) less
   // that without the hover.
   std::vector<double> Shares(uint32_t hover) const;
+  // The same for one of them.
+  double Share(uint32_t hover, uint32_t sighting) const;
   // What sightings from a new position would add, by one thread.
   std::vector<double> SharesFrom(const Eigen::Vector3d& position,
                                  std::span<const Sighting> sightings) const;
@@ -59,7 +61,7 @@ class ViewGraph {
     uint32_t hover_and_shots;
   };
   Ray RayTo(uint32_t sample, const Eigen::Vector3d& position) const;
-  double Share(uint32_t sample, const Ray& ray, int shots, uint32_t self) const;
+  double ShareOf(uint32_t sample, const Ray& ray, int shots, uint32_t self) const;
   void Sum(uint32_t sample);
 
   const SurfaceView& view_;

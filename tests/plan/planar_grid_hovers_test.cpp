@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "plan/internal/polygons.h"
+#include "plan/planar/grid_hovers.h"
+#include "survey/error.h"
+#include "tests/plan/made_site.h"
+
+namespace stucco::plan {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Site Block(MadeSiteOptions options = {}) {
+  options.safe_altitude_m = 30;
+  options.heights_m = {12};
+  return MadeSite(std::vector<Ring>{Rectangle(0, 0, 60, 30)}, options);
+}
+
+TEST(GridHovers, AreSpacedByTheOverlaps) {
+  const Site site = Block();  // an area of 180 m by 150 m
+  const CameraPreset camera = FindCamera("mavic-3e");
+  const GridOptions options{.forward_overlap = 0.75, .side_overlap = 0.5};
+  const GridStep step = StepOf(site, camera, options);
+  EXPECT_NEAR(step.forward_m, 0.25 * camera.HeightAt(30), 1e-9);
+  EXPECT_NEAR(step.side_m, 0.5 * camera.WidthAt(30), 1e-9);
+  const std::vector<Hover> hovers = GridHovers(site, camera, options);
+  const int columns = static_cast<int>(180 / step.forward_m) + 1;
+  const int lines = static_cast<int>(150 / step.side_m) + 1;
+  ASSERT_EQ(hovers.size(), static_cast<size_t>(columns * lines));
+  // Neighbours in order are one step apart, at the turns too.
+  for (size_t i = 1; i < hovers.size(); ++i) {
+    const double distance = (hovers[i].position - hovers[i - 1].position).norm();
+    EXPECT_NEAR(distance, i % columns == 0 ? step.side_m : step.forward_m, 1e-9);
+  }
+  // As far from the west border as from the east.
+  EXPECT_NEAR(hovers.front().position.x() + 60, 120 - hovers[columns - 1].position.x(), 1e-9);
+}
+
+TEST(GridHovers, TakeFivePhotosAlongAndAcrossTheLines) {
+  const std::vector<Hover> hovers = GridHovers(Block(), FindCamera("mavic-3e"), {});
+  ASSERT_FALSE(hovers.empty());
+  for (const Hover& hover : hovers) {
+    ASSERT_EQ(hover.shots.size(), 5U);
+    EXPECT_EQ(hover.position.z(), 30);
+    EXPECT_EQ(hover.shots[0].kind, ViewKind::kNadir);
+    EXPECT_NEAR(hover.shots[0].pitch_rad, -kPi / 2, 1e-12);
+    for (int k = 1; k < 5; ++k) {
+      EXPECT_EQ(hover.shots[k].kind, ViewKind::kOblique);
+      EXPECT_NEAR(hover.shots[k].pitch_rad, -kPi / 4, 1e-12);
+      EXPECT_NEAR(std::remainder(hover.shots[k].yaw_rad - (kPi / 2 + (k - 1) * kPi / 2), 2 * kPi),
+                  0, 1e-9);
+    }
+  }
+}
+
+TEST(GridHovers, StayInTheAreaAndOutOfNoFlyPolygons) {
+  const Ring tower = Rectangle(20, 40, 45, 70);
+  Site site = Block({.no_fly = {{{tower}}}});
+  site.area = {{{{-40, -40}, {100, -20}, {80, 90}, {-30, 70}}}};
+  const std::vector<Hover> hovers = GridHovers(site, FindCamera("mavic-3e"), {});
+  site.no_fly.clear();
+  EXPECT_LT(hovers.size(), GridHovers(site, FindCamera("mavic-3e"), {}).size());
+  for (const Hover& hover : hovers) {
+    EXPECT_TRUE(internal::Contains(site.area, hover.position.head<2>()));
+    EXPECT_FALSE(internal::Contains({{tower}}, hover.position.head<2>()));
+  }
+}
+
+TEST(GridHovers, FollowTheCeiling) {
+  Terrain slope{.corner = {-100, -100}, .step_m = 50, .columns = 8, .rows = 8, .z_m = {}};
+  for (int i = 0; i < 64; ++i) slope.z_m.push_back(static_cast<float>(5 * (i % 8)));
+  const Site site = Block({.terrain = slope});
+  for (const Hover& hover : GridHovers(site, FindCamera("mavic-3e"), {})) {
+    EXPECT_EQ(hover.position.z(), site.CeilingAt(hover.position.head<2>()));
+  }
+}
+
+TEST(GridHovers, ASmallAreaHasOne) {
+  Site site = Block();
+  site.area = {{Rectangle(28, 13, 32, 16)}};
+  const std::vector<Hover> hovers = GridHovers(site, FindCamera("mavic-3e"), {});
+  ASSERT_EQ(hovers.size(), 1U);
+  EXPECT_NEAR((hovers[0].position - Eigen::Vector3d(30, 14.5, 30)).norm(), 0, 1e-9);
+  site.area = {};
+  EXPECT_TRUE(GridHovers(site, FindCamera("mavic-3e"), {}).empty());
+}
+
+TEST(GridHovers, AnAreaOfACountryIsRefused) {
+  Site site = Block();
+  site.area = {{Rectangle(0, 0, 300000, 300000)}};
+  try {
+    GridHovers(site, FindCamera("mavic-3e"), {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+    EXPECT_FALSE(error.remedy().empty());
+  }
+}
+
+}  // namespace
+}  // namespace stucco::plan

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "plan/planar/reconstructability.h"
+
+namespace stucco::plan {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
+const Eigen::Vector3d kOrigin = Eigen::Vector3d::Zero();
+
+// At an angle from the vertical, towards the east.
+Eigen::Vector3d At(double distance_m, double angle_rad) {
+  return distance_m * Eigen::Vector3d(std::sin(angle_rad), 0, std::cos(angle_rad));
+}
+
+TEST(Reconstructability, ParallaxIsWantedFromAboutElevenDegrees) {
+  EXPECT_NEAR(ParallaxWeight(kPi / 16), 0.5, 1e-12);
+  EXPECT_NEAR(ParallaxWeight(0), 1 / (1 + std::exp(2 * kPi)), 1e-12);
+  EXPECT_GT(ParallaxWeight(kPi / 8), 0.99);
+}
+
+TEST(Reconstructability, PhotosAreMatchableUpToAboutFortyFiveDegrees) {
+  EXPECT_NEAR(MatchWeight(kPi / 4), 0.5, 1e-12);
+  EXPECT_GT(MatchWeight(0), 0.99);
+  EXPECT_LT(MatchWeight(kPi / 2), 0.01);
+}
+
+TEST(Reconstructability, ResolutionFallsToNothingAtTheLargestDistance) {
+  EXPECT_EQ(ResolutionWeight(0, 80), 1);
+  EXPECT_EQ(ResolutionWeight(20, 80), 0.75);
+  EXPECT_EQ(ResolutionWeight(80, 80), 0);
+  EXPECT_EQ(ResolutionWeight(200, 80), 0);
+}
+
+TEST(Reconstructability, APairIsTheProductOfItsWeights) {
+  const double angle = 0.35;
+  const double expected =
+      ParallaxWeight(angle) * (1 - 40.0 / 100) * MatchWeight(angle) * std::cos(0.25);
+  EXPECT_NEAR(PairReconstructability(kOrigin, kUp, At(40, -0.1), At(30, 0.25), 100), expected,
+              1e-12);
+  EXPECT_NEAR(PairReconstructability(kOrigin, kUp, At(30, 0.25), At(40, -0.1), 100), expected,
+              1e-12);
+}
+
+TEST(Reconstructability, IsBestAtAboutTwentyDegreesOfParallax) {
+  double best = 0, best_angle = 0;
+  for (double angle = 0; angle < kPi / 2; angle += 0.005) {
+    const double q =
+        PairReconstructability(kOrigin, kUp, At(30, -angle / 2), At(30, angle / 2), 100);
+    if (q > best) {
+      best = q;
+      best_angle = angle;
+    }
+  }
+  EXPECT_NEAR(best_angle * 180 / kPi, 20, 3);
+}
+
+TEST(Reconstructability, IsNothingBehindTheSurfaceTooFarOrAtThePoint) {
+  EXPECT_EQ(PairReconstructability(kOrigin, -kUp, At(30, 0), At(30, 0.3), 100), 0);
+  EXPECT_EQ(PairReconstructability(kOrigin, kUp, At(30, kPi / 2 + 0.01), At(30, 1.3), 100), 0);
+  EXPECT_EQ(PairReconstructability(kOrigin, kUp, At(30, 0), At(100.1, 0.3), 100), 0);
+  EXPECT_EQ(PairReconstructability(kOrigin, kUp, kOrigin, At(30, 0.3), 100), 0);
+}
+
+TEST(Reconstructability, SumsOverAllPairs) {
+  const std::vector<Eigen::Vector3d> cameras{At(30, -0.3), At(35, 0), At(40, 0.25)};
+  const double expected = PairReconstructability(kOrigin, kUp, cameras[0], cameras[1], 100) +
+                          PairReconstructability(kOrigin, kUp, cameras[0], cameras[2], 100) +
+                          PairReconstructability(kOrigin, kUp, cameras[1], cameras[2], 100);
+  EXPECT_NEAR(Reconstructability(kOrigin, kUp, cameras, 100), expected, 1e-12);
+  EXPECT_EQ(Reconstructability(kOrigin, kUp, {cameras.data(), 1}, 100), 0);
+  EXPECT_EQ(Reconstructability(kOrigin, kUp, {}, 100), 0);
+}
+
+TEST(GoodPair, IsAPairWithTheNormalBetweenItsRays) {
+  const double incidence = 8.66 * kPi / 180;
+  EXPECT_NEAR(GoodPair(30, 100),
+              PairReconstructability(kOrigin, kUp, At(30, -incidence), At(30, incidence), 100),
+              1e-12);
+  EXPECT_EQ(GoodPair(100, 100), 0);
+}
+
+}  // namespace
+}  // namespace stucco::plan

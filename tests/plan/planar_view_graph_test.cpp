@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "plan/planar/grid_hovers.h"
+#include "plan/planar/reconstructability.h"
+#include "plan/planar/view_graph.h"
+#include "tests/plan/made_site.h"
+
+namespace stucco::plan {
+namespace {
+
+constexpr double kDMax = 90;
+
+struct Town {
+  Town()
+      : site(MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 12), Rectangle(35, 0, 50, 25)},
+                      {.safe_altitude_m = 30, .margin_m = 20, .heights_m = {8, 15}})),
+        view(site, FindCamera("mavic-3e"), SampleSurface(site, {.spacing_m = 6}), kDMax),
+        hovers(GridHovers(site, view.camera, {.forward_overlap = 0.6, .side_overlap = 0.5})) {}
+
+  // By the definition, photo by photo.
+  double Expected(uint32_t sample, const std::vector<uint32_t>& with) const {
+    std::vector<Eigen::Vector3d> cameras;
+    for (const uint32_t hover : with) {
+      for (const Sighting& sighting : SightingsOf(view, hovers[hover])) {
+        if (sighting.sample != sample) continue;
+        for (int k = 0; k < sighting.shots; ++k) cameras.push_back(hovers[hover].position);
+      }
+    }
+    const SurfaceSample& s = view.samples[sample];
+    return Reconstructability(s.position, s.normal, cameras, kDMax);
+  }
+  void ExpectAlike(const ViewGraph& graph) const {
+    std::vector<uint32_t> with;
+    for (uint32_t i = 0; i < graph.size(); ++i) {
+      if (!graph.removed(i)) with.push_back(i);
+    }
+    for (uint32_t s = 0; s < view.samples.size(); s += 7) {
+      const double expected = Expected(s, with);
+      EXPECT_NEAR(graph.state(s).reconstructability, expected, 1e-3 + 1e-3 * expected);
+    }
+  }
+
+  Site site;
+  SurfaceView view;
+  std::vector<Hover> hovers;
+};
+
+TEST(ViewGraph, HoldsTheReconstructabilityOfEverySample) {
+  const Town town;
+  ASSERT_GT(town.hovers.size(), 20U);
+  ViewGraph graph(town.view, kDMax, 1);
+  graph.AddAll(town.hovers);
+  town.ExpectAlike(graph);
+}
+
+TEST(ViewGraph, FollowsHoversThatGoAndComeBackElsewhere) {
+  Town town;
+  ViewGraph graph(town.view, kDMax, 2);
+  graph.AddAll(town.hovers);
+  for (uint32_t i = 0; i < graph.size(); i += 3) graph.Remove(i, graph.Shares(i));
+  town.ExpectAlike(graph);
+  for (uint32_t i = 0; i < graph.size(); i += 6) {
+    town.hovers[i].position += Eigen::Vector3d(2, -1, 0);
+    auto sightings = SightingsOf(town.view, town.hovers[i]);
+    const auto shares = graph.SharesFrom(town.hovers[i].position, sightings);
+    graph.Insert(i, town.hovers[i].position, std::move(sightings), shares);
+  }
+  town.ExpectAlike(graph);
+}
+
+TEST(ViewGraph, CountsHoversAndPhotosStraightDown) {
+  const Town town;
+  ViewGraph graph(town.view, kDMax, 1);
+  graph.AddAll(town.hovers);
+  std::vector<SampleState> expected(town.view.samples.size());
+  for (uint32_t i = 0; i < graph.size(); ++i) {
+    if (i == 4) graph.Remove(i, graph.Shares(i));
+    if (i == 4) continue;
+    for (const Sighting& sighting : SightingsOf(town.view, town.hovers[i])) {
+      ++expected[sighting.sample].hovers;
+      expected[sighting.sample].nadirs += sighting.nadir;
+    }
+  }
+  for (uint32_t s = 0; s < expected.size(); ++s) {
+    EXPECT_EQ(graph.state(s).hovers, expected[s].hovers);
+    EXPECT_EQ(graph.state(s).nadirs, expected[s].nadirs);
+  }
+}
+
+TEST(ViewGraph, IsTheSameAtAnyNumberOfThreads) {
+  const Town town;
+  ViewGraph one(town.view, kDMax, 1);
+  ViewGraph two(town.view, kDMax, 2);
+  one.AddAll(town.hovers);
+  two.AddAll(town.hovers);
+  for (uint32_t s = 0; s < town.view.samples.size(); ++s) {
+    EXPECT_EQ(one.state(s).reconstructability, two.state(s).reconstructability);
+  }
+  EXPECT_EQ(one.Shares(5), two.Shares(5));
+}
+
+TEST(ViewGraph, WithoutHoversNothingIsSeen) {
+  const Town town;
+  ViewGraph graph(town.view, kDMax, 1);
+  graph.AddAll({});
+  EXPECT_EQ(graph.size(), 0U);
+  EXPECT_EQ(graph.state(0).hovers, 0);
+  EXPECT_EQ(graph.state(0).reconstructability, 0);
+}
+
+}  // namespace
+}  // namespace stucco::plan

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/planar/planar_views.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "plan/internal/polygons.h"
+#include "plan/planar/reconstructability.h"
+#include "plan/planar/thin_out.h"
+#include "plan/space/obstacles.h"
+#include "survey/error.h"
+#include "tests/plan/made_site.h"
+
+namespace stucco::plan {
+namespace {
+
+constexpr double kDMax = 120;
+
+Site Town() {
+  return MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 12), Rectangle(38, 0, 52, 25),
+                                    Rectangle(0, 30, 25, 45)},
+                  {.safe_altitude_m = 26,
+                   .margin_m = 26,
+                   .heights_m = {8, 16, 11},
+                   .no_fly = {{{Rectangle(60, 30, 70, 40)}}}});
+}
+
+PlanarOptions Options() {
+  return {.grid = {.forward_overlap = 0.75, .side_overlap = 0.75}, .d_max_m = kDMax};
+}
+
+SurfaceView ViewOf(const Site& site) {
+  return {site, FindCamera("mavic-3e"),
+          SampleSurface(site, {.spacing_m = 5, .ground_reach_m = 2 * site.d_min_m}), kDMax};
+}
+
+// The figures of the samples with these hovers.
+std::vector<SampleState> StatesWith(const SurfaceView& view, const std::vector<Hover>& hovers) {
+  ViewGraph graph(view, kDMax, 1);
+  graph.AddAll(hovers);
+  return {graph.states().begin(), graph.states().end()};
+}
+
+TEST(RemoveRedundant, LeavesWhatIsRequiredAndNothingThatCouldGo) {
+  const Site site = Town();
+  const SurfaceView view = ViewOf(site);
+  const std::vector<Hover> grid = GridHovers(site, view.camera, Options().grid);
+  const double tau = 10 * GoodPair(26, kDMax);
+  ViewGraph graph(view, kDMax, 1);
+  graph.AddAll(grid);
+  const auto requirements = RequirementsOf(graph, view.samples, tau);
+  const auto count = static_cast<uint32_t>(grid.size());
+  const size_t gone = RemoveRedundant(graph, requirements, count, SilentProgress());
+  EXPECT_GT(gone, grid.size() / 2);
+
+  std::vector<Hover> left;
+  for (uint32_t i = 0; i < count; ++i) {
+    if (!graph.removed(i)) left.push_back(grid[i]);
+  }
+  ASSERT_EQ(left.size() + gone, grid.size());
+  const auto states = StatesWith(view, left);
+  for (size_t s = 0; s < states.size(); ++s) {
+    SampleState state = states[s];
+    state.reconstructability += 1e-6;
+    EXPECT_TRUE(requirements[s].MetBy(state)) << s;
+  }
+  for (size_t i = 0; i < left.size(); i += 5) {
+    std::vector<Hover> fewer = left;
+    fewer.erase(fewer.begin() + static_cast<int64_t>(i));
+    const auto worse = StatesWith(view, fewer);
+    bool missed = false;
+    for (size_t s = 0; s < worse.size(); ++s) {
+      SampleState state = worse[s];
+      state.reconstructability -= 1e-6;
+      missed |= !requirements[s].MetBy(state);
+    }
+    EXPECT_TRUE(missed) << i;
+  }
+}
+
+TEST(Requirements, AreWhatTheFullSetGives) {
+  const Site site = Town();
+  const SurfaceView view = ViewOf(site);
+  ViewGraph graph(view, kDMax, 1);
+  graph.AddAll(GridHovers(site, view.camera, Options().grid));
+  const double tau = 100;
+  const auto requirements = RequirementsOf(graph, view.samples, tau);
+  int below = 0;
+  for (uint32_t s = 0; s < view.samples.size(); ++s) {
+    const SampleState& state = graph.state(s);
+    below += state.reconstructability < tau;
+    EXPECT_EQ(requirements[s].reconstructability,
+              state.reconstructability >= tau ? tau : 0.5 * state.reconstructability);
+    EXPECT_EQ(requirements[s].hovers, std::min(3, state.hovers));
+    const bool wall = view.samples[s].kind == SurfaceKind::kWall;
+    EXPECT_EQ(requirements[s].nadirs, !wall && state.nadirs > 0 ? 1 : 0);
+  }
+  EXPECT_GT(below, 0);
+  EXPECT_LT(below, static_cast<int>(view.samples.size()));
+}
+
+TEST(PlanarViews, KeepCoverageWithFarFewerHovers) {
+  const Site site = Town();
+  const SurfaceView view = ViewOf(site);
+  const std::vector<Hover> grid = GridHovers(site, view.camera, Options().grid);
+  const std::vector<Hover> views =
+      PlanarViews(site, view.camera, Options(), {}, 1, SilentProgress());
+  EXPECT_LT(views.size(), grid.size() / 2);
+  EXPECT_GT(views.size(), 4U);
+  const auto before = StatesWith(view, grid);
+  const auto after = StatesWith(view, views);
+  const double tau = 10 * GoodPair(26, kDMax);
+  // The planner's samples are others than these, so that single points may fall a little short.
+  int short_of = 0, seen = 0;
+  for (size_t s = 0; s < before.size(); ++s) {
+    if (before[s].reconstructability < 2 * tau) continue;
+    ++seen;
+    short_of += after[s].reconstructability < 0.8 * tau;
+  }
+  EXPECT_GT(seen, 300);
+  EXPECT_LT(short_of, seen / 50);
+}
+
+TEST(PlanarViews, AreSafeAndInTheArea) {
+  const Site site = Town();
+  const Obstacles obstacles(site);
+  for (const Hover& hover :
+       PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, 1, SilentProgress())) {
+    EXPECT_TRUE(obstacles.IsFree(hover.position));
+    EXPECT_TRUE(internal::Contains(site.area, hover.position.head<2>()));
+    EXPECT_EQ(hover.shots.size(), 5U);
+  }
+}
+
+TEST(PlanarViews, AreTheSameAtAnyNumberOfThreads) {
+  const Site site = Town();
+  const auto one = PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, 1, SilentProgress());
+  const auto two = PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, 2, SilentProgress());
+  ASSERT_EQ(one.size(), two.size());
+  for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].position, two[i].position);
+}
+
+TEST(PlanarViews, NeedFewerWhereDippingViewsSeeTheWalls) {
+  const Site site = Town();
+  std::vector<Hover> dipping;
+  for (const Facade& facade : site.facades) {
+    const Eigen::Vector2d normal = facade.normal();
+    for (const double share : {0.15, 0.4, 0.65, 0.9}) {
+      const Eigen::Vector2d at = facade.a + share * (facade.b - facade.a) + 12 * normal;
+      dipping.push_back({{at.x(), at.y(), 8},
+                         {{.yaw_rad = std::atan2(-normal.x(), -normal.y()), .targets = {}}}});
+    }
+  }
+  const auto without =
+      PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, 1, SilentProgress());
+  const auto with =
+      PlanarViews(site, FindCamera("mavic-3e"), Options(), dipping, 1, SilentProgress());
+  EXPECT_LT(with.size(), without.size());
+}
+
+TEST(PlanarViews, AHigherThresholdKeepsMore) {
+  const Site site = Town();
+  PlanarOptions options = Options();
+  const auto some = PlanarViews(site, FindCamera("mavic-3e"), options, {}, 1, SilentProgress());
+  options.tau_r = 60;
+  const auto more = PlanarViews(site, FindCamera("mavic-3e"), options, {}, 1, SilentProgress());
+  EXPECT_GT(more.size(), some.size());
+}
+
+class Listener : public Progress {
+ public:
+  void Begin(std::string_view, size_t) override {}
+  void Advance(size_t) override {}
+  void Warn(std::string_view text) override { warning = text; }
+  void Note(std::string_view) override {}
+  bool Cancelled() const override { return cancelled; }
+  std::string warning;
+  bool cancelled = false;
+};
+
+TEST(PlanarViews, FromBeyondTheLargestDistanceStillCover) {
+  Site site = Town();
+  PlanarOptions options = Options();
+  options.d_max_m = 20;  // the ceiling is at 26 m
+  Listener listener;
+  const auto views = PlanarViews(site, FindCamera("mavic-3e"), options, {}, 1, listener);
+  EXPECT_NE(listener.warning.find("d_max"), std::string::npos);
+  EXPECT_GT(views.size(), 4U);
+}
+
+TEST(PlanarViews, StopWhenAsked) {
+  Listener listener;
+  listener.cancelled = true;
+  EXPECT_THROW(PlanarViews(Town(), FindCamera("mavic-3e"), Options(), {}, 1, listener), Error);
+}
+
+TEST(PlanarViews, OfNothingAreNone) {
+  Site site = Town();
+  site.area = {};
+  EXPECT_TRUE(
+      PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, 1, SilentProgress()).empty());
+}
+
+}  // namespace
+}  // namespace stucco::plan
