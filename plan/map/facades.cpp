@@ -8,6 +8,7 @@
 #include <map>
 
 #include "plan/internal/box_grid.h"
+#include "plan/internal/polygons.h"
 
 namespace stucco::plan {
 namespace {
@@ -20,7 +21,7 @@ constexpr double kCell_m = 20;
 
 struct Edge {
   int footprint = 0;
-  int number = 0;  // in its building
+  int wall = 0;  // in its building; the edges of a straight wall share it
   Eigen::Vector2d a;
   Eigen::Vector2d b;
 };
@@ -31,14 +32,25 @@ struct Cover {
   Interval z_m;
 };
 
+// Whether the ring goes straight on at a corner, which then only joins a neighbour to the wall.
+bool IsStraight(const Eigen::Vector2d& before, const Eigen::Vector2d& corner,
+                const Eigen::Vector2d& after) {
+  constexpr double kAhead = 0.98;
+  return (corner - before).normalized().dot((after - corner).normalized()) > kAhead &&
+         internal::DistanceToSegment(corner, before, after) <= kSnap_m;
+}
+
 std::vector<Edge> EdgesOf(const std::vector<Footprint>& footprints) {
   std::vector<Edge> edges;
   std::map<std::string, int> counts;
   for (size_t f = 0; f < footprints.size(); ++f) {
     int& count = counts[footprints[f].building];
     for (const Ring& ring : footprints[f].outline.rings) {
-      for (size_t i = 0; i < ring.size(); ++i) {
-        edges.push_back({static_cast<int>(f), count++, ring[i], ring[(i + 1) % ring.size()]});
+      const size_t n = ring.size();
+      for (size_t i = 0; i < n; ++i) {
+        const bool goes_on = i > 0 && IsStraight(ring[i - 1], ring[i], ring[(i + 1) % n]);
+        if (!goes_on) ++count;
+        edges.push_back({static_cast<int>(f), count - 1, ring[i], ring[(i + 1) % n]});
       }
     }
   }
@@ -145,8 +157,8 @@ std::vector<Cover> FreePieces(double length, const Interval& z, const std::vecto
 }
 
 // F03, then F03b, F03c ... (F03-27 after the last letter).
-std::string FacadeId(const std::string& building, int edge, size_t piece) {
-  std::string id = fmt::format("{}/F{:02}", building, edge);
+std::string FacadeId(const std::string& building, int wall, int piece) {
+  std::string id = fmt::format("{}/F{:02}", building, wall);
   if (piece >= 26) return fmt::format("{}-{}", id, piece + 1);
   if (piece > 0) id += static_cast<char>('a' + piece);
   return id;
@@ -172,23 +184,26 @@ std::vector<Facade> MakeFacades(const std::vector<Footprint>& footprints) {
   }
   const internal::BoxGrid grid(boxes, kCell_m);
   std::vector<Facade> facades;
+  int pieces_of_wall = 0;
   for (size_t i = 0; i < edges.size(); ++i) {
     const Edge& edge = edges[i];
     const Footprint& footprint = footprints[edge.footprint];
+    const bool same_wall =
+        i > 0 && edges[i - 1].footprint == edge.footprint && edges[i - 1].wall == edge.wall;
+    if (!same_wall) pieces_of_wall = 0;
     if (!footprint.in_area) continue;
     const double length = (edge.b - edge.a).norm();
     const auto covers = CoversOf(edge, grid.Touching(boxes[i]), edges, footprints);
-    const auto pieces = FreePieces(length, footprint.z_m, covers);
     const auto at = [&](double along) -> Eigen::Vector2d {
-      return along == length ? edge.b
-                             : Eigen::Vector2d(edge.a + along / length * (edge.b - edge.a));
+      if (along == length) return edge.b;
+      return edge.a + along / length * (edge.b - edge.a);
     };
-    for (size_t k = 0; k < pieces.size(); ++k) {
-      facades.push_back({.id = FacadeId(footprint.building, edge.number, k),
+    for (const Cover& piece : FreePieces(length, footprint.z_m, covers)) {
+      facades.push_back({.id = FacadeId(footprint.building, edge.wall, pieces_of_wall++),
                          .footprint = edge.footprint,
-                         .a = at(pieces[k].along_m.from_m),
-                         .b = at(pieces[k].along_m.to_m),
-                         .z_m = pieces[k].z_m,
+                         .a = at(piece.along_m.from_m),
+                         .b = at(piece.along_m.to_m),
+                         .z_m = piece.z_m,
                          .top_known = footprint.top_known});
     }
   }

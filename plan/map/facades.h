@@ -20,9 +20,10 @@ Ring FromSouthWest(Ring ring);
 // touch, the higher one's wall above the other is a facade. Footprints that are obstacles only
 // (`in_area` false) get none.
 //
-// Ids count the edges of a building, party walls included, over its footprints, rings and edges, so
-// that a neighbour that is built or torn down renumbers nothing: B0012/F03. Of an edge that falls
-// into several facades the later ones get a letter: B0012/F03b.
+// Ids count the walls of a building from corner to corner, party walls included, over its
+// footprints and rings, so that a neighbour that is built or torn down renumbers nothing:
+// B0012/F03. Of a wall that falls into several facades, as where a neighbour begins, the later ones
+// get a letter: B0012/F03b.
 std::vector<Facade> MakeFacades(const std::vector<Footprint>& footprints);
 
 }  // namespace stucco::plan

@@ -99,6 +99,16 @@ TEST(MakeFacades, ANeighbourChangesNoOtherId) {
   }
 }
 
+// A corner on a straight wall joins a neighbour to it: it starts no new wall.
+TEST(MakeFacades, IdsCountWallsFromCornerToCorner) {
+  const Site site = MadeSite(std::vector<Ring>{
+      {{0, 0}, {10, 0}, {10, 12}, {10, 18}, {10, 30}, {0, 30}}, Rectangle(10, 12, 20, 18)});
+  EXPECT_EQ(Ids(site.facades), (Strings{"B0001/F00", "B0001/F01", "B0001/F01b", "B0001/F02",
+                                        "B0001/F03", "B0002/F00", "B0002/F01", "B0002/F02"}));
+  EXPECT_EQ(Find(site.facades, "B0001/F01").b, Eigen::Vector2d(10, 12));
+  EXPECT_EQ(Find(site.facades, "B0001/F01b").a, Eigen::Vector2d(10, 18));
+}
+
 TEST(MakeFacades, WallsThatOnlyMeetAtACornerStay) {
   const Site corner =
       MadeSite(std::vector<Ring>{Rectangle(0, 0, 10, 10), Rectangle(10, 10, 20, 20)});

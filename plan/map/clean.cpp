@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/map/clean.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+#include "plan/internal/box_grid.h"
+#include "plan/internal/noding.h"
+#include "plan/internal/ogr.h"
+#include "plan/internal/outlines.h"
+#include "plan/internal/polygons.h"
+#include "plan/map/facades.h"
+
+namespace stucco::plan {
+namespace {
+
+using internal::Area;
+
+constexpr double kSame = 0.9;     // shared share of both of two buildings that are one
+constexpr double kInside = 0.95;  // shared share of a building that lies in another
+constexpr double kCell_m = 30;    // of the search for neighbours: about a building
+// Overlaps up to this come from snapping walls by 5 cm and are not worth a line.
+constexpr double kNotable_m2 = 1;
+
+std::vector<Footprint> FootprintsOf(const MapFeature& feature, RepairLog& repairs) {
+  std::vector<Footprint> footprints;
+  for (Polygon& outline : internal::CleanOutlines(feature, repairs)) {
+    footprints.push_back({.building = feature.building,
+                          .outline = std::move(outline),
+                          .z_m = {feature.min_height_m, feature.height_m.value_or(0)},
+                          .top_known = feature.height_m.has_value()});
+  }
+  return footprints;
+}
+
+internal::BoxGrid GridOf(const std::vector<Footprint>& footprints) {
+  std::vector<Eigen::AlignedBox2d> boxes;
+  boxes.reserve(footprints.size());
+  for (const Footprint& footprint : footprints) {
+    boxes.push_back(internal::BoundsOf(footprint.outline));
+  }
+  return {boxes, kCell_m};
+}
+
+// Gives parts of unknown buildings the building that most of them lies in, and takes them out of
+// its outline.
+class PartAssigner {
+ public:
+  PartAssigner(std::vector<Footprint>& footprints, const std::vector<bool>& is_loose_part)
+      : footprints_(footprints), is_loose_part_(is_loose_part), grid_(GridOf(footprints)) {}
+
+  void Assign(RepairLog& repairs) {
+    std::map<int, std::vector<Polygon>> parts_of;
+    for (size_t i = 0; i < footprints_.size(); ++i) {
+      if (!is_loose_part_[i]) continue;
+      const int host = HostOf(static_cast<int>(i));
+      if (host < 0) {
+        repairs.Add(footprints_[i].building, "a part outside any building; taken as a building");
+        continue;
+      }
+      footprints_[i].building = footprints_[host].building;
+      parts_of[host].push_back(footprints_[i].outline);
+    }
+    for (const auto& [host, parts] : parts_of) CutOut(host, internal::Union(parts));
+    // Slivers and what is covered by parts altogether.
+    std::erase_if(footprints_, [](const Footprint& f) { return f.outline.rings.empty(); });
+    footprints_.insert(footprints_.end(), rest_.begin(), rest_.end());
+  }
+
+ private:
+  int HostOf(int part) const {
+    constexpr double kMostOfIt = 0.5;
+    const Polygon& outline = footprints_[part].outline;
+    double most = kMostOfIt * Area(outline);
+    int host = -1;
+    for (const int near : grid_.Touching(internal::BoundsOf(outline))) {
+      if (is_loose_part_[near]) continue;
+      const double shared = internal::SharedArea(outline, footprints_[near].outline);
+      if (shared <= most) continue;
+      most = shared;
+      host = near;
+    }
+    return host;
+  }
+
+  void CutOut(int host, const std::vector<Polygon>& parts) {
+    std::vector<Polygon> rest = internal::Difference(footprints_[host].outline, parts);
+    std::erase_if(rest, internal::IsSliver);
+    footprints_[host].outline = rest.empty() ? Polygon{} : rest.front();
+    for (size_t i = 1; i < rest.size(); ++i) {
+      rest_.push_back(footprints_[host]);
+      rest_.back().outline = rest[i];
+    }
+  }
+
+  std::vector<Footprint>& footprints_;
+  const std::vector<bool>& is_loose_part_;
+  internal::BoxGrid grid_;
+  std::vector<Footprint> rest_;
+};
+
+// Takes apart what overlaps.
+class OverlapCutter {
+ public:
+  OverlapCutter(std::vector<Footprint>& footprints, RepairLog& repairs)
+      : footprints_(footprints), repairs_(repairs) {}
+
+  // Buildings that were left out with a note that says why.
+  const std::set<std::string>& explained() const { return explained_; }
+
+  // Returns whether anything had to be cut.
+  bool Cut() {
+    dropped_.assign(footprints_.size(), false);
+    cuts_.clear();
+    const internal::BoxGrid grid = GridOf(footprints_);
+    for (size_t i = 0; i < footprints_.size(); ++i) {
+      const auto box = internal::BoundsOf(footprints_[i].outline);
+      for (const int j : grid.Touching(box)) {
+        if (j <= static_cast<int>(i) || dropped_[i] || dropped_[j]) continue;
+        if (StandsAbove(footprints_[i], footprints_[j])) continue;
+        if (!internal::InteriorsMeet(footprints_[i].outline, footprints_[j].outline)) continue;
+        Separate(static_cast<int>(i), j);
+      }
+    }
+    return Finish();
+  }
+
+ private:
+  // Parts of one building at different heights may share ground.
+  static bool StandsAbove(const Footprint& a, const Footprint& b) {
+    return a.building == b.building && ((a.top_known && a.z_m.to_m <= b.z_m.from_m) ||
+                                        (b.top_known && b.z_m.to_m <= a.z_m.from_m));
+  }
+
+  static bool IsHigher(const Footprint& a, const Footprint& b) {
+    return a.top_known && b.top_known && a.z_m.to_m > b.z_m.to_m;
+  }
+
+  void Separate(int first, int second) {
+    const Footprint& a = footprints_[first];
+    const Footprint& b = footprints_[second];
+    const double shared = internal::SharedArea(a.outline, b.outline);
+    const bool first_is_smaller = Area(a.outline) < Area(b.outline);
+    const int smaller = first_is_smaller ? first : second;
+    const int larger = first_is_smaller ? second : first;
+    const double small_area = Area(footprints_[smaller].outline);
+    const double large_area = Area(footprints_[larger].outline);
+    if (shared > kSame * large_area) {
+      Drop(second, first, "has the same outline as {}; left out");
+    } else if (a.building == b.building) {
+      // Of two parts the higher one is what is seen.
+      cuts_[IsHigher(a, b) ? second : first].push_back(IsHigher(a, b) ? first : second);
+    } else if (shared > kInside * small_area) {
+      PutInside(smaller, larger);
+    } else {
+      cuts_[smaller].push_back(larger);
+      if (shared > kNotable_m2) {
+        Note(smaller, larger, fmt::format("overlaps {{}} by {:.0f} m2; cut off", shared));
+      }
+    }
+  }
+
+  void PutInside(int smaller, int larger) {
+    if (!IsHigher(footprints_[smaller], footprints_[larger])) {
+      Drop(smaller, larger, "lies inside {}; left out");
+      return;
+    }
+    Note(smaller, larger, "stands inside {} and rises above it; made a part of it");
+    footprints_[smaller].building = footprints_[larger].building;
+    cuts_[larger].push_back(smaller);
+  }
+
+  // What stays must be as high as what it stands for.
+  void Drop(int dropped, int kept, const std::string& what) {
+    Note(dropped, kept, what);
+    dropped_[dropped] = true;
+    const Footprint& from = footprints_[dropped];
+    Footprint& into = footprints_[kept];
+    if (from.top_known && into.top_known) {
+      into.z_m.to_m = std::max(into.z_m.to_m, from.z_m.to_m);
+    } else if (from.top_known && Area(from.outline) > kSame * Area(into.outline)) {
+      into.top_known = true;
+      into.z_m.to_m = from.z_m.to_m;
+    }
+    explained_.insert(from.building);
+    into.z_m.from_m = std::min(into.z_m.from_m, from.z_m.from_m);
+  }
+
+  void Note(int about, int other, const std::string& what) {
+    repairs_.Add(footprints_[about].building,
+                 fmt::format(fmt::runtime(what), footprints_[other].building));
+  }
+
+  bool Finish() {
+    bool changed = false;
+    std::vector<Footprint> left;
+    for (size_t i = 0; i < footprints_.size(); ++i) {
+      changed = changed || dropped_[i];
+      if (dropped_[i]) continue;
+      const auto cut = cuts_.find(static_cast<int>(i));
+      if (cut == cuts_.end()) {
+        left.push_back(footprints_[i]);
+        continue;
+      }
+      changed = true;
+      std::vector<Polygon> winners;
+      for (const int winner : cut->second) winners.push_back(footprints_[winner].outline);
+      for (Polygon& rest : internal::Difference(footprints_[i].outline, winners)) {
+        if (internal::IsSliver(rest)) continue;
+        left.push_back(footprints_[i]);
+        left.back().outline = std::move(rest);
+      }
+    }
+    footprints_ = std::move(left);
+    return changed;
+  }
+
+  std::vector<Footprint>& footprints_;
+  RepairLog& repairs_;
+  std::vector<bool> dropped_;
+  std::map<int, std::vector<int>> cuts_;  // who is cut by whom
+  std::set<std::string> explained_;
+};
+
+// Snaps and nodes all outlines and mends those that this spoils.
+bool NodeAll(internal::Noder& noder, std::vector<Footprint>& footprints) {
+  std::vector<Polygon> outlines;
+  outlines.reserve(footprints.size());
+  for (Footprint& footprint : footprints) outlines.push_back(std::move(footprint.outline));
+  const bool changed = noder.Apply(outlines);
+  std::vector<Footprint> valid;
+  for (size_t i = 0; i < footprints.size(); ++i) {
+    for (Polygon& part : internal::ValidParts(outlines[i])) {
+      valid.push_back(footprints[i]);
+      valid.back().outline = std::move(part);
+    }
+  }
+  footprints = std::move(valid);
+  return changed;
+}
+
+// Snapping makes slivers of overlaps and cutting makes corners to snap; a few rounds settle it.
+void SeparateAll(std::vector<Footprint>& footprints, RepairLog& repairs) {
+  constexpr int kMostRounds = 10;
+  const std::vector<Footprint> before = footprints;
+  internal::Noder noder(kSnap_m);
+  OverlapCutter cutter(footprints, repairs);
+  for (int round = 0; round < kMostRounds; ++round) {
+    const bool noded = NodeAll(noder, footprints);
+    const bool cut = cutter.Cut();
+    if (!noded && !cut) break;
+  }
+  if (noder.moved() > 0) {
+    repairs.Add("", fmt::format("{} corners moved by up to {:.0f} cm to join neighbours",
+                                noder.moved(), kSnap_m * 100));
+  }
+  std::set<std::string> there = cutter.explained();
+  for (const Footprint& footprint : footprints) there.insert(footprint.building);
+  for (const Footprint& footprint : before) {
+    if (!there.insert(footprint.building).second) continue;
+    repairs.Add(footprint.building, "its neighbours leave nothing of it; left out");
+  }
+}
+
+void SortCorners(Polygon& outline) {
+  for (Ring& ring : outline.rings) ring = FromSouthWest(std::move(ring));
+  std::sort(outline.rings.begin() + 1, outline.rings.end(), [](const Ring& a, const Ring& b) {
+    return std::pair(a[0].x() + a[0].y(), a[0].x()) < std::pair(b[0].x() + b[0].y(), b[0].x());
+  });
+}
+
+}  // namespace
+
+CleanedMap CleanMap(const std::vector<MapFeature>& features) {
+  CleanedMap map;
+  std::map<std::string, int> features_of;
+  for (const MapFeature& feature : features) ++features_of[feature.building];
+  std::vector<bool> is_loose_part;
+  for (const MapFeature& feature : features) {
+    for (Footprint& footprint : FootprintsOf(feature, map.repairs)) {
+      map.footprints.push_back(std::move(footprint));
+      is_loose_part.push_back(feature.is_part && features_of.at(feature.building) == 1);
+    }
+  }
+  PartAssigner(map.footprints, is_loose_part).Assign(map.repairs);
+  SeparateAll(map.footprints, map.repairs);
+  // The parts of a building one after another, buildings in the order of the map.
+  std::map<std::string, size_t> order;
+  for (const MapFeature& feature : features) order.emplace(feature.building, order.size());
+  std::stable_sort(map.footprints.begin(), map.footprints.end(),
+                   [&](const Footprint& a, const Footprint& b) {
+                     return order.at(a.building) < order.at(b.building);
+                   });
+  for (Footprint& footprint : map.footprints) SortCorners(footprint.outline);
+  return map;
+}
+
+}  // namespace stucco::plan

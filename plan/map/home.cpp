@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/map/home.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <regex>
+
+#include "plan/internal/box_grid.h"
+#include "plan/internal/polygons.h"
+#include "survey/error.h"
+
+namespace stucco::plan {
+namespace {
+
+constexpr double kMargin_m = 1;        // kept from everything: a drone does not take off to the cm
+constexpr double kFarthest_m = 10000;  // a home farther away from the buildings is a mistake
+
+// What makes a place unsafe; empty where it is safe.
+class Hazards {
+ public:
+  explicit Hazards(const Site& site) : site_(site), grid_(Boxes(site), 50) {}
+
+  std::string At(const Eigen::Vector2d& position) const {
+    for (const Polygon& zone : site_.no_fly) {
+      if (internal::Distance(zone, position) <= 0) return "inside a no-fly zone";
+      if (internal::Distance(zone, position) < kMargin_m) return "at the border of a no-fly zone";
+    }
+    for (const int index : grid_.Touching({position, position})) {
+      const Footprint& footprint = site_.footprints[index];
+      const double distance = internal::Distance(footprint.outline, position);
+      if (distance < site_.d_min_m + kMargin_m) {
+        return fmt::format("{:.0f} m from building {}, where nothing may fly", distance,
+                           footprint.building);
+      }
+    }
+    return "";
+  }
+
+ private:
+  static std::vector<Eigen::AlignedBox2d> Boxes(const Site& site) {
+    std::vector<Eigen::AlignedBox2d> boxes;
+    const double reach = site.d_min_m + kMargin_m;
+    for (const Footprint& footprint : site.footprints) {
+      const Eigen::AlignedBox2d box = internal::BoundsOf(footprint.outline);
+      boxes.emplace_back(box.min().array() - reach, box.max().array() + reach);
+    }
+    return boxes;
+  }
+
+  const Site& site_;
+  internal::BoxGrid grid_;
+};
+
+Eigen::AlignedBox2d Captured(const Site& site) {
+  Eigen::AlignedBox2d bounds;
+  for (const Footprint& footprint : site.footprints) {
+    if (footprint.in_area) bounds.extend(internal::BoundsOf(footprint.outline));
+  }
+  return bounds;
+}
+
+Eigen::Vector3d OnGround(const Site& site, const Eigen::Vector2d& position) {
+  return {position.x(), position.y(), site.terrain.HeightAt(position)};
+}
+
+}  // namespace
+
+Geodetic ParseHome(const std::string& text) {
+  static const std::regex form(R"(\s*(-?\d+(?:\.\d+)?)\s*[,; ]\s*(-?\d+(?:\.\d+)?)\s*)");
+  std::smatch found;
+  if (std::regex_match(text, found, form)) {
+    const Geodetic home{std::stod(found[1]), std::stod(found[2])};
+    if (std::abs(home.latitude_deg) < 90 && std::abs(home.longitude_deg) <= 180) return home;
+  }
+  throw Error(ErrorKind::kUsage, fmt::format("--home {:?}: is no latitude and longitude", text),
+              "give degrees as --home 50.10419,14.40238");
+}
+
+Eigen::Vector3d DefaultHome(const Site& site) {
+  const Hazards hazards(site);
+  const Eigen::AlignedBox2d bounds = Captured(site);
+  constexpr double kBeyond_m = 5;
+  const Eigen::Vector2d start(bounds.center().x(), bounds.min().y() - site.d_min_m - kBeyond_m);
+  constexpr double kStep_m = 2;
+  const double farthest = 2 * bounds.diagonal().norm() + 1000;
+  for (double radius = 0; radius < farthest; radius += kStep_m) {
+    const int places = std::max(1, static_cast<int>(2 * std::numbers::pi * radius / kStep_m));
+    for (int i = 0; i < places; ++i) {  // from the south, turning clockwise
+      const double angle = 2 * std::numbers::pi * i / places;
+      const Eigen::Vector2d place =
+          start - radius * Eigen::Vector2d(std::sin(angle), std::cos(angle));
+      if (hazards.At(place).empty()) return OnGround(site, place);
+    }
+  }
+  throw Error(ErrorKind::kBadInput, "the no-fly zones leave no place to take off",
+              "give one with --home LATITUDE,LONGITUDE or make the no-fly zones smaller");
+}
+
+Eigen::Vector3d CheckedHome(const Site& site, const Eigen::Vector2d& position) {
+  const double away = Captured(site).exteriorDistance(position);
+  if (!(away <= kFarthest_m)) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("--home: lies {:.0f} km from the buildings", away / 1000),
+                "give latitude first, then longitude, as --home 50.10419,14.40238");
+  }
+  const std::string hazard = Hazards(site).At(position);
+  if (hazard.empty()) return OnGround(site, position);
+  throw Error(ErrorKind::kUsage, fmt::format("--home: lies {}", hazard),
+              "give a place in the open, or none: then one is chosen south of the buildings");
+}
+
+}  // namespace stucco::plan

@@ -1,0 +1,323 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/internal/read_cityjson.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "plan/internal/attributes.h"
+#include "plan/internal/ogr.h"
+#include "plan/internal/polygons.h"
+#include "survey/error.h"
+#include "survey/files.h"
+
+namespace stucco::plan::internal {
+namespace {
+
+using Json = nlohmann::ordered_json;  // buildings without ids keep the order of the file
+
+// Undersides that hang lower than this over the lowest ground of a building are its ground on a
+// slope; higher ones are overhangs.
+constexpr double kLeastOverhang_m = 3;
+
+struct Face {
+  std::vector<std::vector<int>> rings;  // indices of vertices
+  bool is_ground = false;
+};
+
+struct Solid {
+  std::vector<Face> faces;
+  double lod = 0;
+};
+
+[[noreturn]] void Fail(const std::filesystem::path& path, const std::string& reason) {
+  throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", path.string(), reason),
+              "check the file with a CityJSON validator (cjval)");
+}
+
+std::vector<Eigen::Vector3d> ReadVertices(const Json& json) {
+  Eigen::Array3d scale(1, 1, 1);
+  Eigen::Array3d translate(0, 0, 0);
+  if (json.contains("transform")) {
+    const Json& transform = json.at("transform");
+    for (int i = 0; i < 3; ++i) {
+      scale[i] = transform.at("scale").at(i).get<double>();
+      translate[i] = transform.at("translate").at(i).get<double>();
+    }
+  }
+  std::vector<Eigen::Vector3d> vertices;
+  vertices.reserve(json.at("vertices").size());
+  for (const Json& vertex : json.at("vertices")) {
+    const Eigen::Array3d stored(vertex.at(0).get<double>(), vertex.at(1).get<double>(),
+                                vertex.at(2).get<double>());
+    vertices.emplace_back(stored * scale + translate);
+  }
+  return vertices;
+}
+
+// "https://www.opengis.net/def/crs/EPSG/0/7415" and "urn:ogc:def:crs:EPSG::7415" to "EPSG:7415".
+std::string ReadCrs(const Json& json) {
+  if (!json.contains("metadata")) return "";
+  const Json& metadata = json.at("metadata");
+  if (!metadata.contains("referenceSystem")) return "";
+  const std::string name = metadata.at("referenceSystem").get<std::string>();
+  const size_t end = name.find_last_of("/:");
+  if (end == std::string::npos || name.find("EPSG") == std::string::npos) return name;
+  return "EPSG:" + name.substr(end + 1);
+}
+
+// Nested lists of surfaces (shells of solids, solids of multi-solids) with the list of the same
+// shape that says which semantic surface each is.
+void ReadFaces(const Json& boundaries, const Json& semantics, const std::vector<bool>& is_ground,
+               std::vector<Face>& faces) {
+  for (size_t i = 0; i < boundaries.size(); ++i) {
+    const Json& item = boundaries.at(i);
+    static const Json kNone;
+    const Json& meaning = semantics.is_array() && i < semantics.size() ? semantics.at(i) : kNone;
+    const bool is_surface = item.is_array() && !item.empty() && item.at(0).is_array() &&
+                            (item.at(0).empty() || item.at(0).at(0).is_number_integer());
+    if (!is_surface) {
+      if (item.is_array()) ReadFaces(item, meaning, is_ground, faces);
+      continue;
+    }
+    Face& face = faces.emplace_back();
+    face.rings = item.get<std::vector<std::vector<int>>>();
+    face.is_ground = meaning.is_number_unsigned() && meaning.get<size_t>() < is_ground.size() &&
+                     is_ground[meaning.get<size_t>()];
+  }
+}
+
+Solid ReadGeometry(const Json& geometry) {
+  Solid solid;
+  std::vector<bool> is_ground;
+  Json values;
+  if (geometry.contains("semantics") && geometry.at("semantics").is_object()) {
+    for (const Json& surface : geometry.at("semantics").at("surfaces")) {
+      is_ground.push_back(surface.at("type") == "GroundSurface");
+    }
+    values = geometry.at("semantics").at("values");
+  }
+  ReadFaces(geometry.at("boundaries"), values, is_ground, solid.faces);
+  if (geometry.contains("lod")) {
+    const Json& lod = geometry.at("lod");  // a number in CityJSON 1.0
+    solid.lod =
+        lod.is_string() ? ParseLength(lod.get<std::string>()).value_or(0) : lod.get<double>();
+  }
+  return solid;
+}
+
+// The most detailed geometry that has surfaces.
+std::optional<Solid> BestGeometry(const Json& object) {
+  std::optional<Solid> best;
+  if (!object.contains("geometry")) return best;
+  for (const Json& geometry : object.at("geometry")) {
+    if (!geometry.contains("boundaries")) continue;  // an instance of a template
+    Solid solid = ReadGeometry(geometry);
+    if (!solid.faces.empty() && (!best || solid.lod > best->lod)) best = std::move(solid);
+  }
+  return best;
+}
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& path, const PlanOptions& options) : options_(options) {
+    map_.path = path;
+  }
+
+  RawMap Read(const Json& json) {
+    vertices_ = ReadVertices(json);
+    map_.crs = ReadCrs(json);
+    const Json& objects = json.at("CityObjects");
+    for (const auto& [id, object] : objects.items()) {
+      if (object.at("type") == "Building") ReadBuilding(id, object, objects);
+    }
+    if (map_.features.empty()) {
+      throw Error(ErrorKind::kBadInput, fmt::format("{}: has no buildings", map_.path.string()),
+                  "give a city model with objects of type Building");
+    }
+    return std::move(map_);
+  }
+
+ private:
+  void ReadBuilding(const std::string& id, const Json& building, const Json& objects) {
+    ++place_;
+    const std::string name = ids_.Next(OwnId(id, building), place_);
+    std::vector<Solid> solids;
+    if (auto own = BestGeometry(building)) solids.push_back(std::move(*own));
+    std::vector<Solid> parts;
+    if (building.contains("children")) {
+      for (const Json& child : building.at("children")) {
+        const auto part = objects.find(child.get<std::string>());
+        if (part == objects.end() || part->at("type") != "BuildingPart") continue;
+        if (auto solid = BestGeometry(*part)) parts.push_back(std::move(*solid));
+      }
+    }
+    // A flat outline beside parts says nothing that they do not.
+    if (!parts.empty() && !solids.empty() && solids[0].lod < 1) solids.clear();
+    solids.insert(solids.end(), parts.begin(), parts.end());
+    if (solids.empty()) {
+      map_.repairs.Add(name, "no geometry; left out");
+      return;
+    }
+    double ground = std::numeric_limits<double>::infinity();
+    for (const Solid& solid : solids) ground = std::min(ground, HeightsOf(solid).from_m);
+    const size_t before = map_.features.size();
+    for (const Solid& solid : solids) AddFeature(name, solid, ground);
+    if (map_.features.size() != before + 1) return;
+    map_.features.back().is_part = false;
+    UseMeasuredHeight(building, HeightsOf(solids[0]), map_.features.back());
+  }
+
+  std::string OwnId(const std::string& id, const Json& building) const {
+    if (options_.id_field.empty()) return id;
+    const Json value = Attribute(building, options_.id_field);
+    return value.is_string() ? value.get<std::string>() : value.is_null() ? id : value.dump();
+  }
+
+  static Json Attribute(const Json& object, const std::string& name) {
+    const auto attributes = object.find("attributes");
+    if (attributes == object.end() || !attributes->contains(name)) return {};
+    return attributes->at(name);
+  }
+
+  // `z` is that of the geometry.
+  void UseMeasuredHeight(const Json& building, const Interval& z, MapFeature& feature) {
+    const bool named = !options_.height_field.empty();
+    const Json value = Attribute(building, named ? options_.height_field : "measuredHeight");
+    const auto height = value.is_number()   ? std::optional(value.get<double>())
+                        : value.is_string() ? ParseLength(value.get<std::string>())
+                                            : std::nullopt;
+    if (!height || !(*height > feature.min_height_m)) return;
+    // Some files state the elevation of the roof instead.
+    constexpr double kSame_m = 0.02;
+    const bool is_elevation =
+        std::abs(*height - z.to_m) < kSame_m && std::abs(z.from_m) > kSame_m && z.length_m() > 0;
+    if (named || !is_elevation) {
+      feature.height_m = height;
+    } else {
+      map_.repairs.Add(feature.building,
+                       "measuredHeight is the elevation of the roof; height of the geometry used");
+    }
+  }
+
+  const Eigen::Vector3d& Vertex(int index) const {
+    if (index < 0 || static_cast<size_t>(index) >= vertices_.size()) {
+      Fail(map_.path, fmt::format("names vertex {} of {}", index, vertices_.size()));
+    }
+    return vertices_[index];
+  }
+
+  Interval HeightsOf(const Solid& solid) const {
+    Interval z{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const Face& face : solid.faces) {
+      const Interval range = HeightsOf(face);
+      z = {std::min(z.from_m, range.from_m), std::max(z.to_m, range.to_m)};
+    }
+    return z;
+  }
+
+  Interval HeightsOf(const Face& face) const {
+    Interval z{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const std::vector<int>& ring : face.rings) {
+      for (const int index : ring) {
+        z = {std::min(z.from_m, Vertex(index).z()), std::max(z.to_m, Vertex(index).z())};
+      }
+    }
+    return z;
+  }
+
+  // Share of the face's area that is left when it is seen from above.
+  double Flatness(const Face& face) const {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    const std::vector<int>& ring = face.rings.front();
+    for (size_t i = 2; i < ring.size(); ++i) {
+      normal += (Vertex(ring[i - 1]) - Vertex(ring[0])).cross(Vertex(ring[i]) - Vertex(ring[0]));
+    }
+    return normal.norm() > 0 ? std::abs(normal.z()) / normal.norm() : 0;
+  }
+
+  // The union of faces seen from above.
+  template <class Keep>
+  std::vector<Polygon> Projected(const Solid& solid, const Keep& keep) const {
+    std::vector<Polygon> polygons;
+    for (const Face& face : solid.faces) {
+      if (face.rings.empty() || face.rings.front().size() < 3 || !keep(face)) continue;
+      Polygon polygon;
+      for (const std::vector<int>& indices : face.rings) {
+        Ring& ring = polygon.rings.emplace_back();
+        for (const int index : indices) ring.push_back(Vertex(index).head<2>());
+      }
+      if (const auto valid = MadeValid(*ToOgr(polygon))) {
+        for (Polygon& part : OrientedPolygons(*valid)) polygons.push_back(std::move(part));
+      }
+    }
+    return Union(polygons);
+  }
+
+  std::vector<Polygon> Footprint(const Solid& solid) const {
+    constexpr double kSteep = 0.1;  // walls, leaning ones too
+    std::vector<Polygon> ground = Projected(solid, [](const Face& face) { return face.is_ground; });
+    if (!ground.empty()) return ground;
+    const auto area = [](const std::vector<Polygon>& polygons) {
+      double sum = 0;
+      for (const Polygon& polygon : polygons) sum += Area(polygon);
+      return sum;
+    };
+    constexpr double kBottom_m = 0.5;
+    constexpr double kLevel = 0.95;
+    constexpr double kMostRoofOverhang = 0.8;  // of the whole that a bottom must cover
+    const double bottom = HeightsOf(solid).from_m;
+    ground = Projected(solid, [&](const Face& face) {
+      return Flatness(face) > kLevel && HeightsOf(face).to_m < bottom + kBottom_m;
+    });
+    std::vector<Polygon> all =
+        Projected(solid, [&](const Face& face) { return Flatness(face) > kSteep; });
+    return area(ground) >= kMostRoofOverhang * area(all) ? ground : all;
+  }
+
+  void AddFeature(const std::string& building, const Solid& solid, double ground) {
+    MapFeature feature;
+    feature.building = building;
+    feature.is_part = true;
+    feature.polygons = Footprint(solid);
+    if (feature.polygons.empty()) {
+      map_.repairs.Add(building, "a part has no area seen from above; left out");
+      return;
+    }
+    const Interval z = HeightsOf(solid);
+    if (z.to_m > z.from_m) feature.height_m = z.to_m - ground;
+    if (z.from_m - ground > kLeastOverhang_m) feature.min_height_m = z.from_m - ground;
+    map_.features.push_back(std::move(feature));
+  }
+
+  const PlanOptions& options_;
+  RawMap map_;
+  std::vector<Eigen::Vector3d> vertices_;
+  BuildingIds ids_;
+  int place_ = 0;
+};
+
+}  // namespace
+
+bool LooksLikeCityJson(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension != ".json" && extension != ".cityjson") return false;
+  return ReadFile(path).find("\"CityJSON\"") != std::string::npos;
+}
+
+RawMap ReadCityJson(const std::filesystem::path& path, const PlanOptions& options) {
+  try {
+    const Json json = Json::parse(ReadFile(path));
+    return Reader(path, options).Read(json);
+  } catch (const nlohmann::json::exception& error) {
+    Fail(path, fmt::format("is no CityJSON: {}", error.what()));
+  }
+}
+
+}  // namespace stucco::plan::internal

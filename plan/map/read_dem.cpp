@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/map/read_dem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "plan/internal/ogr.h"
+#include "plan/map/crs.h"
+#include "survey/error.h"
+
+namespace stucco::plan {
+namespace {
+
+constexpr double kLeastStep_m = 2;
+constexpr double kMostSamples = 16e6;
+constexpr double kMetresPerFoot = 0.3048;
+constexpr float kGap = std::numeric_limits<float>::quiet_NaN();
+
+// A window of the raster. Pixel (0, 0) is the top left; its centre is at (0.5, 0.5).
+struct Raster {
+  std::string crs;
+  std::array<double, 6> pixel_from_crs{};
+  int columns = 0;  // of the whole raster
+  int rows = 0;
+  int left = 0;  // of the window
+  int top = 0;
+  int width = 0;
+  int height = 0;
+  std::vector<float> z_m;
+
+  Eigen::Vector2d Pixel(const Eigen::Vector2d& p) const {
+    const auto& m = pixel_from_crs;
+    return {m[0] + m[1] * p.x() + m[2] * p.y(), m[3] + m[4] * p.x() + m[5] * p.y()};
+  }
+
+  float Value(int column, int row) const {
+    const int x = std::clamp(column - left, 0, width - 1);
+    const int y = std::clamp(row - top, 0, height - 1);
+    return z_m[static_cast<size_t>(y) * width + x];
+  }
+
+  // Bilinear; a gap where one of the four pixels is one.
+  float Interpolated(const Eigen::Vector2d& pixel) const {
+    const Eigen::Array2d at = pixel.array() - 0.5;
+    const Eigen::Array2d low = at.floor();
+    const int column = static_cast<int>(low.x());
+    const int row = static_cast<int>(low.y());
+    const double x = at.x() - low.x();
+    const double y = at.y() - low.y();
+    const double upper = std::lerp(Value(column, row), Value(column + 1, row), x);
+    const double lower = std::lerp(Value(column, row + 1), Value(column + 1, row + 1), x);
+    return static_cast<float>(std::lerp(upper, lower, y));
+  }
+};
+
+[[noreturn]] void Fail(const std::filesystem::path& path, const std::string& reason,
+                       const std::string& remedy) {
+  throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", path.string(), reason), remedy);
+}
+
+Raster Describe(GDALDataset& dataset, const std::filesystem::path& path) {
+  Raster raster;
+  raster.columns = dataset.GetRasterXSize();
+  raster.rows = dataset.GetRasterYSize();
+  std::array<double, 6> crs_from_pixel{};
+  if (dataset.GetRasterCount() < 1 || dataset.GetGeoTransform(crs_from_pixel.data()) != CE_None ||
+      !GDALInvGeoTransform(crs_from_pixel.data(), raster.pixel_from_crs.data())) {
+    Fail(path, "does not say where it lies", "give a georeferenced raster of heights (GeoTIFF)");
+  }
+  raster.crs = dataset.GetProjectionRef();
+  if (raster.crs.empty()) {
+    Fail(path, "names no coordinate system",
+         "add one, as with gdal_edit.py -a_srs EPSG:25832 FILE");
+  }
+  return raster;
+}
+
+// The grid of samples over the bounds.
+Terrain GridOver(const Eigen::AlignedBox2d& bounds, double pixel_m) {
+  const double area = bounds.sizes().prod();
+  const double step = std::max({pixel_m, kLeastStep_m, std::sqrt(area / kMostSamples)});
+  return {.corner = bounds.min(),
+          .step_m = step,
+          .columns = static_cast<int>(std::ceil(bounds.sizes().x() / step)) + 1,
+          .rows = static_cast<int>(std::ceil(bounds.sizes().y() / step)) + 1,
+          .z_m = {}};
+}
+
+std::vector<Eigen::Vector2d> PixelsOf(const Raster& raster, const PlanOrigin& origin,
+                                      const std::vector<Eigen::Vector2d>& positions,
+                                      const std::filesystem::path& path) {
+  std::vector<Geodetic> places;
+  places.reserve(positions.size());
+  for (const Eigen::Vector2d& position : positions) {
+    places.push_back(GeodeticFromPlan(origin, position));
+  }
+  std::vector<Eigen::Vector2d> pixels = CrsFromGeodetic(raster.crs, places, path.string());
+  for (Eigen::Vector2d& pixel : pixels) pixel = raster.Pixel(pixel);
+  return pixels;
+}
+
+// Metres on the ground of one pixel at the origin.
+double PixelSize(const Raster& raster, const PlanOrigin& origin,
+                 const std::filesystem::path& path) {
+  constexpr double kProbe_m = 10;
+  const auto pixels = PixelsOf(raster, origin, {{0, 0}, {kProbe_m, 0}, {0, kProbe_m}}, path);
+  const double per_pixel = std::max((pixels[1] - pixels[0]).norm(), (pixels[2] - pixels[0]).norm());
+  return kProbe_m / per_pixel;
+}
+
+void CheckCover(const Raster& raster, const std::vector<Eigen::Vector2d>& pixels, double pixel_m,
+                const std::filesystem::path& path) {
+  double outside = 0;
+  for (const Eigen::Vector2d& pixel : pixels) {
+    if (!pixel.allFinite()) {
+      Fail(path, "lies elsewhere than the map", "give the terrain of the place of the map");
+    }
+    const Eigen::Array2d past =
+        (-pixel.array()).max(pixel.array() - Eigen::Array2d(raster.columns, raster.rows));
+    outside = std::max(outside, past.maxCoeff());
+  }
+  constexpr double kRim = 1;  // pixel: the border may cut one
+  if (!(outside <= kRim)) {
+    Fail(path,
+         fmt::format("does not cover the site: {:.0f} m are missing beside it", outside * pixel_m),
+         "give a larger terrain, a smaller --area or a smaller --margin");
+  }
+}
+
+void ReadWindow(GDALDataset& dataset, const std::vector<Eigen::Vector2d>& pixels, Raster& raster,
+                const std::filesystem::path& path) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& pixel : pixels) box.extend(pixel);
+  raster.left = std::clamp(static_cast<int>(box.min().x()) - 2, 0, raster.columns - 1);
+  raster.top = std::clamp(static_cast<int>(box.min().y()) - 2, 0, raster.rows - 1);
+  raster.width = std::clamp(static_cast<int>(box.max().x()) + 3, 1, raster.columns) - raster.left;
+  raster.height = std::clamp(static_cast<int>(box.max().y()) + 3, 1, raster.rows) - raster.top;
+  raster.z_m.resize(static_cast<size_t>(raster.width) * raster.height);
+  GDALRasterBand& band = *dataset.GetRasterBand(1);
+  const internal::QuietGdal quiet;
+  if (band.RasterIO(GF_Read, raster.left, raster.top, raster.width, raster.height,
+                    raster.z_m.data(), raster.width, raster.height, GDT_Float32, 0, 0,
+                    nullptr) != CE_None) {
+    Fail(path, fmt::format("cannot be read: {}", internal::QuietGdal::Message()),
+         "check the file with gdalinfo -checksum");
+  }
+  int has_gap_value = 0;
+  const double gap = band.GetNoDataValue(&has_gap_value);
+  const std::string unit = band.GetUnitType();
+  const double metres =
+      unit == "ft" || unit == "foot" || unit == "US survey foot" ? kMetresPerFoot : 1;
+  const double scale = band.GetScale();
+  const double offset = band.GetOffset();
+  constexpr double kHighestGround_m = 9000;  // beyond it are other programs' marks for gaps
+  for (float& z : raster.z_m) {
+    const double value = (z * scale + offset) * metres;
+    const bool is_gap = has_gap_value != 0 && z == static_cast<float>(gap);
+    z = is_gap || !(std::abs(value) <= kHighestGround_m) ? kGap : static_cast<float>(value);
+  }
+}
+
+// Gaps get the mean of their neighbours, from their rims inwards. Returns how many there were.
+size_t FillGaps(Terrain& terrain) {
+  std::vector<int> gaps;
+  for (size_t i = 0; i < terrain.z_m.size(); ++i) {
+    if (std::isnan(terrain.z_m[i])) gaps.push_back(static_cast<int>(i));
+  }
+  const size_t count = gaps.size();
+  while (!gaps.empty()) {
+    std::vector<std::pair<int, float>> filled;
+    std::vector<int> left;
+    for (const int gap : gaps) {
+      const int column = gap % terrain.columns;
+      const int row = gap / terrain.columns;
+      double sum = 0;
+      int known = 0;
+      for (const auto& [x, y] :
+           {std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1)}) {
+        if (column + x < 0 || column + x >= terrain.columns || row + y < 0 ||
+            row + y >= terrain.rows) {
+          continue;
+        }
+        const float z = terrain.z_m[gap + x + static_cast<ptrdiff_t>(y) * terrain.columns];
+        if (std::isnan(z)) continue;
+        sum += z;
+        ++known;
+      }
+      if (known > 0) {
+        filled.emplace_back(gap, static_cast<float>(sum / known));
+      } else {
+        left.push_back(gap);
+      }
+    }
+    for (const auto& [gap, z] : filled) terrain.z_m[gap] = z;
+    gaps = std::move(left);
+  }
+  return count;
+}
+
+}  // namespace
+
+ReadTerrain ReadDem(const std::filesystem::path& path, const PlanOrigin& origin,
+                    const Eigen::AlignedBox2d& bounds) {
+  const GDALDatasetUniquePtr dataset = internal::OpenDataset(path, GDAL_OF_RASTER);
+  Raster raster = Describe(*dataset, path);
+  const double pixel_m = PixelSize(raster, origin, path);
+  ReadTerrain result;
+  Terrain& terrain = result.terrain;
+  terrain = GridOver(bounds, pixel_m);
+  std::vector<Eigen::Vector2d> positions;
+  positions.reserve(static_cast<size_t>(terrain.rows) * terrain.columns);
+  for (int row = 0; row < terrain.rows; ++row) {
+    for (int column = 0; column < terrain.columns; ++column) {
+      // The last samples lie up to a step beyond the bounds: there, the rim of the bounds counts.
+      const Eigen::Vector2d at = terrain.corner + terrain.step_m * Eigen::Vector2d(column, row);
+      positions.push_back(at.cwiseMin(bounds.max()));
+    }
+  }
+  const std::vector<Eigen::Vector2d> pixels = PixelsOf(raster, origin, positions, path);
+  CheckCover(raster, pixels, pixel_m, path);
+  ReadWindow(*dataset, pixels, raster, path);
+  for (const Eigen::Vector2d& pixel : pixels) terrain.z_m.push_back(raster.Interpolated(pixel));
+  if (std::all_of(terrain.z_m.begin(), terrain.z_m.end(), [](float z) { return std::isnan(z); })) {
+    Fail(path, "has no heights at the place of the map",
+         "give the terrain of the place of the map");
+  }
+  if (const size_t gaps = FillGaps(terrain); gaps > 0) {
+    result.repairs.Add("",
+                       fmt::format("terrain: gaps ({:.1f} % of the site) filled from around them",
+                                   100.0 * gaps / terrain.z_m.size()));
+  }
+  result.origin_height_m = terrain.HeightAt({0, 0});
+  for (float& z : terrain.z_m) z = static_cast<float>(z - result.origin_height_m);
+  return result;
+}
+
+}  // namespace stucco::plan
