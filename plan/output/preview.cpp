@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/output/preview.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "plan/output/internal/svg.h"
+
+namespace stucco::plan {
+namespace {
+
+using internal::MapScale;
+using internal::Svg;
+
+constexpr double kPageWidth = 1600;
+constexpr double kMargin = 24;
+constexpr double kTitle = 92;
+constexpr double kLegend = 330;
+constexpr double kBelowMap = 48;
+constexpr double kMapWidth = kPageWidth - 3 * kMargin - kLegend;
+constexpr double kTallestMap = 1250;
+constexpr double kLowestPage = 960;  // the legend needs it
+
+constexpr const char* kStyle = R"svg(<style>
+text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:#1f2328}
+.title{font-size:27px;font-weight:600}
+.figures{font-size:16px;fill:#3d444d}
+.heading{font-size:15px;font-weight:600}
+.entry{font-size:13.5px}
+.note{font-size:12px;fill:#59636e}
+.tick{font-size:12px;text-anchor:middle}
+.name{font-size:9px;text-anchor:middle;fill:#54545c}
+.home{font-size:12px;font-weight:700;text-anchor:middle}
+.small{font-size:9.5px}
+</style>
+<defs><pattern id="nofly" width="9" height="9"
+ patternUnits="userSpaceOnUse" patternTransform="rotate(45)">
+<rect width="9" height="9" fill="#c0392b" fill-opacity="0.10"/>
+<path d="M0 0V9" stroke="#c0392b" stroke-width="2.4" stroke-opacity="0.55"/></pattern></defs>
+)svg";
+
+std::string Title(const Plan& plan, const PlanStats& stats) {
+  const size_t buildings = plan.footprints.size();
+  return fmt::format("Flight plan: {} building{}, {} facades ({}, {})", buildings,
+                     buildings == 1 ? "" : "s", plan.facades.size(), stats.method, stats.camera);
+}
+
+std::string Figures(const Plan& plan, const PlanStats& stats) {
+  std::string text = fmt::format(
+      "{} photos at {} hovers  ·  {:.2f} km  ·  {:.0f} min  ·  {} flight{}, {:.0f} % of a battery"
+      "  ·  mean Q {:.2f} of 4",
+      stats.photos, stats.hovers, stats.length_m / 1000, stats.time_min,
+      stats.battery_by_flight.size(), stats.battery_by_flight.size() == 1 ? "" : "s",
+      stats.battery_percent, stats.mean.sum());
+  if (stats.unobservable_m > 0) {
+    text +=
+        fmt::format("  ·  {:.0f} of {:.0f} m of wall unseen", stats.unobservable_m, stats.wall_m);
+  }
+  return text + fmt::format("  ·  safe altitude {:.0f} m", plan.safe_altitude_m);
+}
+
+}  // namespace
+
+std::string PreviewSvg(const Plan& plan, const PlanStats& stats) {
+  const Eigen::Vector2d corner(kMargin, kTitle);
+  const MapScale scale = internal::FitMap(plan, corner, {kMapWidth, kTallestMap});
+  const double height = std::max(kTitle + scale.Height() + kBelowMap, kLowestPage);
+  Svg svg;
+  svg.Add(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+      "viewBox=\"0 0 {0:.0f} {1:.0f}\">",
+      kPageWidth, height);
+  svg.Add("<title>{}</title>", internal::EscapeXml(Title(plan, stats)));
+  svg.Add("{}", kStyle);
+  svg.Add("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"#fff\"/>", kPageWidth, height);
+  svg.Text({kMargin, 42}, "class=\"title\"", Title(plan, stats));
+  svg.Text({kMargin, 71}, "class=\"figures\"", Figures(plan, stats));
+  internal::DrawMap(plan, scale, svg);
+  internal::DrawScaleBar(scale, svg);
+  internal::DrawLegend(plan, stats, {2 * kMargin + kMapWidth, kTitle}, svg);
+  svg.Add("</svg>");
+  return svg.text();
+}
+
+}  // namespace stucco::plan

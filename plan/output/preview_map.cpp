@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+#include "plan/output/internal/svg.h"
+
+namespace stucco::plan::internal {
+namespace {
+
+constexpr double kBestQuality = 4;  // the sum of four terms
+constexpr int kQualityClasses = 24;
+constexpr double kMarginShare = 0.03;
+constexpr double kSmallestSite = 20;  // metres, so that a plan without buildings has a map
+// A flight counts as between the buildings below this share of the safe altitude.
+constexpr double kLow = 0.98;
+
+struct Box {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high = -low;
+  void Add(const Eigen::Vector2d& point) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+};
+
+// No-fly areas may be as large as a city: the map shows what the flights are about.
+Box ExtentOf(const Plan& plan) {
+  Box box;
+  for (const PlannedFootprint& footprint : plan.footprints) {
+    for (const auto& ring : footprint.rings_m)
+      std::ranges::for_each(ring, [&](const auto& p) { box.Add(p); });
+  }
+  for (const PlannedView& view : plan.views) box.Add(view.position_m.head<2>());
+  for (const PlannedFlight& flight : plan.flights) {
+    for (const PlannedWaypoint& waypoint : flight.waypoints) {
+      box.Add(waypoint.position_m.head<2>());
+    }
+  }
+  box.Add(plan.home_m.head<2>());
+  return box;
+}
+
+// Facades are drawn thinner where many share the page.
+double StrokeFor(const Plan& plan, double px_per_m) {
+  std::vector<double> lengths;
+  for (const PlannedFacade& facade : plan.facades) {
+    lengths.push_back((facade.b_m - facade.a_m).norm() * px_per_m);
+  }
+  if (lengths.empty()) return 3;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return std::clamp(0.09 * *middle, 1.1, 4.5);
+}
+
+void DrawGround(const Plan& plan, const MapScale& scale, Svg& svg) {
+  PathData outlines;
+  for (const PlannedFootprint& footprint : plan.footprints) {
+    for (const auto& ring : footprint.rings_m) outlines.Ring(scale.Page(ring));
+  }
+  // A stroke with round joins is the dilation itself.
+  svg.Path(outlines, fmt::format("fill=\"#f8e9d2\" fill-rule=\"evenodd\" stroke=\"#f8e9d2\" "
+                                 "stroke-linejoin=\"round\" stroke-width=\"{:.2f}\"",
+                                 2 * plan.d_min_m * scale.px_per_m));
+  svg.Path(outlines,
+           "fill=\"#d5d5d8\" fill-rule=\"evenodd\" stroke=\"#9a9aa2\" "
+           "stroke-width=\"0.5\"");
+  PathData no_fly;
+  for (const auto& ring : plan.no_fly_m) no_fly.Ring(scale.Page(ring));
+  svg.Path(no_fly, "fill=\"url(#nofly)\" stroke=\"#c0392b\" stroke-width=\"1.2\"");
+}
+
+// Ids of buildings, where they fit and are not too many to read.
+void DrawNames(const Plan& plan, const MapScale& scale, Svg& svg) {
+  constexpr size_t kMost = 150;
+  constexpr double kWidthPerLetter = 5.4;
+  if (plan.footprints.size() > kMost) return;
+  std::set<std::string> named;
+  for (const PlannedFootprint& footprint : plan.footprints) {
+    if (footprint.rings_m.empty() || !named.insert(footprint.building).second) continue;
+    Box box;
+    for (const Eigen::Vector2d& corner : footprint.rings_m.front()) box.Add(corner);
+    const Eigen::Vector2d size = scale.px_per_m * (box.high - box.low);
+    const double letters = static_cast<double>(footprint.building.size());
+    const bool fits = size.x() > kWidthPerLetter * letters + 8 && size.y() > 20;
+    if (!fits || footprint.rings_m.size() > 1) continue;
+    svg.Text(scale.Page(Eigen::Vector2d((box.low + box.high) / 2)) + Eigen::Vector2d(0, 3),
+             "class=\"name\"", footprint.building);
+  }
+}
+
+void DrawPaths(const Plan& plan, const MapScale& scale, Svg& svg) {
+  const double width = std::clamp(0.45 * scale.stroke_px, 0.6, 1.6);
+  const double low_z = plan.home_m.z() + kLow * plan.safe_altitude_m;
+  for (size_t i = 0; i < plan.flights.size(); ++i) {
+    PathData low;
+    PathData high;
+    const auto& waypoints = plan.flights[i].waypoints;
+    for (size_t k = 1; k < waypoints.size(); ++k) {
+      const Eigen::Vector3d& from = waypoints[k - 1].position_m;
+      const Eigen::Vector3d& to = waypoints[k].position_m;
+      if ((from - to).head<2>().norm() < 0.01) continue;  // up or down
+      PathData& path = std::min(from.z(), to.z()) < low_z ? low : high;
+      path.MoveTo(scale.Page(from.head<2>()));
+      path.LineTo(scale.Page(to.head<2>()));
+    }
+    const std::string color = Hex(FlightColor(static_cast<int>(i)));
+    const std::string look =
+        fmt::format("fill=\"none\" stroke=\"{}\" stroke-linecap=\"round\"", color);
+    svg.Path(high, fmt::format("{} stroke-width=\"{:.2f}\" stroke-opacity=\"0.45\" "
+                               "stroke-dasharray=\"{:.1f} {:.1f}\"",
+                               look, 0.8 * width, 4 * width, 3 * width));
+    svg.Path(low, fmt::format("{} stroke-width=\"{:.2f}\" stroke-opacity=\"0.85\"", look, width));
+  }
+}
+
+// Just outside the footprint, so that walls that face each other stay apart.
+void DrawFacades(const Plan& plan, const MapScale& scale, Svg& svg) {
+  std::map<int, PathData> by_quality;
+  PathData unseen;
+  for (const PlannedFacade& facade : plan.facades) {
+    const Eigen::Vector2d along = (facade.b_m - facade.a_m).normalized();
+    const Eigen::Vector2d outward(along.y(), -along.x());
+    const Eigen::Vector2d shift = 0.5 * scale.stroke_px / scale.px_per_m * outward;
+    PathData& path = by_quality[static_cast<int>(
+        std::lround(facade.predicted.sum() / kBestQuality * kQualityClasses))];
+    path.MoveTo(scale.Page(Eigen::Vector2d(facade.a_m + shift)));
+    path.LineTo(scale.Page(Eigen::Vector2d(facade.b_m + shift)));
+    for (const Interval& part : facade.unobservable_m) {
+      unseen.MoveTo(scale.Page(Eigen::Vector2d(facade.a_m + shift + part.from_m * along)));
+      unseen.LineTo(scale.Page(Eigen::Vector2d(facade.a_m + shift + part.to_m * along)));
+    }
+  }
+  for (const auto& [level, path] : by_quality) {
+    svg.Path(path, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\"",
+                               Hex(QualityColor(static_cast<double>(level) / kQualityClasses)),
+                               scale.stroke_px));
+  }
+  svg.Path(unseen,
+           fmt::format("fill=\"none\" stroke=\"#fff\" stroke-width=\"{:.2f}\"", scale.stroke_px));
+  svg.Path(unseen, fmt::format("fill=\"none\" stroke=\"#d7191c\" stroke-width=\"{:.2f}\" "
+                               "stroke-dasharray=\"{:.2f} {:.2f}\"",
+                               scale.stroke_px, scale.stroke_px, scale.stroke_px));
+}
+
+bool IsDipping(const PlannedView& view) {
+  return view.kind == ViewKind::kDipping || view.kind == ViewKind::kDippingFoot ||
+         view.kind == ViewKind::kSurface;
+}
+
+// A slice of the field of view, which shows direction and angle of a photo.
+void AddWedge(const Eigen::Vector2d& at, double yaw_deg, double half_angle, double radius_px,
+              PathData& path) {
+  constexpr int kArcSteps = 4;
+  const double yaw = yaw_deg * std::numbers::pi / 180;
+  path.MoveTo(at);
+  for (int i = 0; i <= kArcSteps; ++i) {
+    const double angle = yaw + half_angle * (2.0 * i / kArcSteps - 1);
+    path.LineTo(at + radius_px * Eigen::Vector2d(std::sin(angle), -std::cos(angle)));
+  }
+  path.Close();
+}
+
+double HalfFov(const PlannedCamera& camera) {
+  if (!(camera.focal_m > 0) || !(camera.sensor_width_m > 0)) return std::numbers::pi / 6;
+  return std::atan(camera.sensor_width_m / camera.focal_m / 2);
+}
+
+// Views above each other fall together on a map: one wedge for all that look the same way.
+using Seen = std::set<std::tuple<long, long, long>>;
+bool IsNew(const PlannedView& view, double yaw_deg, Seen& seen) {
+  const auto decimetres = [](double value) { return std::lround(10 * value); };
+  return seen
+      .emplace(decimetres(view.position_m.x()), decimetres(view.position_m.y()),
+               std::lround(yaw_deg))
+      .second;
+}
+
+void DrawViews(const Plan& plan, const MapScale& scale, Svg& svg) {
+  const double radius = std::clamp(4.2 * scale.stroke_px, 5.0, 16.0);
+  const double half_fov = HalfFov(plan.camera);
+  PathData wedges;
+  PathData planar;
+  std::map<int, PathData> dots;
+  Seen seen_wedges;
+  Seen seen_dots;
+  for (const PlannedView& view : plan.views) {
+    const Eigen::Vector2d at = scale.Page(view.position_m.head<2>());
+    if (!IsDipping(view)) {
+      if (IsNew(view, 720, seen_dots)) planar.Dot(at);
+      continue;
+    }
+    if (IsNew(view, view.yaw_deg, seen_wedges)) {
+      AddWedge(at, view.yaw_deg, half_fov, radius, wedges);
+    }
+    if (IsNew(view, 0, seen_dots)) dots[view.flight].Dot(at);
+  }
+  const double dot = std::clamp(1.1 * scale.stroke_px, 2.0, 5.0);
+  const auto round = [](const char* color, double width) {
+    return fmt::format(
+        "fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\" "
+        "stroke-linecap=\"round\"",
+        color, width);
+  };
+  svg.Path(planar, round("#5b6470", 0.9 * dot));
+  svg.Path(planar, round("#fff", 0.5 * dot));
+  svg.Path(wedges,
+           "fill=\"#1b1b1f\" fill-opacity=\"0.28\" stroke=\"#1b1b1f\" "
+           "stroke-opacity=\"0.6\" stroke-width=\"0.35\"");
+  for (const auto& [flight, path] : dots) {
+    svg.Path(path, round("#fff", dot + 1));
+    svg.Path(path, round(Hex(FlightColor(flight)).c_str(), dot));
+  }
+}
+
+void DrawHome(const Plan& plan, const MapScale& scale, Svg& svg) {
+  const Eigen::Vector2d at = scale.Page(plan.home_m.head<2>());
+  svg.Add(
+      "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"9\" fill=\"#fff\" stroke=\"#111\" "
+      "stroke-width=\"1.6\"/>",
+      at.x(), at.y());
+  svg.Text(at + Eigen::Vector2d(0, 4.2), "class=\"home\"", "H");
+}
+
+}  // namespace
+
+MapScale FitMap(const Plan& plan, const Eigen::Vector2d& corner_px,
+                const Eigen::Vector2d& largest_px) {
+  const Box box = ExtentOf(plan);
+  const Eigen::Vector2d middle = (box.low + box.high) / 2;
+  Eigen::Vector2d size = (box.high - box.low).cwiseMax(kSmallestSite);
+  size.array() += 2 * std::max(kMarginShare * size.maxCoeff(), 4.0);
+  MapScale scale;
+  scale.px_per_m = (largest_px.array() / size.array()).minCoeff();
+  // A narrow site gets a wider map rather than an empty page.
+  size.x() = largest_px.x() / scale.px_per_m;
+  scale.south_west_m = middle - size / 2;
+  scale.north_east_m = middle + size / 2;
+  scale.corner_px = corner_px;
+  scale.stroke_px = StrokeFor(plan, scale.px_per_m);
+  return scale;
+}
+
+void DrawMap(const Plan& plan, const MapScale& scale, Svg& svg) {
+  svg.Add(
+      "<svg x=\"{0:.1f}\" y=\"{1:.1f}\" width=\"{2:.1f}\" height=\"{3:.1f}\" "
+      "viewBox=\"{0:.1f} {1:.1f} {2:.1f} {3:.1f}\">",
+      scale.corner_px.x(), scale.corner_px.y(), scale.Width(), scale.Height());
+  svg.Add("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#fbfbf9\"/>",
+          scale.corner_px.x(), scale.corner_px.y(), scale.Width(), scale.Height());
+  DrawGround(plan, scale, svg);
+  DrawPaths(plan, scale, svg);
+  DrawFacades(plan, scale, svg);
+  DrawViews(plan, scale, svg);
+  DrawNames(plan, scale, svg);
+  DrawHome(plan, scale, svg);
+  svg.Add("</svg>");
+  svg.Add(
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" "
+      "stroke=\"#b9b9bf\"/>",
+      scale.corner_px.x(), scale.corner_px.y(), scale.Width(), scale.Height());
+}
+
+}  // namespace stucco::plan::internal

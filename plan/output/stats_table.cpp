@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "plan/output/stats.h"
+
+namespace stucco::plan {
+namespace {
+
+constexpr size_t kWorstFacades = 8;
+// Shorter parts are corners that hide behind a drainpipe, not news.
+constexpr double kNoteworthy = 0.5;  // metres
+
+std::string Row(const char* name, const std::string& value) {
+  return fmt::format("  {:<16}{}\n", name, value);
+}
+
+std::string Kinds(const PlanStats& stats) {
+  std::vector<std::string> parts;
+  for (const auto& [kind, count] : stats.photos_by_kind) {
+    parts.push_back(fmt::format("{} {}", count, kind));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string Energy(const PlanStats& stats) {
+  const size_t flights = stats.battery_by_flight.size();
+  std::string text = fmt::format("{:.0f} % of a battery, {} flight{}", stats.battery_percent,
+                                 flights, flights == 1 ? "" : "s");
+  if (flights < 2) return text;
+  const auto [low, high] = std::ranges::minmax(stats.battery_by_flight);
+  return text + fmt::format(" of {:.0f} to {:.0f} %", low, high);
+}
+
+std::string FacadeRow(const FacadeStats& facade) {
+  const FacadeQuality& q = facade.quality;
+  return fmt::format(
+      "  {:<16}{:>8.1f} {:>6}  {:>5.2f} {:>5.2f} {:>5.2f} {:>5.2f} {:>6.2f} {:>9.1f}\n", facade.id,
+      facade.length_m, facade.views, q.q_s, q.q_d, q.q_u, q.q_c, q.sum(),
+      facade.UnobservableLength());
+}
+
+// What needs a look first: the lowest sum of terms.
+std::string WorstFacades(const PlanStats& stats) {
+  std::vector<FacadeStats> facades = stats.facades;
+  std::ranges::stable_sort(facades, {},
+                           [](const FacadeStats& facade) { return facade.quality.sum(); });
+  facades.resize(std::min(facades.size(), kWorstFacades));
+  std::string text =
+      fmt::format("  {:<16}{:>8} {:>6}  {:>5} {:>5} {:>5} {:>5} {:>6} {:>9}\n", "worst facades",
+                  "length", "views", "Q_s", "Q_d", "Q_u", "Q_c", "Q", "unseen m");
+  for (const FacadeStats& facade : facades) text += FacadeRow(facade);
+  return text;
+}
+
+}  // namespace
+
+std::string StatsTable(const PlanStats& stats) {
+  std::string text = fmt::format("{}, {}\n", stats.method, stats.camera);
+  text += Row("photos", fmt::format("{} ({})", stats.photos, Kinds(stats)));
+  text += Row("hovers", fmt::format("{}", stats.hovers));
+  text += Row("path", fmt::format("{:.0f} m", stats.length_m));
+  text += Row("time", fmt::format("{:.1f} min", stats.time_min));
+  text += Row("energy", Energy(stats));
+  text += Row("tour", fmt::format("{:.1f} % above its lower bound", 100 * stats.tsp_gap));
+  text += Row("planned in", fmt::format("{:.1f} s", stats.planning_s));
+  if (stats.facades.empty()) return text + Row("facades", "none");
+  const FacadeQuality& q = stats.mean;
+  text += Row("facades", fmt::format("{}, mean Q {:.2f} of 4 (Q_s {:.2f}, Q_d {:.2f}, Q_u {:.2f}, "
+                                     "Q_c {:.2f})",
+                                     stats.facades.size(), q.sum(), q.q_s, q.q_d, q.q_u, q.q_c));
+  const auto parts = std::ranges::count_if(stats.facades, [](const FacadeStats& facade) {
+    return facade.UnobservableLength() > kNoteworthy;
+  });
+  text += Row("never seen", fmt::format("{:.1f} of {:.1f} m of wall, on {} facades",
+                                        stats.unobservable_m, stats.wall_m, parts));
+  return text + "\n" + WorstFacades(stats);
+}
+
+}  // namespace stucco::plan
