@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "plan/mission/kml.h"
 #include "plan/mission/litchi.h"
 #include "plan/mission/qgroundcontrol.h"
@@ -43,29 +45,25 @@ void WriteDji(const Plan& plan, const std::vector<Route>& routes, const MissionO
   }
 }
 
+// mission_2_3.csv is the third part of the second flight.
 void WriteLitchi(const Plan& plan, const std::vector<Route>& routes, const MissionOptions& options,
                  const std::filesystem::path& folder, MissionFiles& files) {
-  std::vector<std::string> texts;
-  std::string parts;
-  for (size_t i = 0; i < routes.size(); ++i) {
-    const size_t before = texts.size();
-    for (std::string& text : LitchiCsv(plan, routes[i], options)) {
-      texts.push_back(std::move(text));
-    }
-    if (texts.size() - before > 1) {
-      parts += fmt::format(" flight {}: mission_{}.csv to mission_{}.csv;", i + 1, before + 1,
-                           texts.size());
+  std::vector<std::vector<std::string>> flights;
+  for (const Route& route : routes) flights.push_back(LitchiCsv(plan, route, options));
+  const bool has_parts =
+      std::ranges::any_of(flights, [](const auto& parts) { return parts.size() > 1; });
+  for (size_t i = 0; i < flights.size(); ++i) {
+    for (size_t part = 0; part < flights[i].size(); ++part) {
+      const std::string name = has_parts ? fmt::format("mission_{}_{}.csv", i + 1, part + 1)
+                                         : NumberedName("mission", ".csv", i, flights.size());
+      Write(folder, name, flights[i][part], files);
     }
   }
-  for (size_t i = 0; i < texts.size(); ++i) {
-    Write(folder, NumberedName("mission", ".csv", i, texts.size()), texts[i], files);
-  }
-  if (!parts.empty()) {
-    parts.back() = '.';
+  if (has_parts) {
     files.notes.push_back(
-        fmt::format("Litchi holds {} waypoints in a mission, so flights take "
-                    "several files:{}",
-                    kLitchiWaypoints, parts));
+        fmt::format("Litchi holds {} waypoints in a mission: mission_1_2.csv is "
+                    "the second part of flight 1",
+                    kLitchiWaypoints));
   }
   for (const std::string& setting : LitchiSettings(routes.front(), options)) {
     files.notes.push_back("Litchi, to be set in the app: " + setting);

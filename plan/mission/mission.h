@@ -17,8 +17,8 @@ struct MissionFiles {
 
 // Writes mission.kmz (DJI WPML; checked by LintKmz), mission.csv (Litchi), mission.plan
 // (QGroundControl), mission.kml and plan.geojson into a folder that exists; mission_1.kmz and so on
-// where there are several flights. Throws Error when a file cannot be written, or when the linter
-// finds fault with ours.
+// where there are several flights, mission_1_2.csv where Litchi needs several files for one. Throws
+// Error when a file cannot be written, or when the linter finds fault with ours.
 MissionFiles WriteMissionFiles(const Plan& plan, const MissionOptions& options,
                                const std::filesystem::path& folder);
 

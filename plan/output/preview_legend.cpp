@@ -67,9 +67,9 @@ void DrawSymbols(const Plan& plan, Column& column) {
     column.svg.Add("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"26\" height=\"13\" {}/>", column.X(0),
                    column.Y(-11), look);
   };
-  swatch("fill=\"#d5d5d8\" stroke=\"#9a9aa2\" stroke-width=\"0.5\"");
+  swatch("fill=\"#cfd2d8\" stroke=\"#8d929c\" stroke-width=\"0.5\"");
   column.Entry("building");
-  swatch("fill=\"#f8e9d2\"");
+  swatch("fill=\"#f6ead6\"");
   column.Entry(fmt::format("nearer than {:g} m: flown above only", plan.d_min_m));
   if (!plan.no_fly_m.empty()) {
     swatch("fill=\"url(#nofly)\" stroke=\"#c0392b\"");

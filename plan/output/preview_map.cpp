@@ -46,16 +46,9 @@ Box ExtentOf(const Plan& plan) {
   return box;
 }
 
-// Facades are drawn thinner where many share the page.
-double StrokeFor(const Plan& plan, double px_per_m) {
-  std::vector<double> lengths;
-  for (const PlannedFacade& facade : plan.facades) {
-    lengths.push_back((facade.b_m - facade.a_m).norm() * px_per_m);
-  }
-  if (lengths.empty()) return 3;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return std::clamp(0.09 * *middle, 1.1, 4.5);
+// Sizes follow the map as long as they stay readable and do not cover it.
+double SizeOf(double metres, const MapScale& scale, double least_px, double most_px) {
+  return std::clamp(metres * scale.px_per_m, least_px, most_px);
 }
 
 void DrawGround(const Plan& plan, const MapScale& scale, Svg& svg) {
@@ -64,15 +57,27 @@ void DrawGround(const Plan& plan, const MapScale& scale, Svg& svg) {
     for (const auto& ring : footprint.rings_m) outlines.Ring(scale.Page(ring));
   }
   // A stroke with round joins is the dilation itself.
-  svg.Path(outlines, fmt::format("fill=\"#f8e9d2\" fill-rule=\"evenodd\" stroke=\"#f8e9d2\" "
+  svg.Path(outlines, fmt::format("fill=\"#f6ead6\" fill-rule=\"evenodd\" stroke=\"#f6ead6\" "
                                  "stroke-linejoin=\"round\" stroke-width=\"{:.2f}\"",
                                  2 * plan.d_min_m * scale.px_per_m));
   svg.Path(outlines,
-           "fill=\"#d5d5d8\" fill-rule=\"evenodd\" stroke=\"#9a9aa2\" "
+           "fill=\"#cfd2d8\" fill-rule=\"evenodd\" stroke=\"#8d929c\" "
            "stroke-width=\"0.5\"");
   PathData no_fly;
   for (const auto& ring : plan.no_fly_m) no_fly.Ring(scale.Page(ring));
   svg.Path(no_fly, "fill=\"url(#nofly)\" stroke=\"#c0392b\" stroke-width=\"1.2\"");
+}
+
+bool IsInside(const Eigen::Vector2d& point, const std::vector<Eigen::Vector2d>& ring) {
+  bool inside = false;
+  for (size_t i = 0, before = ring.size() - 1; i < ring.size(); before = i++) {
+    const Eigen::Vector2d& p = ring[before];
+    const Eigen::Vector2d& q = ring[i];
+    if ((p.y() > point.y()) == (q.y() > point.y())) continue;
+    const double x = p.x() + (point.y() - p.y()) / (q.y() - p.y()) * (q.x() - p.x());
+    if (x > point.x()) inside = !inside;
+  }
+  return inside;
 }
 
 // Ids of buildings, where they fit and are not too many to read.
@@ -88,14 +93,15 @@ void DrawNames(const Plan& plan, const MapScale& scale, Svg& svg) {
     const Eigen::Vector2d size = scale.px_per_m * (box.high - box.low);
     const double letters = static_cast<double>(footprint.building.size());
     const bool fits = size.x() > kWidthPerLetter * letters + 8 && size.y() > 20;
-    if (!fits || footprint.rings_m.size() > 1) continue;
-    svg.Text(scale.Page(Eigen::Vector2d((box.low + box.high) / 2)) + Eigen::Vector2d(0, 3),
-             "class=\"name\"", footprint.building);
+    const Eigen::Vector2d middle = (box.low + box.high) / 2;
+    if (!fits || !IsInside(middle, footprint.rings_m.front())) continue;
+    if (footprint.rings_m.size() > 1) continue;  // its middle is a courtyard
+    svg.Text(scale.Page(middle) + Eigen::Vector2d(0, 3), "class=\"name\"", footprint.building);
   }
 }
 
 void DrawPaths(const Plan& plan, const MapScale& scale, Svg& svg) {
-  const double width = std::clamp(0.45 * scale.stroke_px, 0.6, 1.6);
+  const double width = SizeOf(0.25, scale, 0.6, 1.6);
   const double low_z = plan.home_m.z() + kLow * plan.safe_altitude_m;
   for (size_t i = 0; i < plan.flights.size(); ++i) {
     PathData low;
@@ -122,6 +128,7 @@ void DrawPaths(const Plan& plan, const MapScale& scale, Svg& svg) {
 // Just outside the footprint, so that walls that face each other stay apart.
 void DrawFacades(const Plan& plan, const MapScale& scale, Svg& svg) {
   std::map<int, PathData> by_quality;
+  PathData all;
   PathData unseen;
   for (const PlannedFacade& facade : plan.facades) {
     const Eigen::Vector2d along = (facade.b_m - facade.a_m).normalized();
@@ -129,13 +136,19 @@ void DrawFacades(const Plan& plan, const MapScale& scale, Svg& svg) {
     const Eigen::Vector2d shift = 0.5 * scale.stroke_px / scale.px_per_m * outward;
     PathData& path = by_quality[static_cast<int>(
         std::lround(facade.predicted.sum() / kBestQuality * kQualityClasses))];
-    path.MoveTo(scale.Page(Eigen::Vector2d(facade.a_m + shift)));
-    path.LineTo(scale.Page(Eigen::Vector2d(facade.b_m + shift)));
+    for (PathData* lines : {&path, &all}) {
+      lines->MoveTo(scale.Page(Eigen::Vector2d(facade.a_m + shift)));
+      lines->LineTo(scale.Page(Eigen::Vector2d(facade.b_m + shift)));
+    }
     for (const Interval& part : facade.unobservable_m) {
       unseen.MoveTo(scale.Page(Eigen::Vector2d(facade.a_m + shift + part.from_m * along)));
       unseen.LineTo(scale.Page(Eigen::Vector2d(facade.a_m + shift + part.to_m * along)));
     }
   }
+  // A dark rim, because good walls are as bright as the page.
+  svg.Path(all, fmt::format("fill=\"none\" stroke=\"#33363d\" stroke-linecap=\"round\" "
+                            "stroke-width=\"{:.2f}\"",
+                            scale.stroke_px + std::min(0.5 * scale.stroke_px, 1.4)));
   for (const auto& [level, path] : by_quality) {
     svg.Path(path, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\"",
                                Hex(QualityColor(static_cast<double>(level) / kQualityClasses)),
@@ -145,7 +158,7 @@ void DrawFacades(const Plan& plan, const MapScale& scale, Svg& svg) {
            fmt::format("fill=\"none\" stroke=\"#fff\" stroke-width=\"{:.2f}\"", scale.stroke_px));
   svg.Path(unseen, fmt::format("fill=\"none\" stroke=\"#d7191c\" stroke-width=\"{:.2f}\" "
                                "stroke-dasharray=\"{:.2f} {:.2f}\"",
-                               scale.stroke_px, scale.stroke_px, scale.stroke_px));
+                               scale.stroke_px, 2 * scale.stroke_px, 1.5 * scale.stroke_px));
 }
 
 bool IsDipping(const PlannedView& view) {
@@ -182,7 +195,7 @@ bool IsNew(const PlannedView& view, double yaw_deg, Seen& seen) {
 }
 
 void DrawViews(const Plan& plan, const MapScale& scale, Svg& svg) {
-  const double radius = std::clamp(4.2 * scale.stroke_px, 5.0, 16.0);
+  const double radius = SizeOf(2.5, scale, 5, 18);
   const double half_fov = HalfFov(plan.camera);
   PathData wedges;
   PathData planar;
@@ -200,7 +213,7 @@ void DrawViews(const Plan& plan, const MapScale& scale, Svg& svg) {
     }
     if (IsNew(view, 0, seen_dots)) dots[view.flight].Dot(at);
   }
-  const double dot = std::clamp(1.1 * scale.stroke_px, 2.0, 5.0);
+  const double dot = SizeOf(0.8, scale, 1.8, 5);
   const auto round = [](const char* color, double width) {
     return fmt::format(
         "fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\" "
@@ -242,7 +255,7 @@ MapScale FitMap(const Plan& plan, const Eigen::Vector2d& corner_px,
   scale.south_west_m = middle - size / 2;
   scale.north_east_m = middle + size / 2;
   scale.corner_px = corner_px;
-  scale.stroke_px = StrokeFor(plan, scale.px_per_m);
+  scale.stroke_px = SizeOf(0.5, scale, 1.3, 4.5);
   return scale;
 }
 

@@ -14,6 +14,9 @@ constexpr size_t kWorstFacades = 8;
 // Shorter parts are corners that hide behind a drainpipe, not news.
 constexpr double kNoteworthy = 0.5;  // metres
 
+// A wall of which more is hidden is news of the map, not of the plan.
+constexpr double kHidden = 0.9;
+
 std::string Row(const char* name, const std::string& value) {
   return fmt::format("  {:<16}{}\n", name, value);
 }
@@ -35,24 +38,30 @@ std::string Energy(const PlanStats& stats) {
   return text + fmt::format(" of {:.0f} to {:.0f} %", low, high);
 }
 
-std::string FacadeRow(const FacadeStats& facade) {
+std::string FacadeRow(const FacadeStats& facade, size_t id_width) {
   const FacadeQuality& q = facade.quality;
   return fmt::format(
-      "  {:<16}{:>8.1f} {:>6}  {:>5.2f} {:>5.2f} {:>5.2f} {:>5.2f} {:>6.2f} {:>9.1f}\n", facade.id,
-      facade.length_m, facade.views, q.q_s, q.q_d, q.q_u, q.q_c, q.sum(),
+      "  {:<{}}{:>8.1f} {:>6}  {:>5.2f} {:>5.2f} {:>5.2f} {:>5.2f} {:>6.2f} {:>9.1f}\n", facade.id,
+      id_width, facade.length_m, facade.views, q.q_s, q.q_d, q.q_u, q.q_c, q.sum(),
       facade.UnobservableLength());
 }
 
-// What needs a look first: the lowest sum of terms.
+// What needs a look first: the lowest sum of terms, among walls that can be seen at all.
 std::string WorstFacades(const PlanStats& stats) {
   std::vector<FacadeStats> facades = stats.facades;
+  std::erase_if(facades, [](const FacadeStats& facade) {
+    return facade.UnobservableLength() > kHidden * facade.length_m;
+  });
   std::ranges::stable_sort(facades, {},
                            [](const FacadeStats& facade) { return facade.quality.sum(); });
   facades.resize(std::min(facades.size(), kWorstFacades));
+  if (facades.empty()) return {};
+  size_t id_width = 16;
+  for (const FacadeStats& facade : facades) id_width = std::max(id_width, facade.id.size() + 1);
   std::string text =
-      fmt::format("  {:<16}{:>8} {:>6}  {:>5} {:>5} {:>5} {:>5} {:>6} {:>9}\n", "worst facades",
-                  "length", "views", "Q_s", "Q_d", "Q_u", "Q_c", "Q", "unseen m");
-  for (const FacadeStats& facade : facades) text += FacadeRow(facade);
+      fmt::format("\n  {:<{}}{:>8} {:>6}  {:>5} {:>5} {:>5} {:>5} {:>6} {:>9}\n", "worst facades",
+                  id_width, "length", "views", "Q_s", "Q_d", "Q_u", "Q_c", "Q", "unseen m");
+  for (const FacadeStats& facade : facades) text += FacadeRow(facade, id_width);
   return text;
 }
 
@@ -77,7 +86,7 @@ std::string StatsTable(const PlanStats& stats) {
   });
   text += Row("never seen", fmt::format("{:.1f} of {:.1f} m of wall, on {} facades",
                                         stats.unobservable_m, stats.wall_m, parts));
-  return text + "\n" + WorstFacades(stats);
+  return text + WorstFacades(stats);
 }
 
 }  // namespace stucco::plan

@@ -218,6 +218,17 @@ TEST(MissionFiles, SaysWhyThereIsNoKmz) {
   EXPECT_NE(files.notes.front().find("no mission.kmz"), std::string::npos);
 }
 
+TEST(MissionFiles, NamesThePartsOfLongFlights) {
+  Plan plan = test::MakePlan();
+  auto& waypoints = plan.flights[0].waypoints;
+  for (int i = 0; i < 100; ++i) waypoints.insert(waypoints.begin() + 2, {{-25.0, 1.0 * i, 30}, -1});
+  const TemporaryFolder folder;
+  WriteMissionFiles(plan, test::Mavic3E(), folder.path());
+  for (const char* name : {"mission_1_1.csv", "mission_1_2.csv", "mission_2_1.csv"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  }
+}
+
 TEST(MissionFiles, RefusesAnEmptyPlan) {
   const TemporaryFolder folder;
   EXPECT_THROW(WriteMissionFiles({}, test::Mavic3E(), folder.path()), Error);

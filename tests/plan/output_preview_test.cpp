@@ -106,15 +106,15 @@ TEST(Preview, IsWellFormedAndNamesWhatItShows) {
 TEST(Preview, DrawsBuildingsWhereTheyStand) {
   const Plan plan = test::MakePlan();
   const std::string svg = Preview(plan);
-  const auto zones = Paths(svg, "fill", "#f8e9d2");
-  const auto buildings = Paths(svg, "fill", "#d5d5d8");
+  const auto zones = Paths(svg, "fill", "#f6ead6");
+  const auto buildings = Paths(svg, "fill", "#cfd2d8");
   ASSERT_EQ(zones.size(), 1u);
   ASSERT_EQ(buildings.size(), 1u);
   EXPECT_EQ(zones, buildings);
   pugi::xml_document xml;
   ASSERT_TRUE(xml.load_string(svg.c_str()));
   const double width =
-      xml.select_node("//path[@fill='#f8e9d2']").node().attribute("stroke-width").as_double();
+      xml.select_node("//path[@fill='#f6ead6']").node().attribute("stroke-width").as_double();
   const double px_per_m = width / (2 * plan.d_min_m);
   const auto corners = Corners(buildings[0].substr(0, buildings[0].find('z')));
   ASSERT_EQ(corners.size(), 4u);

@@ -95,6 +95,9 @@ TEST(StatsTable, ShowsFiguresAndWorstFacades) {
                            "mean Q 2.90 of 4", "7.0 of 230.0 m of wall, on 2 facades"}) {
     EXPECT_NE(table.find(part), std::string::npos) << part << " is not in\n" << table;
   }
+  Plan plan = test::MakePlan();
+  plan.facades[0].unobservable_m = {{0, 39}};
+  EXPECT_EQ(StatsTable(StatsOf(plan, 0, 0)).find("B0001/F00"), std::string::npos);  // hidden
   // The worst comes first: q_d is lowest on the first wall of each building.
   const size_t worst = table.find("worst facades");
   EXPECT_LT(table.find("B0002/F00", worst), table.find("B0001/F01", worst));
