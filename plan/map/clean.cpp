@@ -110,7 +110,7 @@ class OverlapCutter {
   OverlapCutter(std::vector<Footprint>& footprints, RepairLog& repairs)
       : footprints_(footprints), repairs_(repairs) {}
 
-  // Buildings that were left out with a note that says why.
+  // Buildings that are no more, with a note that says why.
   const std::set<std::string>& explained() const { return explained_; }
 
   // Returns whether anything had to be cut.
@@ -171,6 +171,7 @@ class OverlapCutter {
       return;
     }
     Note(smaller, larger, "stands inside {} and rises above it; made a part of it");
+    explained_.insert(footprints_[smaller].building);
     footprints_[smaller].building = footprints_[larger].building;
     cuts_[larger].push_back(smaller);
   }
@@ -244,17 +245,48 @@ bool NodeAll(internal::Noder& noder, std::vector<Footprint>& footprints) {
   return changed;
 }
 
+// Corners on straight walls that joined a neighbour which has since been cut back.
+void DropIdleCorners(std::vector<Footprint>& footprints) {
+  const auto before = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
+  };
+  std::map<Eigen::Vector2d, int, decltype(before)> uses(before);
+  for (const Footprint& footprint : footprints) {
+    for (const Ring& ring : footprint.outline.rings) {
+      for (const Eigen::Vector2d& corner : ring) ++uses[corner];
+    }
+  }
+  for (Footprint& footprint : footprints) {
+    for (Ring& ring : footprint.outline.rings) {
+      Ring kept;
+      for (size_t i = 0; i < ring.size(); ++i) {
+        const Eigen::Vector2d& last = kept.empty() ? ring.back() : kept.back();
+        const Eigen::Vector2d& next = ring[(i + 1) % ring.size()];
+        const bool idle =
+            uses.at(ring[i]) == 1 && internal::DistanceToSegment(ring[i], last, next) <= kSnap_m;
+        if (!idle) kept.push_back(ring[i]);
+      }
+      if (kept.size() >= 3) ring = std::move(kept);
+    }
+  }
+}
+
 // Snapping makes slivers of overlaps and cutting makes corners to snap; a few rounds settle it.
 void SeparateAll(std::vector<Footprint>& footprints, RepairLog& repairs) {
   constexpr int kMostRounds = 10;
   const std::vector<Footprint> before = footprints;
   internal::Noder noder(kSnap_m);
   OverlapCutter cutter(footprints, repairs);
-  for (int round = 0; round < kMostRounds; ++round) {
-    const bool noded = NodeAll(noder, footprints);
-    const bool cut = cutter.Cut();
-    if (!noded && !cut) break;
-  }
+  const auto settle = [&] {
+    for (int round = 0; round < kMostRounds; ++round) {
+      const bool noded = NodeAll(noder, footprints);
+      const bool cut = cutter.Cut();
+      if (!noded && !cut) break;
+    }
+  };
+  settle();
+  DropIdleCorners(footprints);
+  settle();
   if (noder.moved() > 0) {
     repairs.Add("", fmt::format("{} corners moved by up to {:.0f} cm to join neighbours",
                                 noder.moved(), kSnap_m * 100));

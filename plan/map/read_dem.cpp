@@ -164,42 +164,46 @@ void ReadWindow(GDALDataset& dataset, const std::vector<Eigen::Vector2d>& pixels
   }
 }
 
-// Gaps get the mean of their neighbours, from their rims inwards. Returns how many there were.
+// Mean of the known neighbours of a sample, NaN where there are none.
+float MeanAround(const Terrain& terrain, int sample) {
+  const int column = sample % terrain.columns;
+  const int row = sample / terrain.columns;
+  double sum = 0;
+  int known = 0;
+  const auto add = [&](bool inside, int step) {
+    if (!inside || std::isnan(terrain.z_m[sample + step])) return;
+    sum += terrain.z_m[sample + step];
+    ++known;
+  };
+  add(column > 0, -1);
+  add(column + 1 < terrain.columns, 1);
+  add(row > 0, -terrain.columns);
+  add(row + 1 < terrain.rows, terrain.columns);
+  return known > 0 ? static_cast<float>(sum / known) : kGap;
+}
+
+// Gaps are filled from their rims inwards and then smoothed, towards a membrane that hangs in the
+// rim. Returns how many samples that were.
 size_t FillGaps(Terrain& terrain) {
   std::vector<int> gaps;
   for (size_t i = 0; i < terrain.z_m.size(); ++i) {
     if (std::isnan(terrain.z_m[i])) gaps.push_back(static_cast<int>(i));
   }
-  const size_t count = gaps.size();
-  while (!gaps.empty()) {
-    std::vector<std::pair<int, float>> filled;
-    std::vector<int> left;
-    for (const int gap : gaps) {
-      const int column = gap % terrain.columns;
-      const int row = gap / terrain.columns;
-      double sum = 0;
-      int known = 0;
-      for (const auto& [x, y] :
-           {std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1)}) {
-        if (column + x < 0 || column + x >= terrain.columns || row + y < 0 ||
-            row + y >= terrain.rows) {
-          continue;
-        }
-        const float z = terrain.z_m[gap + x + static_cast<ptrdiff_t>(y) * terrain.columns];
-        if (std::isnan(z)) continue;
-        sum += z;
-        ++known;
-      }
-      if (known > 0) {
-        filled.emplace_back(gap, static_cast<float>(sum / known));
-      } else {
-        left.push_back(gap);
-      }
-    }
-    for (const auto& [gap, z] : filled) terrain.z_m[gap] = z;
-    gaps = std::move(left);
+  int across = 0;
+  std::vector<float> means(gaps.size());
+  for (std::vector<int> left = gaps; !left.empty(); ++across) {
+    for (size_t i = 0; i < left.size(); ++i) means[i] = MeanAround(terrain, left[i]);
+    for (size_t i = 0; i < left.size(); ++i) terrain.z_m[left[i]] = means[i];
+    std::erase_if(left, [&](int gap) { return !std::isnan(terrain.z_m[gap]); });
   }
-  return count;
+  // Smoothing spreads by a sample a round, and as its square; huge gaps stay a little uneven.
+  constexpr double kMostWork = 2e8;
+  const double rounds = std::min(double{2} * across * across, kMostWork / (gaps.size() + 1.0));
+  for (int round = 0; round < rounds; ++round) {
+    for (size_t i = 0; i < gaps.size(); ++i) means[i] = MeanAround(terrain, gaps[i]);
+    for (size_t i = 0; i < gaps.size(); ++i) terrain.z_m[gaps[i]] = means[i];
+  }
+  return gaps.size();
 }
 
 }  // namespace

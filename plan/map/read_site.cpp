@@ -211,6 +211,14 @@ double SafeAltitude(const Site& site, const SiteInputs& inputs, const PlanOption
         "give the safe altitude, as --altitude 60 (metres above the ground, d_min above the "
         "highest roof), or name the attribute with the heights: --height-field NAME");
   }
+  if (options.altitude_m < std::max(options.min_altitude_m, options.d_min_m)) {
+    throw Error(
+        ErrorKind::kUsage,
+        fmt::format("--altitude {:g}: is lower than the lowest flight ({:g} m) or the distance to "
+                    "buildings ({:g} m)",
+                    options.altitude_m, options.min_altitude_m, options.d_min_m),
+        "give a higher safe altitude");
+  }
   if (options.altitude_m < tallest + options.d_min_m) {
     throw Error(
         ErrorKind::kUsage,
@@ -220,15 +228,7 @@ double SafeAltitude(const Site& site, const SiteInputs& inputs, const PlanOption
         fmt::format("give at least --altitude {:.0f}, or correct the height in the map",
                     std::ceil(tallest + options.d_min_m)));
   }
-  if (options.altitude_m >= std::max(options.min_altitude_m, options.d_min_m)) {
-    return options.altitude_m;
-  }
-  throw Error(
-      ErrorKind::kUsage,
-      fmt::format("--altitude {:g}: is lower than the lowest flight ({:g} m) or the distance "
-                  "to buildings ({:g} m)",
-                  options.altitude_m, options.min_altitude_m, options.d_min_m),
-      "give a higher safe altitude");
+  return options.altitude_m;
 }
 
 // Around the buildings, or around what the user wants to see.
