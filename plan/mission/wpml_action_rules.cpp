@@ -169,10 +169,9 @@ void CheckGroup(const Place& group, int waypoints, ActionCensus& census, LintLog
   CheckFields(group, GroupRules(), log);
   CheckTrigger(group, group.Child("wpml:actionTrigger"), log);
   if (const auto id = group.Number("wpml:actionGroupId")) {
-    const int number = static_cast<int>(*id);
-    if (!census.group_ids.insert(number).second) {
+    if (!census.group_ids.insert(*id).second) {
       log.Add(group.Of("wpml:actionGroupId"), "action-group-id",
-              fmt::format("{} is used by another group", number));
+              fmt::format("{} is used by another group", *id));
     }
   }
   const auto start = group.Number("wpml:actionGroupStartIndex");

@@ -113,9 +113,9 @@ std::optional<Place> Document(const pugi::xml_document& xml, LintLog& log) {
   return Place{document, ""};
 }
 
-int DroneOf(const Place& document) {
+double DroneOf(const Place& document) {
   const Place drone = document.Child("wpml:missionConfig").Child("wpml:droneInfo");
-  return static_cast<int>(drone.Number("wpml:droneEnumValue").value_or(0));
+  return drone.Number("wpml:droneEnumValue").value_or(0);
 }
 
 void CheckConfigOf(const Place& document, LintLog& log) {
@@ -138,6 +138,28 @@ void CheckWaylineDocument(const Place& document, LintLog& log) {
   internal::CheckWaypoints(folder, /*is_template=*/false, DroneOf(document), log);
 }
 
+// Coordinates are lon,lat and the take-off point is lat,lon: who mixes them up flies elsewhere.
+void CheckTakeOff(const Place& document, const Place& folder, LintLog& log) {
+  constexpr double kFar = 1;  // degrees, farther than any drone flies
+  const auto home =
+      internal::ParsePair(document.Child("wpml:missionConfig").Text("wpml:takeOffRefPoint"));
+  int index = 0;
+  for (const pugi::xml_node node : folder.node.children("Placemark")) {
+    const Place point =
+        Place{node, fmt::format("{}/Placemark[{}]", folder.path, index++)}.Child("Point");
+    const auto here = internal::ParsePair(point.Text("coordinates"));
+    if (!home || !here) continue;
+    if (std::abs(here->first - home->second) > kFar ||
+        std::abs(here->second - home->first) > kFar) {
+      log.Add(point.Of("coordinates"), "take-off",
+              fmt::format("{},{} is longitude,latitude far from takeOffRefPoint, which is "
+                          "latitude,longitude {},{}",
+                          here->first, here->second, home->first, home->second));
+      return;  // one is enough: the others are as wrong
+    }
+  }
+}
+
 void CheckTemplateDocument(const Place& document, LintLog& log) {
   CheckConfigOf(document, log);
   const Place folder = document.Child("Folder");
@@ -150,6 +172,7 @@ void CheckTemplateDocument(const Place& document, LintLog& log) {
   if (system.node) internal::CheckFields(system, CoordinateRules(), log);
   const Place payload = folder.Child("wpml:payloadParam");
   if (payload.node) internal::CheckFields(payload, PayloadParamRules(), log);
+  CheckTakeOff(document, folder, log);
   if (folder.Text("wpml:templateType") == "waypoint") {
     internal::CheckWaypoints(folder, /*is_template=*/true, DroneOf(document), log);
   }

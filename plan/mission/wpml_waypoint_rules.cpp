@@ -177,7 +177,7 @@ void CheckTemplateWaypoint(const Place& placemark, LintLog& log) {
 
 }  // namespace
 
-void CheckWaypoints(const Place& folder, bool is_template, int drone, LintLog& log) {
+void CheckWaypoints(const Place& folder, bool is_template, double drone, LintLog& log) {
   std::vector<pugi::xml_node> nodes;
   for (const pugi::xml_node node : folder.node.children("Placemark")) nodes.push_back(node);
   const int count = static_cast<int>(nodes.size());

@@ -15,7 +15,7 @@ namespace {
 // 2026-01-01 00:00 as MS-DOS wrote it, which knows no time zone.
 constexpr zip_uint16_t kTime = 0;
 constexpr zip_uint16_t kDate = (2026 - 1980) << 9 | 1 << 5 | 1;
-// Mission files are some hundred kilobytes; more is no mission but an attack on memory.
+// Mission files are some hundred kilobytes; more, all together, is an attack on memory.
 constexpr zip_uint64_t kLargest = 256u << 20;
 
 struct Discard {
@@ -47,13 +47,15 @@ void Add(const std::filesystem::path& path, const ZipEntry& entry, zip_t* archiv
   zip_file_set_dostime(archive, static_cast<zip_uint64_t>(index), kTime, kDate, 0);
 }
 
-std::string ReadEntry(const std::filesystem::path& path, zip_t* archive, zip_uint64_t index) {
+std::string ReadEntry(const std::filesystem::path& path, zip_t* archive, zip_uint64_t index,
+                      zip_uint64_t& budget) {
   zip_stat_t stat;
   zip_stat_init(&stat);
   if (zip_stat_index(archive, index, 0, &stat) != 0 || (stat.valid & ZIP_STAT_SIZE) == 0) {
     Fail(path, "is a damaged zip file");
   }
-  if (stat.size > kLargest) Fail(path, "holds a file of more than 256 MB");
+  if (stat.size > budget) Fail(path, "holds more than 256 MB");
+  budget -= stat.size;
   const std::unique_ptr<zip_file_t, Discard> file(zip_fopen_index(archive, index, 0));
   if (!file) Fail(path, fmt::format("cannot be unpacked: {}", zip_strerror(archive)));
   std::string bytes(stat.size, '\0');
@@ -82,12 +84,13 @@ std::vector<ZipEntry> ReadZip(const std::filesystem::path& path) {
   const std::unique_ptr<zip_t, Discard> archive(zip_open(path.c_str(), ZIP_RDONLY, &code));
   if (!archive) Fail(path, "is no readable zip file: " + Reason(code));
   std::vector<ZipEntry> entries;
+  zip_uint64_t budget = kLargest;
   const zip_int64_t count = zip_get_num_entries(archive.get(), 0);
   for (zip_int64_t i = 0; i < count; ++i) {
     const auto index = static_cast<zip_uint64_t>(i);
     const char* name = zip_get_name(archive.get(), index, 0);
     if (name == nullptr) Fail(path, "is a damaged zip file");
-    entries.push_back({name, ReadEntry(path, archive.get(), index)});
+    entries.push_back({name, ReadEntry(path, archive.get(), index, budget)});
   }
   return entries;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <random>
 #include <set>
 
 #include "plan/mission/internal/zip_archive.h"
@@ -114,6 +115,7 @@ TEST(WpmlLint, NamesRuleAndElementOfSeededFaults) {
       {"GroupEndIndex>1<", "GroupEndIndex>5<", "action-group-range", "actionGroupEndIndex"},
       {"sequence", "series", "enum", "actionGroupMode"},
       {"reachPoint", "arrive", "enum", "actionTrigger/wpml:actionTriggerType"},
+      {"actionGroupId>1<", "actionGroupId>1e300<", "range", "actionGroupId"},
       {"reachPoint", "multipleTiming", "required", "actionTrigger/wpml:actionTriggerParam"},
       {"reachPoint", "betweenAdjacentPoints", "trigger", "Placemark[1]/wpml:actionGroup[0]"},
       {"<wpml:actionId>1<", "<wpml:actionId>0<", "action-id", "wpml:action[1]/wpml:actionId"},
@@ -156,6 +158,7 @@ TEST(WpmlLint, KnowsTheRulesOfTheTemplate) {
        "Placemark[0]/wpml:waypointSpeed"},
       {"takeOffRefPoint>52.", "takeOffRefPoint>152.", "coordinates", "takeOffRefPoint"},
       {"takeOffRefPoint>52.", "takeOffRefPoint>52;", "coordinates", "takeOffRefPoint"},
+      {"takeOffRefPoint>52.0", "takeOffRefPoint>4.0", "take-off", "Placemark[0]/Point/coordinates"},
       {"<wpml:gimbalPitchAngle>0.00<", "<wpml:gimbalPitchAngle>50<", "range", "gimbalPitchAngle"},
   };
   const std::string good = Template();
@@ -223,6 +226,43 @@ TEST(WpmlLint, TemplateAndWaylinesMustAgree) {
                      {{"wpmz/template.kml", Template()},
                       {"wpmz/waylines.wpml", WpmlWaylines(routes[0], test::Mavic3E())}});
   EXPECT_TRUE(Has(LintKmz(folder / "m.kmz"), "agreement", "Placemark[4]"));
+}
+
+// Damaged files give findings or an Error, whatever the damage.
+TEST(WpmlLint, SurvivesDamage) {
+  const std::string good = Waylines();
+  std::mt19937 random(7);
+  for (int i = 0; i < 300; ++i) {
+    std::string bad = good;
+    for (int k = 0; k < 4; ++k) {
+      const size_t at = random() % bad.size();
+      switch (random() % 3) {
+        case 0:
+          bad[at] = static_cast<char>(random());
+          break;
+        case 1:
+          bad.erase(at, random() % 200);
+          break;
+        default:
+          bad.insert(at, bad.substr(random() % bad.size(), random() % 200));
+      }
+    }
+    LintWaylines(bad);
+    LintTemplate(bad);
+  }
+  const TemporaryFolder folder;
+  internal::WriteZip(folder / "good.kmz", {{"wpmz/waylines.wpml", good}});
+  const std::string archive = ReadFile(folder / "good.kmz");
+  for (int i = 0; i < 200; ++i) {
+    std::string bad = archive;
+    for (int k = 0; k < 3; ++k) bad[random() % bad.size()] = static_cast<char>(random());
+    WriteFile(folder / "bad.kmz", bad);
+    try {
+      LintKmz(folder / "bad.kmz");
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("bad.kmz"), std::string::npos);
+    }
+  }
 }
 
 // Missions of other programs, which are not part of the repository: they are looked for in the

@@ -191,6 +191,14 @@ TEST(ZipArchive, RefusesDamage) {
   EXPECT_THROW(internal::ReadZip(folder / "a.zip"), Error);
 }
 
+TEST(ZipArchive, RefusesToFillTheMemory) {
+  const TemporaryFolder folder;
+  const std::string megabytes(90u << 20, '\0');  // packs to a few kilobytes
+  internal::WriteZip(folder / "a.zip", {{"a", megabytes}, {"b", megabytes}, {"c", megabytes}});
+  EXPECT_LT(std::filesystem::file_size(folder / "a.zip"), 1u << 20);
+  EXPECT_THROW(internal::ReadZip(folder / "a.zip"), Error);
+}
+
 TEST(MissionFiles, WritesAllThatTheDroneAllows) {
   const Plan plan = test::MakePlan();
   const TemporaryFolder folder;

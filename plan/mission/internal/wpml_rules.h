@@ -56,10 +56,10 @@ void CheckFields(const Place& place, std::span<const FieldRule> rules, LintLog& 
 
 // The parts of a document, each with all below it.
 void CheckConfig(const Place& config, LintLog& log);
-void CheckWaypoints(const Place& folder, bool is_template, int drone, LintLog& log);
+void CheckWaypoints(const Place& folder, bool is_template, double drone, LintLog& log);
 // Group ids are unique in a document, so the checks of all waypoints share what they have seen.
 struct ActionCensus {
-  std::set<int> group_ids;
+  std::set<double> group_ids;
   std::set<std::string> suffixes;
 };
 void CheckActions(const Place& placemark, int waypoints, ActionCensus& census, LintLog& log);
