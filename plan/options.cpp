@@ -35,7 +35,9 @@ void Describe(OptionTable& table, PlanOptions& options) {
   table.Add("battery_percent", options.battery_percent, 10, 100,
             "Share of a battery that one flight may use");
   table.Add("map_layer", options.map_layer, {},
-            "Layer of the map with the buildings; empty: the first with polygons");
+            "Layer of the map with the buildings; empty: one with \"building\" in its name, else "
+            "the first "
+            "with polygons");
   table.Add("height_field", options.height_field, {},
             "Attribute with the height of a building in metres; empty: the usual names");
   table.Add("id_field", options.id_field, {},

@@ -22,7 +22,7 @@ struct PlanOptions {
   double vertical_step = 0.8;     // k_d of the paper
   double reconstructability = 0;  // tau_r; 0: ten times that of one good pair
   double battery_percent = 80;    // used up per flight at most
-  std::string map_layer;          // empty: the first with polygons
+  std::string map_layer;          // empty: one named after buildings, else the first with polygons
   std::string height_field;       // empty: the usual names
   std::string id_field;           // empty: the usual names
   std::string map_crs;            // for maps that name none: "EPSG:25832"

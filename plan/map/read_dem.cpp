@@ -17,7 +17,7 @@ namespace stucco::plan {
 namespace {
 
 constexpr double kLeastStep_m = 2;
-constexpr double kMostSamples = 16e6;
+constexpr double kMostSamples = 4e6;
 constexpr double kMetresPerFoot = 0.3048;
 constexpr float kGap = std::numeric_limits<float>::quiet_NaN();
 

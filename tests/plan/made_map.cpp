@@ -65,6 +65,36 @@ std::string Tags(const std::map<std::string, std::string>& attributes) {
   return tags;
 }
 
+// Protocol buffers: fields of varints and of bytes
+// (https://wiki.openstreetmap.org/wiki/PBF_Format).
+std::string Varint(uint64_t value) {
+  std::string bytes;
+  for (; value >= 0x80; value >>= 7) bytes += static_cast<char>(value | 0x80);
+  return bytes + static_cast<char>(value);
+}
+
+std::string ZigZag(int64_t value) {
+  return Varint(static_cast<uint64_t>(value) << 1 ^ static_cast<uint64_t>(value >> 63));
+}
+
+std::string Number(int field, uint64_t value) {
+  return Varint(field << 3) + Varint(value);
+}
+
+std::string Signed(int field, int64_t value) {
+  return Varint(field << 3) + ZigZag(value);
+}
+
+std::string Bytes(int field, const std::string& bytes) {
+  return Varint(field << 3 | 2) + Varint(bytes.size()) + bytes;
+}
+
+std::string Block(const std::string& type, const std::string& content) {
+  const std::string blob = Bytes(1, content) + Number(2, content.size());
+  const std::string header = Bytes(1, type) + Number(3, blob.size());
+  return std::string(3, '\0') + static_cast<char>(header.size()) + header + blob;
+}
+
 }  // namespace
 
 TempFolder::TempFolder() {
@@ -158,6 +188,37 @@ void WriteOsm(const std::filesystem::path& path, const std::vector<MadeBuilding>
   }
   WriteFile(path, fmt::format("<?xml version=\"1.0\"?>\n<osm version=\"0.6\">\n{}{}{}</osm>\n",
                               nodes, ways, relations));
+}
+
+void WriteOsmPbf(const std::filesystem::path& path, const std::vector<MadeBuilding>& buildings) {
+  std::string strings = Bytes(1, "");  // 0 means the end of a list
+  std::string nodes;
+  std::string ways;
+  int string = 0;
+  int node = 0;
+  int way = 0;
+  for (const MadeBuilding& building : buildings) {
+    std::string refs;
+    const int first = node + 1;
+    const Ring& ring = building.outline.rings.at(0);
+    for (const Eigen::Vector2d& corner : ring) {
+      const Geodetic position = Place(corner);
+      nodes += Bytes(1, Signed(1, ++node) + Signed(8, std::llround(position.latitude_deg * 1e7)) +
+                            Signed(9, std::llround(position.longitude_deg * 1e7)));
+      refs += ZigZag(node == first ? first : 1);
+    }
+    refs += ZigZag(first - node);
+    std::string keys;
+    std::string values;
+    for (const auto& [key, value] : building.attributes) {
+      strings += Bytes(1, key) + Bytes(1, value);
+      keys += Varint(++string);
+      values += Varint(++string);
+    }
+    ways += Bytes(3, Number(1, ++way) + Bytes(2, keys) + Bytes(3, values) + Bytes(8, refs));
+  }
+  const std::string data = Bytes(1, strings) + Bytes(2, nodes) + Bytes(2, ways);
+  WriteFile(path, Block("OSMHeader", Bytes(4, "OsmSchema-V0.6")) + Block("OSMData", data));
 }
 
 void WriteCityJson(const std::filesystem::path& path, const std::vector<MadeBuilding>& buildings) {

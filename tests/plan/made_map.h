@@ -42,6 +42,8 @@ void WriteWithOgr(const std::filesystem::path& path, const std::string& driver,
                   const std::string& crs, const std::vector<MadeBuilding>& buildings);
 // Closed ways, and multipolygon relations for outlines with holes; attributes are tags.
 void WriteOsm(const std::filesystem::path& path, const std::vector<MadeBuilding>& buildings);
+// The same without relations, as PBF.
+void WriteOsmPbf(const std::filesystem::path& path, const std::vector<MadeBuilding>& buildings);
 // Prisms of `height` metres in EPSG:32633 as CityJSON 2.0.
 void WriteCityJson(const std::filesystem::path& path, const std::vector<MadeBuilding>& buildings);
 // A GeoTIFF of heights over `size_m` x `size_m` around kMadePlace in EPSG:32633. `height` NaN:

@@ -280,6 +280,26 @@ TEST(CleanMap, SettlesHeaps) {
   }
 }
 
+// Polygons with corners anywhere, most of them crossing themselves, from shed size to block size.
+TEST(CleanMap, SettlesTangles) {
+  for (const double size : {0.5, 5.0, 50.0, 500.0}) {
+    for (uint32_t seed = 0; seed < 15; ++seed) {
+      std::mt19937 random(seed);
+      const auto within = [&](double reach) { return reach * (random() % 1000) / 1000.0; };
+      std::vector<MapFeature> features;
+      for (int i = 0; i < 10; ++i) {
+        const Eigen::Vector2d corner(within(2 * size), within(2 * size));
+        Ring ring(3 + random() % 9);
+        for (Eigen::Vector2d& p : ring) p = corner + Eigen::Vector2d(within(size), within(size));
+        features.push_back(Feature(fmt::format("B{:04}", i), {ring}));
+        if (i % 2 == 0) features.back().height_m = 3 + random() % 40;
+        features.back().is_part = i % 3 == 0;
+      }
+      ExpectClean(CleanMap(features));
+    }
+  }
+}
+
 TEST(CleanMap, HundredThousandCornersTakeSeconds) {
   const auto features = NoisyRows(100, 250, 5);
   const auto start = std::chrono::steady_clock::now();

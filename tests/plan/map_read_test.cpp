@@ -134,6 +134,17 @@ TEST(ReadMap, OsmReadsBuildingsAndTheirPartsOnly) {
   EXPECT_THAT(map.repairs.Lines(), ElementsAre("BR1: height \"high\" is no length; ignored"));
 }
 
+TEST(ReadMap, OsmAsPbf) {
+  const TempFolder folder;
+  std::vector<MadeBuilding> buildings = Hamlet();
+  buildings[1].outline.rings.resize(1);
+  WriteOsm(folder / "map.osm", buildings);
+  WriteOsmPbf(folder / "map.osm.pbf", buildings);
+  const Site expected = ReadSite({.map = folder / "map.osm"}, {});
+  EXPECT_EQ(expected.facades.size(), 3u + 4u + 4u);
+  EXPECT_EQ(Described(ReadSite({.map = folder / "map.osm.pbf"}, {})), Described(expected));
+}
+
 TEST(ReadMap, HeightAttributesInTheirOrder) {
   const TempFolder folder;
   const Polygon square{{Rectangle(0, 0, 10, 10)}};
