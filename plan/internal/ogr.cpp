@@ -152,13 +152,14 @@ std::vector<Polygon> Difference(const Polygon& from, const std::vector<Polygon>&
   return PolygonsOrNone(std::unique_ptr<OGRGeometry>(ToOgr(from)->Difference(cut.get())));
 }
 
-double SharedArea(const Polygon& a, const Polygon& b) {
+std::vector<Polygon> Intersection(const Polygon& a, const Polygon& b) {
   const QuietGdal quiet;
-  const std::unique_ptr<OGRGeometry> shared(ToOgr(a)->Intersection(ToOgr(b).get()));
+  return PolygonsOrNone(std::unique_ptr<OGRGeometry>(ToOgr(a)->Intersection(ToOgr(b).get())));
+}
+
+double SharedArea(const Polygon& a, const Polygon& b) {
   double area = 0;
-  if (shared) {
-    for (const Polygon& polygon : OrientedPolygons(*shared)) area += Area(polygon);
-  }
+  for (const Polygon& polygon : Intersection(a, b)) area += Area(polygon);
   return area;
 }
 

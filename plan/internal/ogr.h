@@ -47,6 +47,7 @@ std::unique_ptr<OGRGeometry> MadeValid(const OGRGeometry& geometry);
 // Of valid polygons. Empty results are empty lists.
 std::vector<Polygon> Union(const std::vector<Polygon>& polygons);
 std::vector<Polygon> Difference(const Polygon& from, const std::vector<Polygon>& what);
+std::vector<Polygon> Intersection(const Polygon& a, const Polygon& b);
 double SharedArea(const Polygon& a, const Polygon& b);
 bool InteriorsMeet(const Polygon& a, const Polygon& b);
 

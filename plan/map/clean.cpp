@@ -117,6 +117,7 @@ class OverlapCutter {
   bool Cut() {
     dropped_.assign(footprints_.size(), false);
     cuts_.clear();
+    lifts_.clear();
     const internal::BoxGrid grid = GridOf(footprints_);
     for (size_t i = 0; i < footprints_.size(); ++i) {
       const auto box = internal::BoundsOf(footprints_[i].outline);
@@ -153,8 +154,7 @@ class OverlapCutter {
     if (shared > kSame * large_area) {
       Drop(second, first, "has the same outline as {}; left out");
     } else if (a.building == b.building) {
-      // Of two parts the higher one is what is seen.
-      cuts_[IsHigher(a, b) ? second : first].push_back(IsHigher(a, b) ? first : second);
+      SeparateParts(IsHigher(a, b) ? first : second, IsHigher(a, b) ? second : first);
     } else if (shared > kInside * small_area) {
       PutInside(smaller, larger);
     } else {
@@ -162,6 +162,18 @@ class OverlapCutter {
       if (shared > kNotable_m2) {
         Note(smaller, larger, fmt::format("overlaps {{}} by {:.0f} m2; cut off", shared));
       }
+    }
+  }
+
+  // What begins higher up, such as a dormer, stands on the other part; what begins at the same
+  // height is what is seen.
+  void SeparateParts(int higher, int lower) {
+    const Footprint& high = footprints_[higher];
+    const Footprint& low = footprints_[lower];
+    if (high.top_known && low.top_known && high.z_m.from_m > low.z_m.from_m) {
+      lifts_.emplace(higher, lower);
+    } else {
+      cuts_[lower].push_back(higher);
     }
   }
 
@@ -201,30 +213,45 @@ class OverlapCutter {
     bool changed = false;
     std::vector<Footprint> left;
     for (size_t i = 0; i < footprints_.size(); ++i) {
-      changed = changed || dropped_[i];
-      if (dropped_[i]) continue;
+      const auto lift = lifts_.find(static_cast<int>(i));
       const auto cut = cuts_.find(static_cast<int>(i));
-      if (cut == cuts_.end()) {
+      if (dropped_[i]) {
+        changed = true;
+      } else if (lift != lifts_.end()) {
+        changed = true;
+        const Footprint& below = footprints_[lift->second];
+        AddLike(footprints_[i], internal::Difference(footprints_[i].outline, {below.outline}),
+                left);
+        Footprint lifted = footprints_[i];
+        lifted.z_m.from_m = below.z_m.to_m;
+        AddLike(lifted, internal::Intersection(lifted.outline, below.outline), left);
+      } else if (cut != cuts_.end()) {
+        changed = true;
+        std::vector<Polygon> winners;
+        for (const int winner : cut->second) winners.push_back(footprints_[winner].outline);
+        AddLike(footprints_[i], internal::Difference(footprints_[i].outline, winners), left);
+      } else {
         left.push_back(footprints_[i]);
-        continue;
-      }
-      changed = true;
-      std::vector<Polygon> winners;
-      for (const int winner : cut->second) winners.push_back(footprints_[winner].outline);
-      for (Polygon& rest : internal::Difference(footprints_[i].outline, winners)) {
-        if (internal::IsSliver(rest)) continue;
-        left.push_back(footprints_[i]);
-        left.back().outline = std::move(rest);
       }
     }
     footprints_ = std::move(left);
     return changed;
   }
 
+  static void AddLike(const Footprint& model, std::vector<Polygon> outlines,
+                      std::vector<Footprint>& list) {
+    for (Polygon& outline : outlines) {
+      if (internal::IsSliver(outline)) continue;
+      list.push_back(model);
+      list.back().outline = std::move(outline);
+    }
+  }
+
   std::vector<Footprint>& footprints_;
   RepairLog& repairs_;
   std::vector<bool> dropped_;
   std::map<int, std::vector<int>> cuts_;  // who is cut by whom
+  std::map<int, int> lifts_;              // who stands on whom
   std::set<std::string> explained_;
 };
 

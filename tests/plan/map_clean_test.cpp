@@ -222,6 +222,21 @@ TEST(CleanMap, OverlappingPartsLeaveTheHigherOne) {
   EXPECT_EQ(map.footprints[1].z_m.to_m, 30);
 }
 
+// A dormer from 8 to 12 m mostly over a house of 10 m, the rest hanging over its wall.
+TEST(CleanMap, PartsThatBeginHigherUpStandOnOthers) {
+  const CleanedMap map = CleanMap({Feature("B0001", {Rectangle(0, 0, 20, 10)}, 12),
+                                   Part("B0002", Rectangle(0, 0, 20, 10), 0, 10),
+                                   Part("B0003", Rectangle(5, 7, 10, 12), 8, 12)});
+  ExpectClean(map);
+  ASSERT_EQ(map.footprints.size(), 3u);
+  EXPECT_EQ(map.footprints[0].outline.rings.size(), 1u);
+  EXPECT_NEAR(internal::Area(map.footprints[0].outline), 200, 1e-6);
+  EXPECT_EQ(map.footprints[1].z_m, (Interval{8, 12}));
+  EXPECT_NEAR(internal::Area(map.footprints[1].outline), 10, 1e-6);
+  EXPECT_EQ(map.footprints[2].z_m, (Interval{10, 12}));
+  EXPECT_NEAR(internal::Area(map.footprints[2].outline), 15, 1e-6);
+}
+
 TEST(CleanMap, PartyWallsMeetAgainDespiteCentimetres) {
   const CleanedMap map = CleanMap({Feature("B0001", {Rectangle(0, 0, 10, 30)}),
                                    Feature("B0002", {Rectangle(10.03, 0.02, 20, 12)}),
