@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "plan/camera/preset.h"
+#include "plan/hover.h"
+#include "plan/path/tour.h"
+#include "plan/site.h"
+#include "survey/plan.h"
+#include "survey/stage.h"
+
+namespace stucco::plan {
+
+struct FlightPlan {
+  std::vector<Hover> hovers;  // in order of capture
+  // Waypoints name hovers by index. Each flight begins and ends above home at the lowest altitude;
+  // its length includes the climb there and back.
+  std::vector<PlannedFlight> flights;
+  TourReport tour;
+  double length_m = 0;  // of all flights
+  double time_min = 0;
+  double battery_percent = 0;  // of one battery: 250 is two and a half
+  // Between the first and the last photo of a facade, batteries changed in no time; of those with
+  // two hovers or more.
+  double median_facade_span_min = 0;
+};
+
+// The order of the hovers and the flights that visit them: a nearly cheapest tour, cut into flights
+// that use at most `battery_percent` of a battery each, along the shortest safe paths. Hovers that
+// no-fly polygons cut off from home are left out with a warning. Throws Error: kBadInput where home
+// is not free or a hover too far for one battery, kStageFailed where a hover is not free.
+FlightPlan PlanFlights(const Site& site, const CameraPreset& camera, double battery_percent,
+                       std::vector<Hover> hovers, int threads, Progress& progress);
+
+}  // namespace stucco::plan

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/path/tour.h"
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "plan/path/greedy.h"
+#include "plan/path/local_search.h"
+#include "plan/path/shot_order.h"
+#include "plan/path/tour_bound.h"
+#include "survey/parallel.h"
+
+namespace stucco::plan {
+namespace {
+
+// Up to here all orders are tried.
+constexpr int kMostTried = 7;
+// Perturbations per hover, and at most: what they gain falls off, what they cost does not.
+constexpr int kPerturbationsPerHover = 10;
+constexpr int kMostPerturbations = 200000;
+
+Order BestOfAll(int hovers, PortCosts& costs) {
+  Order order;
+  order.hovers.resize(hovers);
+  order.reversed.assign(hovers, 0);
+  std::iota(order.hovers.begin(), order.hovers.end(), 0);
+  if (hovers < 2) return order;
+  Order best = order;
+  ChooseDirections(best, costs);
+  double least = TourCost(best, costs);
+  while (std::next_permutation(order.hovers.begin() + 1, order.hovers.end())) {
+    if (order.hovers[1] > order.hovers.back()) continue;  // the same tour backwards
+    Order trial = order;
+    ChooseDirections(trial, costs);
+    const double cost = TourCost(trial, costs);
+    if (cost < least) {
+      least = cost;
+      best = trial;
+    }
+  }
+  return best;
+}
+
+Order Search(const HoverCosts& hover_costs, std::span<const std::vector<Candidate>> candidates,
+             PortCosts& costs) {
+  if (hover_costs.size() <= kMostTried) return BestOfAll(hover_costs.size(), costs);
+  Order order{GreedyTour(hover_costs, candidates), std::vector<char>(candidates.size())};
+  ChooseDirections(order, costs);
+  TourSearch search(costs, candidates, order);
+  search.Improve();
+  std::mt19937_64 random(candidates.size());
+  search.Perturb(std::min(kPerturbationsPerHover * hover_costs.size(), kMostPerturbations), random);
+  order = search.Result();
+  ChooseDirections(order, costs);
+  return order;
+}
+
+}  // namespace
+
+Tour PlanTour(const SafeSpace& space, std::vector<Hover> hovers, int threads) {
+  ParallelFor(hovers.size(), threads, [&](size_t k) { OrderShots(hovers[k].shots); });
+  const HoverCosts hover_costs(space, hovers);
+  const auto candidates = FindCandidates(hover_costs, threads);
+  PortCosts costs(hover_costs, candidates);
+  const Order order = Search(hover_costs, candidates, costs);
+  Tour tour;
+  tour.report.cost = hovers.size() > 1 ? TourCost(order, costs) : 0;
+  tour.report.lower_bound = TourLowerBound(hover_costs, candidates, tour.report.cost);
+  tour.given = order.hovers;
+  for (const int k : order.hovers) {
+    tour.hovers.push_back(hovers[k]);
+    auto& shots = tour.hovers.back().shots;
+    if (order.reversed[k]) std::reverse(shots.begin(), shots.end());
+  }
+  return tour;
+}
+
+}  // namespace stucco::plan

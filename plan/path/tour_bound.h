@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "plan/path/candidates.h"
+
+namespace stucco::plan {
+
+// A number that no closed tour over all hovers costs less than, whichever ports it uses: the cost
+// of a least 1-tree under node weights raised by subgradient steps (Held and Karp, "The
+// traveling-salesman problem and minimum spanning trees: part II", 1971). `tour_cost` of any tour
+// sets the length of the steps. The steps look at candidate edges only; what is returned does not:
+// it is the least 1-tree over all pairs, where pairs that are no candidates count with a cost that
+// is at most the true one (straight line instead of safe path).
+double TourLowerBound(const HoverCosts& costs, std::span<const std::vector<Candidate>> candidates,
+                      double tour_cost);
+
+}  // namespace stucco::plan

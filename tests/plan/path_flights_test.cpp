@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "plan/path/flights.h"
+#include "survey/error.h"
+#include "tests/plan/made_hovers.h"
+#include "tests/plan/made_site.h"
+
+namespace stucco::plan {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+const CameraPreset kCamera{};
+
+class Warnings : public Progress {
+ public:
+  void Begin(std::string_view, size_t) override {}
+  void Advance(size_t) override {}
+  void Warn(std::string_view text) override { lines.emplace_back(text); }
+  void Note(std::string_view) override {}
+  bool Cancelled() const override { return false; }
+  std::vector<std::string> lines;
+};
+
+FlightPlan Fly(const Site& site, std::vector<Hover> hovers, double battery, int threads = 2) {
+  return PlanFlights(site, kCamera, battery, std::move(hovers), threads, SilentProgress());
+}
+
+TEST(Flights, VisitEveryHoverOnceAlongSafePaths) {
+  const Site site = MadeSite(RandomTown(2, 12), {.safe_altitude_m = 40, .d_min_m = 5});
+  const Obstacles obstacles(site);
+  const auto hovers = DippingHovers(obstacles);
+  const FlightPlan plan = Fly(site, hovers, 40);
+  ASSERT_EQ(plan.hovers.size(), hovers.size());
+  EXPECT_GT(plan.flights.size(), 1U);
+  int next = 0;
+  double length = 0;
+  for (const PlannedFlight& flight : plan.flights) {
+    EXPECT_LE(flight.battery_percent, 40 + 1e-6);
+    const auto& points = flight.waypoints;
+    for (const PlannedWaypoint& end : {points.front(), points.back()}) {
+      EXPECT_EQ(end.position_m.head<2>(), site.home.head<2>());
+      EXPECT_EQ(end.position_m.z(), site.home.z() + site.min_altitude_m);
+      EXPECT_EQ(end.hover, -1);
+    }
+    double sum = 2 * site.min_altitude_m;
+    for (size_t k = 1; k < points.size(); ++k) {
+      EXPECT_TRUE(obstacles.IsFreeBetween(points[k - 1].position_m, points[k].position_m));
+      sum += (points[k].position_m - points[k - 1].position_m).norm();
+      if (points[k].hover < 0) continue;
+      EXPECT_EQ(points[k].hover, next);
+      EXPECT_EQ(points[k].position_m, plan.hovers[next].position);
+      ++next;
+    }
+    EXPECT_NEAR(flight.length_m, sum, 1e-6);
+    length += sum;
+  }
+  EXPECT_EQ(next, static_cast<int>(hovers.size()));
+  EXPECT_NEAR(plan.length_m, length, 1e-6);
+  const auto key = [](const Hover& h) {
+    return std::array{h.position.x(), h.position.y(), h.position.z(), h.shots[0].yaw_rad};
+  };
+  std::set<std::array<double, 4>> before;
+  std::set<std::array<double, 4>> after;
+  for (const Hover& hover : hovers) before.insert(key(hover));
+  for (const Hover& hover : plan.hovers) after.insert(key(hover));
+  EXPECT_EQ(before, after);
+}
+
+// w_p pays for it: in a tour without facades, those of one wall lie far apart in time.
+TEST(Flights, KeepTheViewsOfAFacadeTogether) {
+  const Site site = MadeSite(RandomTown(2, 20), {.safe_altitude_m = 40, .d_min_m = 5});
+  const Obstacles obstacles(site);
+  const FlightPlan plan = Fly(site, DippingHovers(obstacles), 80);
+  RecordProperty("median_span_min", std::to_string(plan.median_facade_span_min));
+  EXPECT_GT(plan.median_facade_span_min, 0);
+  EXPECT_LT(plan.median_facade_span_min, 0.1 * plan.time_min);
+}
+
+TEST(Flights, AreTheSameAtAnyNumberOfThreads) {
+  const Site site = MadeSite(RandomTown(5, 10), {.safe_altitude_m = 40, .d_min_m = 5});
+  const auto hovers = DippingHovers(Obstacles(site));
+  const FlightPlan one = Fly(site, hovers, 60, 1);
+  const FlightPlan four = Fly(site, hovers, 60, 4);
+  ASSERT_EQ(one.flights.size(), four.flights.size());
+  EXPECT_EQ(one.length_m, four.length_m);
+  EXPECT_EQ(one.tour.lower_bound, four.tour.lower_bound);
+  for (size_t k = 0; k < one.hovers.size(); ++k) {
+    EXPECT_EQ(one.hovers[k].position, four.hovers[k].position);
+  }
+}
+
+TEST(Flights, OfNothingAndOfOneHover) {
+  const Site site = MadeSite({Rectangle(0, 0, 20, 20)});
+  const FlightPlan none = Fly(site, {}, 80);
+  EXPECT_TRUE(none.flights.empty());
+  EXPECT_EQ(none.length_m, 0);
+  const FlightPlan one = Fly(site, {{Vector3d(-30, 0, 20), {Shot{}}}}, 80);
+  ASSERT_EQ(one.flights.size(), 1U);
+  EXPECT_EQ(one.tour.gap(), 0);
+  EXPECT_GT(one.length_m, 0);
+}
+
+TEST(Flights, SayWhichHoverIsTooFarForABattery) {
+  const Site site = MadeSite({Rectangle(0, 0, 20, 20)});
+  try {
+    Fly(site, {{Vector3d(-30, 0, 20), {Shot{}}}, {Vector3d(9000, 0, 60), {Shot{}}}}, 80);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+    EXPECT_THAT(error.what(), testing::HasSubstr("9000"));
+    EXPECT_THAT(error.remedy(), testing::HasSubstr("home"));
+  }
+}
+
+TEST(Flights, RefuseAHomeThatIsNotFree) {
+  Site site = MadeSite({Rectangle(0, 0, 20, 20)}, {.no_fly = {{{Rectangle(100, 0, 150, 50)}}}});
+  for (const Vector2d& home : {Vector2d(10, 10), Vector2d(25, 10), Vector2d(120, 20)}) {
+    site.home = {home.x(), home.y(), 0};
+    try {
+      Fly(site, {{Vector3d(-30, 0, 20), {Shot{}}}}, 80);
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+      EXPECT_THAT(error.what(), testing::HasSubstr("home"));
+    }
+  }
+}
+
+TEST(Flights, LeaveOutWhatNoFlyPolygonsCutOff) {
+  const Polygon ring{{Rectangle(50, 50, 150, 150), Reversed(Rectangle(70, 70, 130, 130))}};
+  const Site site = MadeSite({Rectangle(0, 0, 20, 20)}, {.no_fly = {ring}});
+  Warnings warnings;
+  const FlightPlan plan = PlanFlights(
+      site, kCamera, 80, {{Vector3d(100, 100, 70), {Shot{}}}, {Vector3d(-30, 0, 20), {Shot{}}}}, 1,
+      warnings);
+  EXPECT_EQ(plan.hovers.size(), 1U);
+  EXPECT_EQ(warnings.lines.size(), 1U);
+}
+
+TEST(Flights, RefuseHoversWhereNothingMayFly) {
+  const Site site = MadeSite({Rectangle(0, 0, 20, 20)});
+  EXPECT_THROW(Fly(site, {{Vector3d(10, 10, 20), {Shot{}}}}, 80), Error);
+}
+
+}  // namespace
+}  // namespace stucco::plan
