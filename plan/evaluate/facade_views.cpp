@@ -61,6 +61,12 @@ FacadeSight::FacadeSight(const Site& site, const CameraPreset& camera, double d_
 }
 
 std::vector<SeenView> FacadeSight::ViewsOf(int facade) const {
+  std::vector<uint32_t> cells(grids_[facade].size());
+  std::iota(cells.begin(), cells.end(), 0U);
+  return ViewsOf(facade, cells);
+}
+
+std::vector<SeenView> FacadeSight::ViewsOf(int facade, std::span<const uint32_t> cells) const {
   const Facade& wall = site_.facades[facade];
   const auto x = [&](int i) { return hovers_[i].position.x(); };
   const auto first =
@@ -70,11 +76,12 @@ std::vector<SeenView> FacadeSight::ViewsOf(int facade) const {
   std::vector<int> near(first, last);
   std::ranges::sort(near);
   std::vector<SeenView> out;
-  for (const int hover : near) AddViewsFrom(hover, facade, out);
+  for (const int hover : near) AddViewsFrom(hover, facade, cells, out);
   return out;
 }
 
-void FacadeSight::AddViewsFrom(int hover, int facade, std::vector<SeenView>& views) const {
+void FacadeSight::AddViewsFrom(int hover, int facade, std::span<const uint32_t> cells,
+                               std::vector<SeenView>& views) const {
   const FacadeGrid& grid = grids_[facade];
   const Eigen::Vector3d& p = hovers_[hover].position;
   const Eigen::Vector2d offset = p.head<2>() - grid.a;
@@ -92,7 +99,7 @@ void FacadeSight::AddViewsFrom(int hover, int facade, std::vector<SeenView>& vie
   for (size_t k = 0; k < hovers_[hover].shots.size(); ++k) {
     const Frustum frustum = FrustumOf(camera_, p, hovers_[hover].shots[k], reach);
     SeenView view{hover, static_cast<int>(k), frustum.forward, {}};
-    for (uint32_t cell = 0; cell < grid.size(); ++cell) {
+    for (const uint32_t cell : cells) {
       const Eigen::Vector3d center = grid.Center(cell);
       if (!frustum.Contains(center)) continue;
       if (sight[cell] == kNotAsked) sight[cell] = model_.Sees(p, center) ? kFree : kBlocked;

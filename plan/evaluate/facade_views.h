@@ -50,6 +50,8 @@ class FacadeSight {
 
   // By hover, then shot.
   std::vector<SeenView> ViewsOf(int facade) const;
+  // The same, asking for these cells only (ascending).
+  std::vector<SeenView> ViewsOf(int facade, std::span<const uint32_t> cells) const;
 
   // What `cells` of a view are worth in eq. 1 and 2 for the facade. The distance is that from the
   // camera to their centroid.
@@ -63,7 +65,8 @@ class FacadeSight {
   const FacadeGrid& grid(int facade) const { return grids_[facade]; }
 
  private:
-  void AddViewsFrom(int hover, int facade, std::vector<SeenView>& views) const;
+  void AddViewsFrom(int hover, int facade, std::span<const uint32_t> cells,
+                    std::vector<SeenView>& views) const;
 
   const Site& site_;
   CameraPreset camera_;

@@ -9,6 +9,7 @@
 
 #include "plan/model/cells.h"
 #include "plan/model/sightings.h"
+#include "plan/planar/lost_walls.h"
 #include "plan/planar/move_hovers.h"
 #include "plan/planar/reconstructability.h"
 #include "plan/planar/thin_out.h"
@@ -29,6 +30,7 @@ constexpr double kGroundReach = 2;
 // The ground in the middle of a tilted photo still counts as covered where it is beyond d_max: from
 // a high ceiling there is nothing better.
 constexpr double kReachOfAltitude = 1.5;
+constexpr int kMostRounds = 5;  // of moves and removals; the last ones gain next to nothing
 // Of the mean grid step, for a move.
 constexpr double kMoveOfGrid = 0.5;
 
@@ -62,39 +64,54 @@ std::vector<Hover> Kept(const std::vector<Hover>& grid, const ViewGraph& graph) 
   return out;
 }
 
+// Takes turns at removing and moving the hovers of the grid, the first in the graph.
+void ThinOut(ViewGraph& graph, const Obstacles& obstacles, std::vector<Hover>& grid,
+             const MoveOptions& moves, Progress& progress) {
+  const std::vector<Requirement> requirements =
+      RequirementsOf(graph, graph.view().samples, moves.tau_r);
+  const auto count = static_cast<uint32_t>(grid.size());
+  for (int round = 0; round < kMostRounds; ++round) {
+    const size_t moved = round == 0 ? 0 : MoveHovers(graph, obstacles, requirements, grid, moves);
+    const size_t removed = RemoveRedundant(graph, requirements, count, progress);
+    if (round > 0 && moved == 0 && removed == 0) break;
+  }
+}
+
+std::vector<Hover> Joined(std::vector<Hover> a, std::span<const Hover> b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 }  // namespace
 
 std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
                                const PlanarOptions& options, std::span<const Hover> dipping,
                                int threads, Progress& progress) {
-  std::vector<Hover> grid = GridHovers(site, camera, options.grid);
-  if (grid.empty()) return grid;
+  const std::vector<Hover> full = GridHovers(site, camera, options.grid);
+  if (full.empty()) return full;
   const GridStep step = StepOf(site, camera, options.grid);
-  const double tau = TauOf(site, options, progress);
   const SurfaceView view(site, camera,
                          SampleSurface(site, {.spacing_m = SpacingOf(options, step),
                                               .ground_reach_m = kGroundReach * site.d_min_m}),
                          std::max(options.d_max_m, kReachOfAltitude * site.safe_altitude_m));
-  ViewGraph graph(view, options.d_max_m, threads);
-  std::vector<Hover> all = grid;
-  all.insert(all.end(), dipping.begin(), dipping.end());
   progress.Begin("planar views: what they see", 1);
-  graph.AddAll(all);
+  ViewGraph graph(view, options.d_max_m, threads);
+  graph.AddAll(Joined(full, dipping));
   progress.Advance();
-  const std::vector<Requirement> requirements = RequirementsOf(graph, view.samples, tau);
 
-  const Obstacles obstacles(site);
-  const MoveOptions moves{.step_m = kMoveOfGrid * MeanStep(step),
-                          .axis = MainAxis(site.area),
-                          .tau_r = tau,
-                          .threads = threads};
-  const auto count = static_cast<uint32_t>(grid.size());
-  for (int round = 0; round < options.most_rounds; ++round) {
-    const size_t moved = round == 0 ? 0 : MoveHovers(graph, obstacles, requirements, grid, moves);
-    const size_t removed = RemoveRedundant(graph, requirements, count, progress);
-    if (round > 0 && moved == 0 && removed == 0) break;
-  }
-  return Kept(grid, graph);
+  std::vector<Hover> grid = full;
+  ThinOut(graph, Obstacles(site), grid,
+          {.step_m = kMoveOfGrid * MeanStep(step),
+           .axis = MainAxis(site.area),
+           .tau_r = TauOf(site, options, progress),
+           .threads = threads},
+          progress);
+  std::vector<Hover> out = Kept(grid, graph);
+  const std::vector<Hover> kept = Joined(out, dipping);
+  const auto lost = HoversForLostWalls(FacadeSight(site, camera, options.d_max_m, full),
+                                       FacadeSight(site, camera, options.d_max_m, kept), threads);
+  for (const uint32_t hover : lost) out.push_back(full[hover]);
+  return out;
 }
 
 }  // namespace stucco::plan

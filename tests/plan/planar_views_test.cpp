@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "plan/evaluate/evaluate_facades.h"
 #include "plan/internal/polygons.h"
 #include "plan/planar/reconstructability.h"
 #include "plan/planar/thin_out.h"
@@ -167,6 +168,22 @@ TEST(PlanarViews, AHigherThresholdKeepsMore) {
   options.tau_r = 60;
   const auto more = PlanarViews(site, FindCamera("mavic-3e"), options, {}, 1, SilentProgress());
   EXPECT_GT(more.size(), some.size());
+}
+
+TEST(PlanarViews, SeeEveryWallThatTheFullGridSees) {
+  const std::vector<Ring> town = RandomTown(12, 9);
+  MadeSiteOptions made{.safe_altitude_m = 28, .margin_m = 28};
+  for (size_t i = 0; i < town.size(); ++i) made.heights_m.push_back(9 + static_cast<double>(i));
+  const Site site = MadeSite(town, made);
+  const CameraPreset camera = FindCamera("mavic-3e");
+  const auto grid = GridHovers(site, camera, Options().grid);
+  const auto views = PlanarViews(site, camera, Options(), {}, 1, SilentProgress());
+  const auto before = EvaluateFacades(site, camera, kDMax, grid, 1);
+  const auto after = EvaluateFacades(site, camera, kDMax, views, 1);
+  for (size_t i = 0; i < before.size(); ++i) {
+    EXPECT_GT(before[i].covered_all, 0);
+    EXPECT_GE(after[i].covered_all, before[i].covered_all - 1e-12);
+  }
 }
 
 class Listener : public Progress {
