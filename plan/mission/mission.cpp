@@ -22,6 +22,9 @@ void Write(const std::filesystem::path& folder, const std::string& name, const s
   files.names.push_back(name);
 }
 
+// DJI Fly opens no longer ones.
+constexpr size_t kDjiFlyWaypoints = 200;
+
 void WriteDji(const Plan& plan, const std::vector<Route>& routes, const MissionOptions& options,
               const std::filesystem::path& folder, MissionFiles& files) {
   const bool is_known =
@@ -42,6 +45,11 @@ void WriteDji(const Plan& plan, const std::vector<Route>& routes, const MissionO
                   "this is a fault of the planner; please report it with the map");
     }
     files.names.push_back(name);
+    if (options.dji.drone == kDjiFlyDrone && routes[i].stops.size() > kDjiFlyWaypoints) {
+      files.notes.push_back(fmt::format(
+          "{} has {} waypoints, more than the {} of DJI Fly: plan with a smaller battery share",
+          name, routes[i].stops.size(), kDjiFlyWaypoints));
+    }
   }
 }
 

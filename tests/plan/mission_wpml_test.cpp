@@ -237,6 +237,17 @@ TEST(MissionFiles, NamesThePartsOfLongFlights) {
   }
 }
 
+TEST(MissionFiles, SaysWhenDjiFlyHoldsLess) {
+  Plan plan = test::MakePlan();
+  auto& waypoints = plan.flights[0].waypoints;
+  for (int i = 0; i < 200; ++i) waypoints.insert(waypoints.begin() + 2, {{-25.0, 1.0 * i, 30}, -1});
+  const TemporaryFolder folder;
+  MissionOptions options;
+  options.dji.drone = kDjiFlyDrone;
+  const std::string note = WriteMissionFiles(plan, options, folder.path()).notes.front();
+  EXPECT_NE(note.find("mission_1.kmz has 205 waypoints"), std::string::npos) << note;
+}
+
 TEST(MissionFiles, RefusesAnEmptyPlan) {
   const TemporaryFolder folder;
   EXPECT_THROW(WriteMissionFiles({}, test::Mavic3E(), folder.path()), Error);
