@@ -72,8 +72,8 @@ std::optional<double> ParseLength(std::string_view text) {
   return *number * kMetresPerFoot + *inches * kMetresPerInch;
 }
 
-std::string BuildingIds::Next(std::string_view own, int place) {
-  const std::string_view id = Trimmed(own);
+std::string BuildingIds::Next(std::string_view id, int place) {
+  id = Trimmed(id);
   std::string name;
   if (id.empty()) {
     name = fmt::format("B{:04}", place);

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
-#include "plan/internal/box_grid.h"
 #include "plan/internal/polygons.h"
 
 namespace stucco::plan::internal {
@@ -44,6 +42,21 @@ void KeepFarthest(const Ring& ring, size_t first, size_t last, double tolerance,
 
 Eigen::AlignedBox2d BoxOf(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double margin) {
   return {a.cwiseMin(b).array() - margin, a.cwiseMax(b).array() + margin};
+}
+
+// Every corner once, by place.
+std::vector<Eigen::Vector2d> CornersOf(const std::vector<Polygon>& polygons) {
+  std::vector<Eigen::Vector2d> corners;
+  for (const Polygon& polygon : polygons) {
+    for (const Ring& ring : polygon.rings) {
+      corners.insert(corners.end(), ring.begin(), ring.end());
+    }
+  }
+  std::sort(corners.begin(), corners.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
+  });
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
 }
 
 }  // namespace
@@ -106,7 +119,7 @@ bool Noder::Apply(std::vector<Polygon>& polygons) {
 }
 
 Eigen::Vector2d Noder::Snapped(const Eigen::Vector2d& corner) {
-  const Eigen::Vector2d rounded = Rounded(corner);
+  Eigen::Vector2d rounded = Rounded(corner);
   const Eigen::Array2d cell = (rounded / tolerance_m_).array().floor();
   const auto key = [](double column, double row) {
     return static_cast<int64_t>(row) * (int64_t{1} << 32) + static_cast<int64_t>(column);
@@ -149,14 +162,7 @@ bool Noder::SnapCorners(std::vector<Polygon>& polygons) {
 }
 
 bool Noder::SplitEdges(std::vector<Polygon>& polygons) const {
-  const auto before = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
-  };
-  std::set<Eigen::Vector2d, decltype(before)> used(before);
-  for (const Polygon& polygon : polygons) {
-    for (const Ring& ring : polygon.rings) used.insert(ring.begin(), ring.end());
-  }
-  const std::vector<Eigen::Vector2d> corners(used.begin(), used.end());
+  const std::vector<Eigen::Vector2d> corners = CornersOf(polygons);
   std::vector<Eigen::AlignedBox2d> boxes;
   boxes.reserve(corners.size());
   for (const Eigen::Vector2d& corner : corners) boxes.emplace_back(corner, corner);
@@ -166,19 +172,8 @@ bool Noder::SplitEdges(std::vector<Polygon>& polygons) const {
     for (Ring& ring : polygon.rings) {
       Ring noded;
       for (size_t i = 0; i < ring.size(); ++i) {
-        const Eigen::Vector2d& a = ring[i];
-        const Eigen::Vector2d& b = ring[(i + 1) % ring.size()];
-        noded.push_back(a);
-        std::vector<std::pair<double, int>> passed;
-        for (const int index : grid.Touching(BoxOf(a, b, tolerance_m_))) {
-          const Eigen::Vector2d& corner = corners[index];
-          if (corner == a || corner == b) continue;
-          const double t = (corner - a).dot(b - a) / (b - a).squaredNorm();
-          if (!(t > 0 && t < 1) || DistanceToSegment(corner, a, b) > tolerance_m_) continue;
-          passed.emplace_back(t, index);
-        }
-        std::sort(passed.begin(), passed.end());
-        for (const auto& [t, index] : passed) noded.push_back(corners[index]);
+        noded.push_back(ring[i]);
+        AddPassed(ring[i], ring[(i + 1) % ring.size()], corners, grid, noded);
       }
       changed = changed || noded.size() != ring.size();
       ring = Tidied(noded);
@@ -186,6 +181,21 @@ bool Noder::SplitEdges(std::vector<Polygon>& polygons) const {
     std::erase_if(polygon.rings, [](const Ring& ring) { return ring.size() < 3; });
   }
   return changed;
+}
+
+void Noder::AddPassed(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                      std::span<const Eigen::Vector2d> corners, const BoxGrid& grid,
+                      Ring& noded) const {
+  std::vector<std::pair<double, int>> passed;
+  for (const int index : grid.Touching(BoxOf(a, b, tolerance_m_))) {
+    const Eigen::Vector2d& corner = corners[index];
+    if (corner == a || corner == b) continue;
+    const double t = (corner - a).dot(b - a) / (b - a).squaredNorm();
+    if (!(t > 0 && t < 1) || DistanceToSegment(corner, a, b) > tolerance_m_) continue;
+    passed.emplace_back(t, index);
+  }
+  std::sort(passed.begin(), passed.end());
+  for (const auto& [t, index] : passed) noded.push_back(corners[index]);
 }
 
 }  // namespace stucco::plan::internal

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "plan/internal/box_grid.h"
 #include "plan/site.h"
 
 namespace stucco::plan::internal {
@@ -36,6 +38,9 @@ class Noder {
   Eigen::Vector2d Snapped(const Eigen::Vector2d& corner);
   bool SnapCorners(std::vector<Polygon>& polygons);
   bool SplitEdges(std::vector<Polygon>& polygons) const;
+  // The corners that the edge from a to b passes, in this order.
+  void AddPassed(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                 std::span<const Eigen::Vector2d> corners, const BoxGrid& grid, Ring& noded) const;
 
   double tolerance_m_;
   int moved_ = 0;

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
@@ -119,10 +121,12 @@ class OverlapCutter {
     cuts_.clear();
     lifts_.clear();
     const internal::BoxGrid grid = GridOf(footprints_);
+    const std::vector<bool> known_apart = KnownApart();
     for (size_t i = 0; i < footprints_.size(); ++i) {
       const auto box = internal::BoundsOf(footprints_[i].outline);
       for (const int j : grid.Touching(box)) {
         if (j <= static_cast<int>(i) || dropped_[i] || dropped_[j]) continue;
+        if (known_apart[i] && known_apart[j]) continue;
         if (StandsAbove(footprints_[i], footprints_[j])) continue;
         if (!internal::InteriorsMeet(footprints_[i].outline, footprints_[j].outline)) continue;
         Separate(static_cast<int>(i), j);
@@ -132,6 +136,29 @@ class OverlapCutter {
   }
 
  private:
+  // Which outlines were there in the round before: most, and they need not be compared again.
+  std::vector<bool> KnownApart() const {
+    std::vector<bool> known;
+    known.reserve(footprints_.size());
+    for (const Footprint& footprint : footprints_) {
+      known.push_back(apart_.contains(HashOf(footprint.outline)));
+    }
+    return known;
+  }
+
+  // FNV-1a over the corners.
+  static uint64_t HashOf(const Polygon& outline) {
+    uint64_t hash = 0xcbf29ce484222325;
+    for (const Ring& ring : outline.rings) {
+      for (const Eigen::Vector2d& corner : ring) {
+        for (const double coordinate : {corner.x(), corner.y()}) {
+          hash = (hash ^ std::bit_cast<uint64_t>(coordinate)) * 0x100000001b3;
+        }
+      }
+    }
+    return hash;
+  }
+
   // Parts of one building at different heights may share ground.
   static bool StandsAbove(const Footprint& a, const Footprint& b) {
     return a.building == b.building && ((a.top_known && a.z_m.to_m <= b.z_m.from_m) ||
@@ -212,6 +239,7 @@ class OverlapCutter {
   bool Finish() {
     bool changed = false;
     std::vector<Footprint> left;
+    apart_.clear();
     for (size_t i = 0; i < footprints_.size(); ++i) {
       const auto lift = lifts_.find(static_cast<int>(i));
       const auto cut = cuts_.find(static_cast<int>(i));
@@ -232,6 +260,7 @@ class OverlapCutter {
         AddLike(footprints_[i], internal::Difference(footprints_[i].outline, winners), left);
       } else {
         left.push_back(footprints_[i]);
+        apart_.insert(HashOf(footprints_[i].outline));
       }
     }
     footprints_ = std::move(left);
@@ -253,6 +282,7 @@ class OverlapCutter {
   std::map<int, std::vector<int>> cuts_;  // who is cut by whom
   std::map<int, int> lifts_;              // who stands on whom
   std::set<std::string> explained_;
+  std::set<uint64_t> apart_;  // outlines that have been compared with each other
 };
 
 // Snaps and nodes all outlines and mends those that this spoils.
@@ -289,8 +319,10 @@ void DropIdleCorners(std::vector<Footprint>& footprints) {
       for (size_t i = 0; i < ring.size(); ++i) {
         const Eigen::Vector2d& last = kept.empty() ? ring.back() : kept.back();
         const Eigen::Vector2d& next = ring[(i + 1) % ring.size()];
-        const bool idle =
-            uses.at(ring[i]) == 1 && internal::DistanceToSegment(ring[i], last, next) <= kSnap_m;
+        constexpr double kStraight = 0.999;  // a bend that snapping makes, not one of a round wall
+        const double ahead = (ring[i] - last).normalized().dot((next - ring[i]).normalized());
+        const bool idle = uses.at(ring[i]) == 1 && ahead > kStraight &&
+                          internal::DistanceToSegment(ring[i], last, next) <= kSnap_m;
         if (!idle) kept.push_back(ring[i]);
       }
       if (kept.size() >= 3) ring = std::move(kept);

@@ -66,7 +66,7 @@ std::string ReadCrs(const Json& json) {
   if (!json.contains("metadata")) return "";
   const Json& metadata = json.at("metadata");
   if (!metadata.contains("referenceSystem")) return "";
-  const std::string name = metadata.at("referenceSystem").get<std::string>();
+  std::string name = metadata.at("referenceSystem").get<std::string>();
   const size_t end = name.find_last_of("/:");
   if (end == std::string::npos || name.find("EPSG") == std::string::npos) return name;
   return "EPSG:" + name.substr(end + 1);

@@ -69,6 +69,7 @@ struct Columns {
 std::vector<std::string> ColumnNames(OGRLayer& layer) {
   std::vector<std::string> names;
   OGRFeatureDefn& definition = *layer.GetLayerDefn();
+  names.reserve(definition.GetFieldCount());
   for (int i = 0; i < definition.GetFieldCount(); ++i) {
     names.emplace_back(definition.GetFieldDefn(i)->GetNameRef());
   }

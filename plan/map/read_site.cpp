@@ -58,19 +58,23 @@ std::vector<Polygon> AreasOf(RawMap map, const std::string& crs, const PlanOrigi
               "give polygons of some square metres at least");
 }
 
+bool IsFinite(const MapFeature& feature) {
+  for (const Polygon& polygon : feature.polygons) {
+    for (const Ring& ring : polygon.rings) {
+      for (const Eigen::Vector2d& corner : ring) {
+        if (!corner.allFinite()) return false;
+      }
+    }
+  }
+  return true;
+}
+
 // Corners that the coordinate system has no place for would spread to everything they meet.
 void DropLostFeatures(RawMap& map) {
   std::erase_if(map.features, [&](const MapFeature& feature) {
-    for (const Polygon& polygon : feature.polygons) {
-      for (const Ring& ring : polygon.rings) {
-        for (const Eigen::Vector2d& corner : ring) {
-          if (corner.allFinite()) continue;
-          map.repairs.Add(feature.building, "coordinates are no numbers; left out");
-          return true;
-        }
-      }
-    }
-    return false;
+    const bool lost = !IsFinite(feature);
+    if (lost) map.repairs.Add(feature.building, "coordinates are no numbers; left out");
+    return lost;
   });
 }
 
