@@ -107,13 +107,13 @@ Place Place::Child(const char* name) const {
   return {node.child(name), path.empty() ? name : Of(name)};
 }
 
-void CheckFields(const Place& place, std::span<const FieldRule> rules, LintLog& log) {
+void CheckFields(const Place& place, std::span<const FieldRule> rules, LintLog& log, Order order) {
   const FieldRule* latest = nullptr;  // the last rule in order that an element was seen of
   for (const pugi::xml_node child : place.node.children()) {
     const auto rule = std::ranges::find_if(
         rules, [&](const FieldRule& r) { return std::string_view(r.name) == child.name(); });
     if (rule == rules.end()) continue;  // newer versions have more elements
-    if (latest != nullptr && &*rule < latest) {
+    if (order == Order::kFixed && latest != nullptr && &*rule < latest) {
       log.Add(place.Of(rule->name), "order", fmt::format("must stand before {}", latest->name));
     } else {
       latest = &*rule;

@@ -167,7 +167,7 @@ void CheckTemplateDocument(const Place& document, LintLog& log) {
     if (DroneOf(document) != kDjiFlyDrone) log.Add(folder.path, "required", "is missing");
     return;
   }
-  internal::CheckFields(folder, TemplateFolderRules(), log);
+  internal::CheckFields(folder, TemplateFolderRules(), log, internal::Order::kFree);
   const Place system = folder.Child("wpml:waylineCoordinateSysParam");
   if (system.node) internal::CheckFields(system, CoordinateRules(), log);
   const Place payload = folder.Child("wpml:payloadParam");

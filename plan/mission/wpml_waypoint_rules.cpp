@@ -40,14 +40,14 @@ const Rules& TemplateWaypointRules() {
   static const Rules rules = {
       {"Point", true, FieldRule::kGroup},
       {"wpml:index", true, FieldRule::kWhole, 0, kMostWaypoints - 1},
-      {"wpml:useGlobalHeight", true, FieldRule::kFlag},
+      {"wpml:useGlobalHeight", false, FieldRule::kFlag},
       {"wpml:ellipsoidHeight", false, FieldRule::kNumber, kLowest, kHighest},
       {"wpml:height", false, FieldRule::kNumber, kLowest, kHighest},
-      {"wpml:useGlobalSpeed", true, FieldRule::kFlag},
+      {"wpml:useGlobalSpeed", false, FieldRule::kFlag},
       {"wpml:waypointSpeed", false, FieldRule::kNumber, 0.1, 15},
-      {"wpml:useGlobalHeadingParam", true, FieldRule::kFlag},
+      {"wpml:useGlobalHeadingParam", false, FieldRule::kFlag},
       {"wpml:waypointHeadingParam", false, FieldRule::kGroup},
-      {"wpml:useGlobalTurnParam", true, FieldRule::kFlag},
+      {"wpml:useGlobalTurnParam", false, FieldRule::kFlag},
       {"wpml:waypointTurnParam", false, FieldRule::kGroup},
       {"wpml:useStraightLine", false, FieldRule::kFlag},
       {"wpml:gimbalPitchAngle", false, FieldRule::kNumber, -120, 45},
@@ -196,7 +196,7 @@ void CheckWaypoints(const Place& folder, bool is_template, double drone, LintLog
   Before before;
   for (int i = 0; i < count; ++i) {
     const Place placemark = {nodes[i], fmt::format("{}/Placemark[{}]", folder.path, i)};
-    CheckFields(placemark, rules, log);
+    CheckFields(placemark, rules, log, is_template ? Order::kFree : Order::kFixed);
     if (const auto index = placemark.Number("wpml:index"); index && *index != i) {
       log.Add(placemark.Of("wpml:index"), "index", fmt::format("is {}, must be {}", *index, i));
     }

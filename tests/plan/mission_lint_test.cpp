@@ -169,6 +169,15 @@ TEST(WpmlLint, KnowsTheRulesOfTheTemplate) {
   }
 }
 
+TEST(WpmlLint, TemplatesKeepToNoOrder) {
+  const std::string moved =
+      Replaced(Replaced(Template(), "<wpml:useGlobalHeight>0</wpml:useGlobalHeight>", ""),
+               "<wpml:useStraightLine>1</wpml:useStraightLine>",
+               "<wpml:useStraightLine>1</wpml:useStraightLine><wpml:useGlobalHeight>0</"
+               "wpml:useGlobalHeight>");
+  EXPECT_EQ(Listed(LintTemplate(moved)), "");
+}
+
 TEST(WpmlLint, CountsWaypoints) {
   Plan plan = test::MakePlan();
   std::vector<Route> routes = RoutesOf(plan);

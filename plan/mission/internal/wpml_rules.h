@@ -16,7 +16,7 @@
 
 namespace stucco::plan::internal {
 
-// The rule for one child of an element. Children come in the order of their rules.
+// The rule for one child of an element.
 struct FieldRule {
   const char* name;
   bool required = false;
@@ -52,7 +52,10 @@ struct Place {
 std::optional<double> ParseNumber(std::string_view text);
 // The first two numbers of "a,b" or "a,b,c".
 std::optional<std::pair<double, double>> ParsePair(std::string_view text);
-void CheckFields(const Place& place, std::span<const FieldRule> rules, LintLog& log);
+// Children come in the order of their rules; templates of DJI's own programs keep to none.
+enum class Order { kFixed, kFree };
+void CheckFields(const Place& place, std::span<const FieldRule> rules, LintLog& log,
+                 Order order = Order::kFixed);
 
 // The parts of a document, each with all below it.
 void CheckConfig(const Place& config, LintLog& log);
