@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "plan/internal/polygons.h"
+#include "survey/error.h"
 #include "survey/parallel.h"
 
 namespace stucco::plan {
@@ -54,13 +55,10 @@ struct Place {
 
 class Mover {
  public:
-  Mover(ViewGraph& graph, const Obstacles& obstacles, std::span<const Requirement> requirements,
-        const MoveOptions& options)
+  Mover(ViewGraph& graph, const MoveSetting& setting)
       : graph_(graph),
         view_(graph.view()),
-        obstacles_(obstacles),
-        requirements_(requirements),
-        options_(options),
+        setting_(setting),
         coverage_(CoverageOf(graph, graph.view().samples)) {}
 
   bool Move(uint32_t number, Hover& hover);
@@ -72,9 +70,7 @@ class Mover {
 
   ViewGraph& graph_;
   const SurfaceView& view_;
-  const Obstacles& obstacles_;
-  std::span<const Requirement> requirements_;
-  const MoveOptions& options_;
+  const MoveSetting& setting_;
   PlaneCoverage coverage_;
   std::vector<uint32_t> in_need_;  // samples that lack something without the hover
 };
@@ -84,7 +80,7 @@ void Mover::TakeOut(uint32_t number, const Place& here) {
   in_need_.clear();
   for (const Sighting& sighting : here.sightings) {
     const SampleState& state = graph_.state(sighting.sample);
-    if (!requirements_[sighting.sample].MetBy(state)) in_need_.push_back(sighting.sample);
+    if (!setting_.requirements[sighting.sample].MetBy(state)) in_need_.push_back(sighting.sample);
     if (!sighting.nadir || view_.samples[sighting.sample].kind == SurfaceKind::kWall) continue;
     coverage_.sightings -= 1;
     coverage_.seen -= state.nadirs == 0;
@@ -95,7 +91,7 @@ Place Mover::Assess(const Place& place) const {
   Place out = place;
   out.coverage = coverage_;
   out.reconstructability = 0;
-  const double scale = std::max(options_.tau_r, 1e-6);
+  const double scale = std::max(setting_.tau_r, 1e-6);
   for (size_t i = 0; i < out.sightings.size(); ++i) {
     const SampleState& state = graph_.state(out.sightings[i].sample);
     const double before = std::max(0.0, state.reconstructability);
@@ -121,7 +117,7 @@ bool Mover::Serves(const Place& place) const {
     state.reconstructability += place.shares[at - place.sightings.begin()];
     ++state.hovers;
     state.nadirs += at->nadir;
-    if (!requirements_[sample].MetBy(state)) return false;
+    if (!setting_.requirements[sample].MetBy(state)) return false;
   }
   return true;
 }
@@ -134,15 +130,16 @@ bool Mover::Move(uint32_t number, Hover& hover) {
   TakeOut(number, here);
   here = Assess(here);
 
-  const Eigen::Vector2d u = options_.step_m * options_.axis;
+  const Eigen::Vector2d u = setting_.step_m * setting_.axis;
   const Eigen::Vector2d v(-u.y(), u.x());
   const std::array<Eigen::Vector2d, kNeighbours> steps{u, u + v, v, v - u, -u, -u - v, -v, u - v};
   std::array<Place, kNeighbours> places;
-  ParallelFor(kNeighbours, options_.threads, [&](size_t k) {
+  ParallelFor(kNeighbours, setting_.threads, [&](size_t k) {
     const Eigen::Vector2d at = hover.position.head<2>() + steps[k];
     Place place;
-    place.position = {at.x(), at.y(), obstacles_.site().CeilingAt(at)};
-    if (!internal::Contains(obstacles_.site().area, at) || !obstacles_.IsFree(place.position))
+    place.position = {at.x(), at.y(), setting_.obstacles.site().CeilingAt(at)};
+    if (!internal::Contains(setting_.obstacles.site().area, at) ||
+        !setting_.obstacles.IsFree(place.position))
       return;
     place.sightings = SightingsOf(view_, {place.position, hover.shots});
     place.shares = graph_.SharesFrom(place.position, place.sightings);
@@ -162,13 +159,15 @@ bool Mover::Move(uint32_t number, Hover& hover) {
 
 }  // namespace
 
-size_t MoveHovers(ViewGraph& graph, const Obstacles& obstacles,
-                  std::span<const Requirement> requirements, std::vector<Hover>& hovers,
-                  const MoveOptions& options) {
-  Mover mover(graph, obstacles, requirements, options);
+size_t MoveHovers(ViewGraph& graph, const MoveSetting& setting, std::vector<Hover>& hovers,
+                  Progress& progress) {
+  Mover mover(graph, setting);
+  progress.Begin("planar views: moving", hovers.size());
   size_t moved = 0;
   for (uint32_t i = 0; i < hovers.size(); ++i) {
+    if (progress.Cancelled()) throw Error(ErrorKind::kInterrupted, "interrupted");
     if (!graph.removed(i)) moved += mover.Move(i, hovers[i]);
+    progress.Advance();
   }
   return moved;
 }

@@ -9,11 +9,14 @@
 #include "plan/hover.h"
 #include "plan/planar/thin_out.h"
 #include "plan/space/obstacles.h"
+#include "survey/stage.h"
 
 namespace stucco::plan {
 
 // How hovers move.
-struct MoveOptions {
+struct MoveSetting {
+  const Obstacles& obstacles;
+  std::span<const Requirement> requirements;
   double step_m = 0;                                // tau_p
   Eigen::Vector2d axis = Eigen::Vector2d::UnitX();  // of the steps
   double tau_r = 0;
@@ -27,8 +30,8 @@ struct MoveOptions {
 //   Q_r = sum over samples of h / (h + tau_r), so that what a sample has in plenty counts little.
 // The number of hovers is the same for all places. Where several places dominate, the one with the
 // largest Q_r is taken. No sample loses what it requires. Returns how many moved; `hovers` follow.
-size_t MoveHovers(ViewGraph& graph, const Obstacles& obstacles,
-                  std::span<const Requirement> requirements, std::vector<Hover>& hovers,
-                  const MoveOptions& options);
+// Throws Error (kInterrupted).
+size_t MoveHovers(ViewGraph& graph, const MoveSetting& setting, std::vector<Hover>& hovers,
+                  Progress& progress);
 
 }  // namespace stucco::plan

@@ -65,14 +65,12 @@ std::vector<Hover> Kept(const std::vector<Hover>& grid, const ViewGraph& graph) 
 }
 
 // Takes turns at removing and moving the hovers of the grid, the first in the graph.
-void ThinOut(ViewGraph& graph, const Obstacles& obstacles, std::vector<Hover>& grid,
-             const MoveOptions& moves, Progress& progress) {
-  const std::vector<Requirement> requirements =
-      RequirementsOf(graph, graph.view().samples, moves.tau_r);
+void ThinOut(ViewGraph& graph, const MoveSetting& setting, std::vector<Hover>& grid,
+             Progress& progress) {
   const auto count = static_cast<uint32_t>(grid.size());
   for (int round = 0; round < kMostRounds; ++round) {
-    const size_t moved = round == 0 ? 0 : MoveHovers(graph, obstacles, requirements, grid, moves);
-    const size_t removed = RemoveRedundant(graph, requirements, count, progress);
+    const size_t moved = round == 0 ? 0 : MoveHovers(graph, setting, grid, progress);
+    const size_t removed = RemoveRedundant(graph, setting.requirements, count, progress);
     if (round > 0 && moved == 0 && removed == 0) break;
   }
 }
@@ -99,13 +97,18 @@ std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
   graph.AddAll(Joined(full, dipping));
   progress.Advance();
 
+  const double tau = TauOf(site, options, progress);
+  const Obstacles obstacles(site);
+  const std::vector<Requirement> requirements = RequirementsOf(graph, view.samples, tau);
   std::vector<Hover> grid = full;
-  ThinOut(graph, Obstacles(site), grid,
-          {.step_m = kMoveOfGrid * MeanStep(step),
+  ThinOut(graph,
+          {.obstacles = obstacles,
+           .requirements = requirements,
+           .step_m = kMoveOfGrid * MeanStep(step),
            .axis = MainAxis(site.area),
-           .tau_r = TauOf(site, options, progress),
+           .tau_r = tau,
            .threads = threads},
-          progress);
+          grid, progress);
   std::vector<Hover> out = Kept(grid, graph);
   const std::vector<Hover> kept = Joined(out, dipping);
   const auto lost = HoversForLostWalls(FacadeSight(site, camera, options.d_max_m, full),

@@ -88,6 +88,21 @@ TEST(DroneScanViews, RiseOutOfStreetsThatAreTooNarrow) {
   EXPECT_GT(above, 0);
 }
 
+TEST(DroneScanViews, StandOnTheTerrain) {
+  MadeSiteOptions made{.safe_altitude_m = 26, .margin_m = 26, .heights_m = {8, 16}};
+  made.terrain = {.corner = {-60, -60}, .step_m = 10, .columns = 20, .rows = 20, .z_m = {}};
+  for (int i = 0; i < 400; ++i) made.terrain.z_m.push_back(static_cast<float>(i % 20));
+  const Site site =
+      MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 12), Rectangle(45, 0, 60, 25)}, made);
+  const Obstacles obstacles(site);
+  const auto views = Views(site);
+  EXPECT_GT(views.size(), 20U);
+  for (const Hover& hover : views) {
+    EXPECT_TRUE(obstacles.IsFree(hover.position));
+    EXPECT_GE(hover.position.z(), site.FloorAt(hover.position.head<2>()));
+  }
+}
+
 TEST(DroneScanViews, AreTheSameAtAnyNumberOfThreads) {
   const Site site = Town();
   const auto one = Views(site, 1);

@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "plan/evaluate/evaluate_facades.h"
 #include "plan/internal/polygons.h"
+#include "plan/planar/move_hovers.h"
 #include "plan/planar/reconstructability.h"
 #include "plan/planar/thin_out.h"
 #include "plan/space/obstacles.h"
@@ -184,6 +186,95 @@ TEST(PlanarViews, SeeEveryWallThatTheFullGridSees) {
     EXPECT_GT(before[i].covered_all, 0);
     EXPECT_GE(after[i].covered_all, before[i].covered_all - 1e-12);
   }
+}
+
+// Rises by 20 m from west to east under the town.
+Site Slope() {
+  Site site = Town();
+  MadeSiteOptions made{.safe_altitude_m = 26, .margin_m = 26, .heights_m = {8, 16, 11}};
+  made.terrain = {.corner = {-100, -100}, .step_m = 10, .columns = 26, .rows = 26, .z_m = {}};
+  for (int i = 0; i < 26 * 26; ++i) {
+    made.terrain.z_m.push_back(static_cast<float>(std::clamp(0.4 * (i % 26 - 10) * 10, 0.0, 20.0)));
+  }
+  std::vector<Polygon> outlines;
+  for (const Footprint& footprint : site.footprints) outlines.push_back(footprint.outline);
+  return MadeSite(outlines, made);
+}
+
+TEST(PlanarViews, FollowTheTerrain) {
+  const Site site = Slope();
+  const SurfaceView view = ViewOf(site);
+  const Obstacles obstacles(site);
+  const auto views = PlanarViews(site, view.camera, Options(), {}, 1, SilentProgress());
+  double lowest = 1e9, highest = 0;
+  for (const Hover& hover : views) {
+    EXPECT_EQ(hover.position.z(), site.CeilingAt(hover.position.head<2>()));
+    EXPECT_TRUE(obstacles.IsFree(hover.position));
+    lowest = std::min(lowest, hover.position.z());
+    highest = std::max(highest, hover.position.z());
+  }
+  EXPECT_GT(highest, lowest + 8);
+  // The ground does not hide itself.
+  int ground = 0, seen = 0;
+  const auto states = StatesWith(view, views);
+  for (size_t s = 0; s < states.size(); ++s) {
+    if (view.samples[s].kind != SurfaceKind::kGround) continue;
+    ++ground;
+    seen += states[s].nadirs > 0;
+  }
+  EXPECT_GT(ground, 100);
+  EXPECT_GT(seen, 0.97 * ground);
+}
+
+TEST(MoveHovers, GainsWithoutLosing) {
+  const Site site = Town();
+  const SurfaceView view = ViewOf(site);
+  const double tau = 10 * GoodPair(26, kDMax);
+  std::vector<Hover> grid = GridHovers(site, view.camera, Options().grid);
+  ViewGraph graph(view, kDMax, 1);
+  graph.AddAll(grid);
+  const auto requirements = RequirementsOf(graph, view.samples, tau);
+  RemoveRedundant(graph, requirements, static_cast<uint32_t>(grid.size()), SilentProgress());
+  const auto sum = [&] {
+    double out = 0;
+    for (const SampleState& state : graph.states()) {
+      out += state.reconstructability / (state.reconstructability + tau);
+    }
+    return out;
+  };
+  const auto sightings = [&] {
+    int out = 0;
+    for (uint32_t s = 0; s < view.samples.size(); ++s) {
+      if (view.samples[s].kind != SurfaceKind::kWall) out += graph.state(s).nadirs;
+    }
+    return out;
+  };
+  const double before = sum();
+  const int sightings_before = sightings();
+  const Obstacles obstacles(site);
+  const MoveSetting setting{.obstacles = obstacles,
+                            .requirements = requirements,
+                            .step_m = 3,
+                            .axis = {1, 0},
+                            .tau_r = tau,
+                            .threads = 2};
+  const std::vector<Hover> from = grid;
+  const size_t moved = MoveHovers(graph, setting, grid, SilentProgress());
+  EXPECT_GT(moved, 0U);
+  EXPECT_GT(sum(), before);
+  EXPECT_LE(sightings(), sightings_before);  // what is covered stays, so only Q_u could gain
+  for (size_t s = 0; s < requirements.size(); ++s) {
+    SampleState state = graph.state(static_cast<uint32_t>(s));
+    state.reconstructability += 1e-6;
+    EXPECT_TRUE(requirements[s].MetBy(state));
+  }
+  size_t changed = 0;
+  for (size_t i = 0; i < grid.size(); ++i) {
+    const double way = (grid[i].position - from[i].position).cwiseAbs().maxCoeff();
+    changed += way > 0;
+    EXPECT_LE(way, 3 + 1e-9);
+  }
+  EXPECT_EQ(changed, moved);
 }
 
 class Listener : public Progress {
