@@ -45,10 +45,10 @@ std::vector<Action> ActionsFor(const PlannedView* before, const PlannedView& vie
 
 // Splits stops whose photos need more actions than a waypoint holds: the next waypoint takes the
 // rest, a little higher.
-std::vector<RouteStop> SplitStops(const Plan& plan, const std::vector<RouteStop>& stops,
-                                  const MissionOptions& options) {
-  std::vector<RouteStop> split;
-  for (const RouteStop& stop : stops) {
+std::vector<MissionStop> SplitStops(const Plan& plan, const std::vector<MissionStop>& stops,
+                                    const MissionOptions& options) {
+  std::vector<MissionStop> split;
+  for (const MissionStop& stop : stops) {
     split.push_back(stop);
     split.back().views.clear();
     size_t actions = 0;
@@ -56,7 +56,7 @@ std::vector<RouteStop> SplitStops(const Plan& plan, const std::vector<RouteStop>
     for (const PlannedView& view : stop.views) {
       const size_t more = ActionsFor(before, view, options).size();
       if (actions + more > kLitchiActions) {
-        RouteStop next = split.back();
+        MissionStop next = split.back();
         next.views.clear();
         next.yaw_deg = SignedDegrees(view.yaw_deg);
         next.position_m.z() += kNextWaypoint;
@@ -92,7 +92,7 @@ struct Attitude {
 };
 
 // Updates `attitude` to the one in which the drone leaves the stop.
-std::string Line(const RouteStop& stop, const MissionOptions& options, Attitude& attitude) {
+std::string Line(const MissionStop& stop, const MissionOptions& options, Attitude& attitude) {
   const bool turns_left = SignedDegrees(stop.yaw_deg - attitude.yaw_deg) < 0;
   if (!stop.views.empty()) attitude.pitch_deg = stop.views.front().pitch_deg;
   std::string line =
@@ -116,18 +116,18 @@ std::string Line(const RouteStop& stop, const MissionOptions& options, Attitude&
 
 }  // namespace
 
-std::vector<std::string> LitchiCsv(const Plan& plan, const Route& route,
+std::vector<std::string> LitchiCsv(const Plan& plan, const MissionRoute& route,
                                    const MissionOptions& options) {
-  const std::vector<RouteStop> stops = SplitStops(plan, route.stops, options);
+  const std::vector<MissionStop> stops = SplitStops(plan, route.stops, options);
   std::vector<std::string> files;
   constexpr size_t kPerFile = kLitchiWaypoints - 2;  // the approach takes two
   for (size_t begin = 0; begin < stops.size(); begin += kPerFile) {
     const size_t end = std::min(begin + kPerFile, stops.size());
-    const std::vector<RouteStop> part(stops.begin() + static_cast<std::ptrdiff_t>(begin),
-                                      stops.begin() + static_cast<std::ptrdiff_t>(end));
+    const std::vector<MissionStop> part(stops.begin() + static_cast<std::ptrdiff_t>(begin),
+                                        stops.begin() + static_cast<std::ptrdiff_t>(end));
     std::string text = Header();
     Attitude attitude;
-    for (const RouteStop& stop : WithApproach(plan, route, part)) {
+    for (const MissionStop& stop : WithApproach(plan, route, part)) {
       text += Line(stop, options, attitude);
     }
     files.push_back(std::move(text));
@@ -135,7 +135,7 @@ std::vector<std::string> LitchiCsv(const Plan& plan, const Route& route,
   return files;
 }
 
-std::vector<std::string> LitchiSettings(const Route& route, const MissionOptions& options) {
+std::vector<std::string> LitchiSettings(const MissionRoute& route, const MissionOptions& options) {
   return {
       "Heading Mode: Custom (WD); else all headings are ignored",
       "Path Mode: Straight Lines; curves leave the free space",

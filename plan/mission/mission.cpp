@@ -25,8 +25,9 @@ void Write(const std::filesystem::path& folder, const std::string& name, const s
 // DJI Fly opens no longer ones.
 constexpr size_t kDjiFlyWaypoints = 200;
 
-void WriteDji(const Plan& plan, const std::vector<Route>& routes, const MissionOptions& options,
-              const std::filesystem::path& folder, MissionFiles& files) {
+void WriteDji(const Plan& plan, const std::vector<MissionRoute>& routes,
+              const MissionOptions& options, const std::filesystem::path& folder,
+              MissionFiles& files) {
   const bool is_known =
       options.dji.drone != 0 && (options.dji.payload != 0 || options.dji.drone == kDjiFlyDrone);
   if (!is_known) {
@@ -54,10 +55,11 @@ void WriteDji(const Plan& plan, const std::vector<Route>& routes, const MissionO
 }
 
 // mission_2_3.csv is the third part of the second flight.
-void WriteLitchi(const Plan& plan, const std::vector<Route>& routes, const MissionOptions& options,
-                 const std::filesystem::path& folder, MissionFiles& files) {
+void WriteLitchi(const Plan& plan, const std::vector<MissionRoute>& routes,
+                 const MissionOptions& options, const std::filesystem::path& folder,
+                 MissionFiles& files) {
   std::vector<std::vector<std::string>> flights;
-  for (const Route& route : routes) flights.push_back(LitchiCsv(plan, route, options));
+  for (const MissionRoute& route : routes) flights.push_back(LitchiCsv(plan, route, options));
   const bool has_parts =
       std::ranges::any_of(flights, [](const auto& parts) { return parts.size() > 1; });
   for (size_t i = 0; i < flights.size(); ++i) {
@@ -83,8 +85,8 @@ void WriteLitchi(const Plan& plan, const std::vector<Route>& routes, const Missi
 MissionFiles WriteMissionFiles(const Plan& plan, const MissionOptions& options,
                                const std::filesystem::path& folder) {
   MissionFiles files;
-  std::vector<Route> routes = RoutesOf(plan);
-  std::erase_if(routes, [](const Route& route) { return route.stops.empty(); });
+  std::vector<MissionRoute> routes = MissionRoutes(plan);
+  std::erase_if(routes, [](const MissionRoute& route) { return route.stops.empty(); });
   if (routes.empty()) {
     throw Error(ErrorKind::kStageFailed, "no flight of the plan leaves the ground");
   }

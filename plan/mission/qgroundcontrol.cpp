@@ -73,7 +73,7 @@ class Items {
   Json items_ = Json::array();
 };
 
-void AddStop(const RouteStop& stop, const MissionOptions& options, Items& items) {
+void AddStop(const MissionStop& stop, const MissionOptions& options, Items& items) {
   const double hold_s = 0;  // the wait comes after the gimbal has its order
   items.AddPlace(kWaypoint, {hold_s, 0, 0, Centi(CompassDegrees(stop.yaw_deg))}, stop.geodetic,
                  stop.height_m);
@@ -113,13 +113,13 @@ Json FencePolygon(const Plan& plan, const std::vector<Eigen::Vector2d>& ring) {
 
 }  // namespace
 
-std::string QGroundControlPlan(const Plan& plan, const Route& route,
+std::string QGroundControlPlan(const Plan& plan, const MissionRoute& route,
                                const MissionOptions& options) {
   const Geodetic home = GeodeticFromPlan(plan.origin, plan.home_m.head<2>());
   Items items;
   items.AddPlace(kTakeOff, {0, 0, 0, nullptr}, home, route.take_off_height_m);
   items.AddCommand(kSpeed, {1, options.speed_m_per_s, -1});
-  for (const RouteStop& stop : WithApproach(plan, route, route.stops)) {
+  for (const MissionStop& stop : WithApproach(plan, route, route.stops)) {
     AddStop(stop, options, items);
   }
   items.AddCommand(kReturn, {});

@@ -11,6 +11,7 @@ namespace stucco::plan {
 
 // A flight as QGroundControl's .plan for PX4: take-off, stops with gimbal and photo, return;
 // no-fly polygons as a fence.
-std::string QGroundControlPlan(const Plan& plan, const Route& route, const MissionOptions& options);
+std::string QGroundControlPlan(const Plan& plan, const MissionRoute& route,
+                               const MissionOptions& options);
 
 }  // namespace stucco::plan

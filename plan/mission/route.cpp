@@ -46,7 +46,7 @@ ViewsOfHover ByHover(const Plan& plan) {
 }
 
 void Append(const Plan& plan, const Eigen::Vector3d& position, std::vector<PlannedView> views,
-            std::vector<RouteStop>& stops) {
+            std::vector<MissionStop>& stops) {
   if (!stops.empty() && (stops.back().position_m - position).norm() < kSamePoint) {
     std::ranges::move(views, std::back_inserter(stops.back().views));
     return;
@@ -58,9 +58,9 @@ void Append(const Plan& plan, const Eigen::Vector3d& position, std::vector<Plann
 }
 
 // The drone turns while it flies: it arrives as the photo wants it.
-void SetYaws(std::vector<RouteStop>& stops) {
+void SetYaws(std::vector<MissionStop>& stops) {
   double yaw = 0;
-  for (const RouteStop& stop : stops) {
+  for (const MissionStop& stop : stops) {
     if (!stop.views.empty()) yaw = stop.views.back().yaw_deg;  // after the last photo it stays
   }
   for (auto stop = stops.rbegin(); stop != stops.rend(); ++stop) {
@@ -87,8 +87,8 @@ double ReturnHeight(const Plan& plan) {
 // Nearer than this to the wished height is there already.
 constexpr double kSameHeight = 1;
 
-RouteStop Above(const Plan& plan, const RouteStop& stop, double z) {
-  RouteStop above = stop;
+MissionStop Above(const Plan& plan, const MissionStop& stop, double z) {
+  MissionStop above = stop;
   above.views.clear();
   above.position_m.z() = z;
   above.geodetic = GeodeticFromPlan(plan.origin, above.position_m.head<2>());
@@ -97,14 +97,15 @@ RouteStop Above(const Plan& plan, const RouteStop& stop, double z) {
 }
 
 // Autopilots want two points at least: the second is straight above the only one.
-void AddPointAbove(const Plan& plan, double height_m, std::vector<RouteStop>& stops) {
+void AddPointAbove(const Plan& plan, double height_m, std::vector<MissionStop>& stops) {
   if (stops.size() != 1) return;
   const double z = std::max(plan.home_m.z() + height_m, stops.front().position_m.z() + kSameHeight);
   stops.insert(stops.begin(), Above(plan, stops.front(), z));
 }
 
-Route RouteOf(const Plan& plan, const PlannedFlight& flight, const ViewsOfHover& hovers) {
-  Route route;
+MissionRoute MissionRouteOf(const Plan& plan, const PlannedFlight& flight,
+                            const ViewsOfHover& hovers) {
+  MissionRoute route;
   route.length_m = flight.length_m;
   route.time_min = flight.time_min;
   for (const PlannedWaypoint& waypoint : InTheAir(plan, flight.waypoints)) {
@@ -139,8 +140,8 @@ std::string NumberedName(const std::string& stem, const std::string& extension, 
   return fmt::format("{}_{}{}", stem, index + 1, extension);
 }
 
-std::vector<RouteStop> WithApproach(const Plan& plan, const Route& route,
-                                    std::vector<RouteStop> stops) {
+std::vector<MissionStop> WithApproach(const Plan& plan, const MissionRoute& route,
+                                      std::vector<MissionStop> stops) {
   if (stops.empty()) return stops;
   const double z = plan.home_m.z() + route.return_height_m;
   if (z - stops.front().position_m.z() > kSameHeight) {
@@ -152,16 +153,16 @@ std::vector<RouteStop> WithApproach(const Plan& plan, const Route& route,
   return stops;
 }
 
-std::vector<Route> RoutesOf(const Plan& plan) {
+std::vector<MissionRoute> MissionRoutes(const Plan& plan) {
   if (plan.flights.empty()) {
     throw Error(ErrorKind::kStageFailed, "the plan has no flights to write mission files of",
                 "plan the path first: the views alone do not say how to get there");
   }
   const ViewsOfHover hovers = ByHover(plan);
   const double return_height = ReturnHeight(plan);
-  std::vector<Route> routes;
+  std::vector<MissionRoute> routes;
   for (const PlannedFlight& flight : plan.flights) {
-    Route& route = routes.emplace_back(RouteOf(plan, flight, hovers));
+    MissionRoute& route = routes.emplace_back(MissionRouteOf(plan, flight, hovers));
     AddPointAbove(plan, return_height, route.stops);
     route.return_height_m = return_height;
     // The way to the first point is the drone's own: it goes above everything.

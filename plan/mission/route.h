@@ -12,7 +12,7 @@
 namespace stucco::plan {
 
 // A point of a flight as mission files need it.
-struct RouteStop {
+struct MissionStop {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // in the frame of the plan
   Geodetic geodetic;
   double height_m = 0;  // above the take-off point
@@ -22,8 +22,8 @@ struct RouteStop {
 
 // One flight from take-off to landing, without the points on the ground. Between them the drone
 // flies straight lines.
-struct Route {
-  std::vector<RouteStop> stops;
+struct MissionRoute {
+  std::vector<MissionStop> stops;
   double take_off_height_m = 0;  // above home: climb to it before anything else
   double return_height_m = 0;    // above home: nothing of the site reaches it
   double length_m = 0;
@@ -31,12 +31,12 @@ struct Route {
 };
 
 // A route per flight. Throws Error (kStageFailed) when the plan has no flights.
-std::vector<Route> RoutesOf(const Plan& plan);
+std::vector<MissionRoute> MissionRoutes(const Plan& plan);
 
 // A route for autopilots that go to the first point the straight way: it starts and ends at return
 // height, straight above its first and last point.
-std::vector<RouteStop> WithApproach(const Plan& plan, const Route& route,
-                                    std::vector<RouteStop> stops);
+std::vector<MissionStop> WithApproach(const Plan& plan, const MissionRoute& route,
+                                      std::vector<MissionStop> stops);
 
 // In (-180, 180] and [0, 360).
 double SignedDegrees(double degrees);

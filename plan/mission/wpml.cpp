@@ -68,7 +68,7 @@ std::string Text(const pugi::xml_document& xml) {
   return writer.text;
 }
 
-void AddConfig(pugi::xml_node document, const Plan* plan, const Route& route,
+void AddConfig(pugi::xml_node document, const Plan* plan, const MissionRoute& route,
                const MissionOptions& options) {
   pugi::xml_node config = document.append_child("wpml:missionConfig");
   Put(config, "wpml:flyToWaylineMode", "safely");
@@ -134,7 +134,7 @@ void AddPhoto(pugi::xml_node group, int& id, const std::string& view,
 }
 
 // All photos of a stop, one after the other.
-void AddActions(pugi::xml_node placemark, const RouteStop& stop, size_t index, int group_id,
+void AddActions(pugi::xml_node placemark, const MissionStop& stop, size_t index, int group_id,
                 const MissionOptions& options) {
   pugi::xml_node group = placemark.append_child("wpml:actionGroup");
   Put(group, "wpml:actionGroupId", group_id);
@@ -176,7 +176,7 @@ void AddTurnMode(pugi::xml_node parent) {
   Put(turn, "wpml:waypointTurnDampingDist", 0);
 }
 
-pugi::xml_node AddPlacemark(pugi::xml_node folder, const RouteStop& stop, size_t index) {
+pugi::xml_node AddPlacemark(pugi::xml_node folder, const MissionStop& stop, size_t index) {
   pugi::xml_node placemark = folder.append_child("Placemark");
   Put(placemark.append_child("Point"), "coordinates",
       fmt::format("{:.8f},{:.8f}", stop.geodetic.longitude_deg, stop.geodetic.latitude_deg));
@@ -184,7 +184,8 @@ pugi::xml_node AddPlacemark(pugi::xml_node folder, const RouteStop& stop, size_t
   return placemark;
 }
 
-void AddTemplateFolder(pugi::xml_node document, const Route& route, const MissionOptions& options) {
+void AddTemplateFolder(pugi::xml_node document, const MissionRoute& route,
+                       const MissionOptions& options) {
   pugi::xml_node folder = document.append_child("Folder");
   Put(folder, "wpml:templateType", "waypoint");
   Put(folder, "wpml:templateId", 0);
@@ -203,7 +204,7 @@ void AddTemplateFolder(pugi::xml_node document, const Route& route, const Missio
   Put(payload, "wpml:imageFormat", HasLenses(options.dji) ? "wide" : "visible");
   int group = 0;
   for (size_t i = 0; i < route.stops.size(); ++i) {
-    const RouteStop& stop = route.stops[i];
+    const MissionStop& stop = route.stops[i];
     pugi::xml_node placemark = AddPlacemark(folder, stop, i);
     Put(placemark, "wpml:useGlobalHeight", 0);
     // DJI's own files repeat the relative height here in this height mode.
@@ -223,7 +224,8 @@ void AddTemplateFolder(pugi::xml_node document, const Route& route, const Missio
 
 }  // namespace
 
-std::string WpmlTemplate(const Plan& plan, const Route& route, const MissionOptions& options) {
+std::string WpmlTemplate(const Plan& plan, const MissionRoute& route,
+                         const MissionOptions& options) {
   pugi::xml_document xml;
   pugi::xml_node document = AddDocument(xml);
   Put(document, "wpml:author", "Stucco");
@@ -234,7 +236,7 @@ std::string WpmlTemplate(const Plan& plan, const Route& route, const MissionOpti
   return Text(xml);
 }
 
-std::string WpmlWaylines(const Route& route, const MissionOptions& options) {
+std::string WpmlWaylines(const MissionRoute& route, const MissionOptions& options) {
   pugi::xml_document xml;
   pugi::xml_node document = AddDocument(xml);
   AddConfig(document, nullptr, route, options);
@@ -247,7 +249,7 @@ std::string WpmlWaylines(const Route& route, const MissionOptions& options) {
   PutDecimal(folder, "wpml:autoFlightSpeed", options.speed_m_per_s, 1);
   int group = 0;
   for (size_t i = 0; i < route.stops.size(); ++i) {
-    const RouteStop& stop = route.stops[i];
+    const MissionStop& stop = route.stops[i];
     pugi::xml_node placemark = AddPlacemark(folder, stop, i);
     PutHeight(placemark, "wpml:executeHeight", stop.height_m);
     PutDecimal(placemark, "wpml:waypointSpeed", options.speed_m_per_s, 1);
@@ -259,7 +261,7 @@ std::string WpmlWaylines(const Route& route, const MissionOptions& options) {
   return Text(xml);
 }
 
-void WriteWpmlKmz(const Plan& plan, const Route& route, const MissionOptions& options,
+void WriteWpmlKmz(const Plan& plan, const MissionRoute& route, const MissionOptions& options,
                   const std::filesystem::path& path) {
   if (options.dji.drone == 0) {
     throw Error(ErrorKind::kUsage, path.string() + ": DJI's files do not know this drone");

@@ -28,11 +28,12 @@ struct MissionOptions {
 };
 
 // The two documents of a DJI mission: what Pilot 2 shows and edits, and what the drone executes.
-std::string WpmlTemplate(const Plan& plan, const Route& route, const MissionOptions& options);
-std::string WpmlWaylines(const Route& route, const MissionOptions& options);
+std::string WpmlTemplate(const Plan& plan, const MissionRoute& route,
+                         const MissionOptions& options);
+std::string WpmlWaylines(const MissionRoute& route, const MissionOptions& options);
 
 // Both in a KMZ; the same plan gives the same bytes. Throws Error when it cannot be written.
-void WriteWpmlKmz(const Plan& plan, const Route& route, const MissionOptions& options,
+void WriteWpmlKmz(const Plan& plan, const MissionRoute& route, const MissionOptions& options,
                   const std::filesystem::path& path);
 
 }  // namespace stucco::plan

@@ -66,7 +66,7 @@ std::vector<Taken> FlyLitchi(const Plan& plan, const std::string& csv) {
 TEST(Litchi, TakesEveryPlannedPhoto) {
   const Plan plan = test::MakePlan(1.25);
   size_t first = 0;
-  for (const Route& route : RoutesOf(plan)) {
+  for (const MissionRoute& route : MissionRoutes(plan)) {
     const auto files = LitchiCsv(plan, route, test::Mavic3E());
     ASSERT_EQ(files.size(), 1u);
     const auto photos = FlyLitchi(plan, files[0]);
@@ -81,7 +81,7 @@ TEST(Litchi, TakesEveryPlannedPhoto) {
 
 TEST(Litchi, HasTheColumnsOfTheApp) {
   const Plan plan = test::MakePlan();
-  const auto table = test::Table(LitchiCsv(plan, RoutesOf(plan)[0], test::Mavic3E())[0], ',');
+  const auto table = test::Table(LitchiCsv(plan, MissionRoutes(plan)[0], test::Mavic3E())[0], ',');
   ASSERT_EQ(table[0].size(), kColumns);
   EXPECT_EQ(table[0][3], "heading(deg)");
   EXPECT_EQ(table[0][kFirstAction], "actiontype1");
@@ -91,7 +91,7 @@ TEST(Litchi, HasTheColumnsOfTheApp) {
 
 TEST(Litchi, SplitsStopsWithManyPhotos) {
   Plan plan = test::MakePlan();
-  Route route = RoutesOf(plan)[1];
+  MissionRoute route = MissionRoutes(plan)[1];
   std::vector<PlannedView>& views = route.stops[1].views;
   const PlannedView last = views.back();
   for (int i = 0; i < 9; ++i) {
@@ -112,8 +112,8 @@ TEST(Litchi, SplitsStopsWithManyPhotos) {
 
 TEST(Litchi, SplitsLongFlightsAndApproachesFromAbove) {
   Plan plan = test::MakePlan();
-  Route route = RoutesOf(plan)[0];
-  const RouteStop stop = route.stops[1];
+  MissionRoute route = MissionRoutes(plan)[0];
+  const MissionStop stop = route.stops[1];
   for (int i = 0; i < 250; ++i) {
     route.stops.push_back(stop);
     route.stops.back().position_m.x() -= i;
@@ -135,7 +135,7 @@ TEST(Litchi, SplitsLongFlightsAndApproachesFromAbove) {
 
 TEST(Litchi, TellsWhatTheFileCannotHold) {
   const std::vector<std::string> settings =
-      LitchiSettings(RoutesOf(test::MakePlan())[0], test::Mavic3E());
+      LitchiSettings(MissionRoutes(test::MakePlan())[0], test::Mavic3E());
   ASSERT_GE(settings.size(), 5u);
   EXPECT_NE(settings[0].find("Heading Mode"), std::string::npos);
   EXPECT_NE(settings.back().find("30 m"), std::string::npos);
@@ -171,7 +171,7 @@ std::vector<Taken> FlyQGroundControl(const Plan& plan, const nlohmann::json& fil
 TEST(QGroundControl, TakesEveryPlannedPhoto) {
   const Plan plan = test::MakePlan(1.25);
   size_t first = 0;
-  for (const Route& route : RoutesOf(plan)) {
+  for (const MissionRoute& route : MissionRoutes(plan)) {
     const auto json = nlohmann::json::parse(QGroundControlPlan(plan, route, test::Mavic3E()));
     const auto photos = FlyQGroundControl(plan, json);
     ASSERT_EQ(photos.size(), first == 0 ? 4u : 5u);
@@ -185,7 +185,7 @@ TEST(QGroundControl, TakesEveryPlannedPhoto) {
 TEST(QGroundControl, HasTheFrameOfAPlan) {
   const Plan plan = test::MakePlan();
   const auto json =
-      nlohmann::json::parse(QGroundControlPlan(plan, RoutesOf(plan)[0], test::Mavic3E()));
+      nlohmann::json::parse(QGroundControlPlan(plan, MissionRoutes(plan)[0], test::Mavic3E()));
   EXPECT_EQ(json["fileType"], "Plan");
   EXPECT_EQ(json["version"], 1);
   EXPECT_EQ(json["mission"]["version"], 2);
@@ -202,7 +202,7 @@ TEST(QGroundControl, HasTheFrameOfAPlan) {
 TEST(QGroundControl, FencesNoFlyAreasClockwise) {
   const Plan plan = test::MakePlan();
   const auto json =
-      nlohmann::json::parse(QGroundControlPlan(plan, RoutesOf(plan)[0], test::Mavic3E()));
+      nlohmann::json::parse(QGroundControlPlan(plan, MissionRoutes(plan)[0], test::Mavic3E()));
   ASSERT_EQ(json["geoFence"]["polygons"].size(), 1u);
   const auto& fence = json["geoFence"]["polygons"][0];
   EXPECT_EQ(fence["inclusion"], false);

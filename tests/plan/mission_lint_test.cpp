@@ -44,11 +44,11 @@ struct Fault {
 };
 
 std::string Waylines() {
-  return WpmlWaylines(RoutesOf(test::MakePlan())[0], test::Mavic3E());
+  return WpmlWaylines(MissionRoutes(test::MakePlan())[0], test::Mavic3E());
 }
 std::string Template() {
   const Plan plan = test::MakePlan();
-  return WpmlTemplate(plan, RoutesOf(plan)[0], test::Mavic3E());
+  return WpmlTemplate(plan, MissionRoutes(plan)[0], test::Mavic3E());
 }
 
 TEST(WpmlLint, FindsNothingInOurOwnFiles) {
@@ -180,7 +180,7 @@ TEST(WpmlLint, TemplatesKeepToNoOrder) {
 
 TEST(WpmlLint, CountsWaypoints) {
   Plan plan = test::MakePlan();
-  std::vector<Route> routes = RoutesOf(plan);
+  std::vector<MissionRoute> routes = MissionRoutes(plan);
   routes[0].stops.resize(1);
   EXPECT_TRUE(Has(LintWaylines(WpmlWaylines(routes[0], test::Mavic3E())), "waypoint-count",
                   "Folder/Placemark"));
@@ -229,7 +229,7 @@ TEST(WpmlLint, TemplateAndWaylinesMustAgree) {
   EXPECT_TRUE(Has(with("RTHHeight>30.00<", "RTHHeight>31.00<"), "agreement", "globalRTHHeight"));
   EXPECT_TRUE(Has(with("droneEnumValue>77<", "droneEnumValue>67<"), "agreement", "droneInfo"));
   Plan plan = test::MakePlan();
-  std::vector<Route> routes = RoutesOf(plan);
+  std::vector<MissionRoute> routes = MissionRoutes(plan);
   routes[0].stops.pop_back();
   internal::WriteZip(folder / "m.kmz",
                      {{"wpmz/template.kml", Template()},

@@ -9,9 +9,9 @@
 namespace stucco::plan {
 namespace {
 
-TEST(Route, LeavesOutThePointsOnTheGround) {
+TEST(MissionRoute, LeavesOutThePointsOnTheGround) {
   const Plan plan = test::MakePlan();
-  const std::vector<Route> routes = RoutesOf(plan);
+  const std::vector<MissionRoute> routes = MissionRoutes(plan);
   ASSERT_EQ(routes.size(), 2u);
   ASSERT_EQ(routes[0].stops.size(), 5u);
   EXPECT_EQ(routes[0].stops.front().height_m, 30);
@@ -20,9 +20,9 @@ TEST(Route, LeavesOutThePointsOnTheGround) {
   EXPECT_EQ(routes[0].time_min, 3.25);
 }
 
-TEST(Route, KeepsPhotosInOrderAndTurnsBeforeItArrives) {
+TEST(MissionRoute, KeepsPhotosInOrderAndTurnsBeforeItArrives) {
   const Plan plan = test::MakePlan();
-  const std::vector<RouteStop> stops = RoutesOf(plan)[0].stops;
+  const std::vector<MissionStop> stops = MissionRoutes(plan)[0].stops;
   ASSERT_EQ(stops[1].views.size(), 2u);
   EXPECT_EQ(stops[1].views[0].id, "h000v0");
   EXPECT_EQ(stops[1].views[1].id, "h000v1");
@@ -33,41 +33,41 @@ TEST(Route, KeepsPhotosInOrderAndTurnsBeforeItArrives) {
   EXPECT_EQ(stops[4].yaw_deg, 90);  // of the last photo
 }
 
-TEST(Route, HeightsCountFromHome) {
-  const std::vector<Route> routes = RoutesOf(test::MakePlan(4));
+TEST(MissionRoute, HeightsCountFromHome) {
+  const std::vector<MissionRoute> routes = MissionRoutes(test::MakePlan(4));
   EXPECT_EQ(routes[0].stops[1].height_m, 4);
   EXPECT_EQ(routes[0].take_off_height_m, 30);  // above the ground at home: more than blocked_to
 }
 
-TEST(Route, ReturnsAboveEverything) {
+TEST(MissionRoute, ReturnsAboveEverything) {
   Plan plan = test::MakePlan();
   plan.footprints[1].blocked_to_m = 44;
-  EXPECT_EQ(RoutesOf(plan)[0].return_height_m, 44);
+  EXPECT_EQ(MissionRoutes(plan)[0].return_height_m, 44);
   plan.flights[1].waypoints[0].position_m.z() = 51;  // a flight over higher ground
-  EXPECT_EQ(RoutesOf(plan)[0].return_height_m, 51);
+  EXPECT_EQ(MissionRoutes(plan)[0].return_height_m, 51);
 }
 
-TEST(Route, MergesPointsThatCoincide) {
+TEST(MissionRoute, MergesPointsThatCoincide) {
   Plan plan = test::MakePlan();
   auto& waypoints = plan.flights[0].waypoints;
   waypoints.insert(waypoints.begin() + 2, {waypoints[2].position_m, -1});
-  EXPECT_EQ(RoutesOf(plan)[0].stops.size(), 5u);
-  EXPECT_EQ(RoutesOf(plan)[0].stops[1].views.size(), 2u);
+  EXPECT_EQ(MissionRoutes(plan)[0].stops.size(), 5u);
+  EXPECT_EQ(MissionRoutes(plan)[0].stops[1].views.size(), 2u);
 }
 
-TEST(Route, GivesALoneStopAPointAboveIt) {
+TEST(MissionRoute, GivesALoneStopAPointAboveIt) {
   Plan plan = test::MakePlan();
   plan.flights[0].waypoints = {{plan.home_m, -1}, {{20, -15, 8}, 0}, {plan.home_m, -1}};
-  const std::vector<RouteStop> stops = RoutesOf(plan)[0].stops;
+  const std::vector<MissionStop> stops = MissionRoutes(plan)[0].stops;
   ASSERT_EQ(stops.size(), 2u);
   EXPECT_EQ(stops[0].position_m, Eigen::Vector3d(20, -15, 30));
   EXPECT_TRUE(stops[0].views.empty());
   EXPECT_EQ(stops[1].views.size(), 2u);
 }
 
-TEST(Route, ApproachesFromAbove) {
+TEST(MissionRoute, ApproachesFromAbove) {
   const Plan plan = test::MakePlan();
-  const Route route = RoutesOf(plan)[0];
+  const MissionRoute route = MissionRoutes(plan)[0];
   const auto low = WithApproach(plan, route, {route.stops[1], route.stops[2]});
   ASSERT_EQ(low.size(), 4u);
   EXPECT_EQ(low.front().position_m, Eigen::Vector3d(20, -15, 30));
@@ -78,21 +78,21 @@ TEST(Route, ApproachesFromAbove) {
   EXPECT_TRUE(WithApproach(plan, route, {}).empty());
 }
 
-TEST(Route, RefusesAPlanWithoutAPath) {
+TEST(MissionRoute, RefusesAPlanWithoutAPath) {
   Plan plan = test::MakePlan();
   plan.flights.clear();
-  EXPECT_THROW(RoutesOf(plan), Error);
+  EXPECT_THROW(MissionRoutes(plan), Error);
   plan = test::MakePlan();
   plan.flights[0].waypoints[2].hover = 77;
-  EXPECT_THROW(RoutesOf(plan), Error);
+  EXPECT_THROW(MissionRoutes(plan), Error);
 }
 
-TEST(Route, AFlightOnTheGroundHasNoStops) {
+TEST(MissionRoute, AFlightOnTheGroundHasNoStops) {
   Plan plan = test::MakePlan();
   plan.flights[0].waypoints = {{plan.home_m, -1}, {plan.home_m, -1}};
-  EXPECT_TRUE(RoutesOf(plan)[0].stops.empty());
+  EXPECT_TRUE(MissionRoutes(plan)[0].stops.empty());
   plan.flights[0].waypoints.clear();
-  EXPECT_TRUE(RoutesOf(plan)[0].stops.empty());
+  EXPECT_TRUE(MissionRoutes(plan)[0].stops.empty());
 }
 
 TEST(Degrees, AreWrapped) {

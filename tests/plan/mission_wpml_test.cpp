@@ -83,7 +83,7 @@ void ExpectViews(const Plan& plan, const std::vector<Taken>& photos, size_t firs
 
 TEST(Wpml, TakesEveryPlannedPhoto) {
   const Plan plan = test::MakePlan(1.25);
-  const std::vector<Route> routes = RoutesOf(plan);
+  const std::vector<MissionRoute> routes = MissionRoutes(plan);
   const auto first = Fly(plan, WpmlWaylines(routes[0], test::Mavic3E()));
   const auto second = Fly(plan, WpmlWaylines(routes[1], test::Mavic3E()));
   ASSERT_EQ(first.size(), 4u);
@@ -99,7 +99,7 @@ TEST(Wpml, PassesTheLinter) {
                                 DroneEnums{kDjiFlyDrone, 0, 0}}) {
     MissionOptions options;
     options.dji = dji;
-    for (const Route& route : RoutesOf(plan)) {
+    for (const MissionRoute& route : MissionRoutes(plan)) {
       WriteWpmlKmz(plan, route, options, folder / "m.kmz");
       for (const LintFinding& finding : LintKmz(folder / "m.kmz")) {
         ADD_FAILURE() << finding.element << ": " << finding.text << " (" << finding.rule << ")";
@@ -110,7 +110,7 @@ TEST(Wpml, PassesTheLinter) {
 
 TEST(Wpml, SaysHowHighAndHowToReturn) {
   const Plan plan = test::MakePlan();
-  const Route route = RoutesOf(plan)[0];
+  const MissionRoute route = MissionRoutes(plan)[0];
   pugi::xml_document xml;
   ASSERT_TRUE(xml.load_string(WpmlWaylines(route, test::Mavic3E()).c_str()));
   const pugi::xml_node document = xml.child("kml").child("Document");
@@ -125,7 +125,7 @@ TEST(Wpml, SaysHowHighAndHowToReturn) {
 }
 
 TEST(Wpml, StopsAtCornersWithoutActions) {
-  const Route route = RoutesOf(test::MakePlan())[0];
+  const MissionRoute route = MissionRoutes(test::MakePlan())[0];
   pugi::xml_document xml;
   ASSERT_TRUE(xml.load_string(WpmlWaylines(route, test::Mavic3E()).c_str()));
   for (const pugi::xml_node placemark :
@@ -140,7 +140,7 @@ TEST(Wpml, StopsAtCornersWithoutActions) {
 TEST(Wpml, DjiFlyGetsItsOwnDialect) {
   MissionOptions options;
   options.dji = {kDjiFlyDrone, 0, 0};
-  const std::string text = WpmlWaylines(RoutesOf(test::MakePlan())[0], options);
+  const std::string text = WpmlWaylines(MissionRoutes(test::MakePlan())[0], options);
   EXPECT_NE(text.find("<wpml:gimbalHeadingYawBase>aircraft<"), std::string::npos);
   EXPECT_NE(text.find("waypointHeadingAngleEnable>1<"), std::string::npos);
   EXPECT_EQ(text.find("payloadInfo"), std::string::npos);
@@ -148,7 +148,7 @@ TEST(Wpml, DjiFlyGetsItsOwnDialect) {
 
 TEST(Wpml, SameBytesInAnyTimeZone) {
   const Plan plan = test::MakePlan();
-  const Route route = RoutesOf(plan)[0];
+  const MissionRoute route = MissionRoutes(plan)[0];
   const TemporaryFolder folder;
   WriteWpmlKmz(plan, route, test::Mavic3E(), folder / "one.kmz");
   setenv("TZ", "Asia/Tokyo", 1);
@@ -164,7 +164,7 @@ TEST(Wpml, SameBytesInAnyTimeZone) {
 TEST(Wpml, RefusesADroneWithoutNumber) {
   const Plan plan = test::MakePlan();
   const TemporaryFolder folder;
-  EXPECT_THROW(WriteWpmlKmz(plan, RoutesOf(plan)[0], {}, folder / "m.kmz"), Error);
+  EXPECT_THROW(WriteWpmlKmz(plan, MissionRoutes(plan)[0], {}, folder / "m.kmz"), Error);
   EXPECT_FALSE(std::filesystem::exists(folder / "m.kmz"));
 }
 
