@@ -131,13 +131,20 @@ std::string Text(OGRFeature& feature, const std::vector<int>& columns) {
   return "";
 }
 
-// A length that the feature states, or a number of levels.
+// The first of these attributes that is a length. Many maps say 0 for what is not known.
+std::optional<double> FirstLength(OGRFeature& feature, const std::vector<int>& columns) {
+  for (const int column : columns) {
+    if (!feature.IsFieldSetAndNotNull(column)) continue;
+    const auto length = internal::ParseLength(feature.GetFieldAsString(column));
+    if (length && *length != 0) return length;
+  }
+  return std::nullopt;
+}
+
 std::optional<double> Length(OGRFeature& feature, const std::vector<int>& metres,
                              const std::vector<int>& levels) {
-  if (const auto length = internal::ParseLength(Text(feature, metres))) return length;
-  if (const auto count = internal::ParseLength(Text(feature, levels))) {
-    return *count * kMetresPerLevel;
-  }
+  if (const auto length = FirstLength(feature, metres)) return length;
+  if (const auto count = FirstLength(feature, levels)) return *count * kMetresPerLevel;
   return std::nullopt;
 }
 
@@ -154,7 +161,7 @@ void ReadHeights(OGRFeature& feature, const Columns& columns, RepairLog& repairs
   } else if (height) {
     repairs.Add(result.building, fmt::format("height {} m is impossible; ignored", *height));
   }
-  if (!underside || *underside == 0) return;
+  if (!underside) return;
   if (*underside > 0 && *underside < result.height_m.value_or(kHighestBuilding_m)) {
     result.min_height_m = *underside;
   } else {
@@ -228,12 +235,25 @@ std::string CrsOf(OGRLayer& layer) {
   return crs;
 }
 
+// Whether features have numbers of their own beside their attributes, as GeoJSON allows; GDAL
+// counts from 0 where they have none.
+bool HasOwnFids(OGRLayer& layer) {
+  const internal::QuietGdal quiet;
+  layer.ResetReading();
+  GIntBig place = 0;
+  for (; const OGRFeatureUniquePtr feature{layer.GetNextFeature()}; ++place) {
+    if (feature->GetFID() != place) return true;
+  }
+  return false;
+}
+
 // Features of a layer in the order of the file.
 class LayerReader {
  public:
   LayerReader(OGRLayer& layer, const Columns& columns, bool is_osm, RawMap& map)
       : layer_(layer), columns_(columns), is_osm_(is_osm), map_(map) {
-    has_fid_column_ = *layer.GetFIDColumn() != '\0';
+    use_fid_ =
+        *layer.GetFIDColumn() != '\0' || (!is_osm && columns.id.empty() && HasOwnFids(layer));
   }
 
   void Read() {
@@ -282,7 +302,7 @@ class LayerReader {
     std::string own = Text(feature, columns_.id);
     // A relation and a way may share a number.
     if (is_osm_ && !Text(feature, columns_.relation).empty()) own = fmt::format("R{}", own);
-    if (own.empty() && has_fid_column_) own = std::to_string(feature.GetFID());
+    if (own.empty() && use_fid_) own = std::to_string(feature.GetFID());
     return own;
   }
 
@@ -290,7 +310,7 @@ class LayerReader {
   const Columns& columns_;
   bool is_osm_;
   RawMap& map_;
-  bool has_fid_column_ = false;
+  bool use_fid_ = false;
   internal::BuildingIds ids_;
   int place_ = 0;
   int without_area_ = 0;

@@ -152,6 +152,8 @@ TEST(ReadMap, HeightAttributesInTheirOrder) {
                                       {square, {{"H", "8"}, {"Height", "9 m"}}},
                                       {square, {{"building:levels", "4"}}},
                                       {square, {{"height", "0"}}},
+                                      {square, {{"height", "-4"}}},
+                                      {square, {{"height", "0"}, {"building:levels", "2"}}},
                                       {square, {{"height", "20000"}}},
                                       {square, {{"height", "10"}, {"min_height", "12"}}},
                                       {square, {{"roof", "11"}}}});
@@ -161,14 +163,17 @@ TEST(ReadMap, HeightAttributesInTheirOrder) {
   EXPECT_THAT(map.features[2].height_m, Optional(12.0));
   EXPECT_FALSE(map.features[3].height_m);
   EXPECT_FALSE(map.features[4].height_m);
-  EXPECT_EQ(map.features[5].min_height_m, 0);
+  EXPECT_THAT(map.features[5].height_m, Optional(6.0));
   EXPECT_FALSE(map.features[6].height_m);
+  EXPECT_THAT(map.features[7].height_m, Optional(10.0));
+  EXPECT_EQ(map.features[7].min_height_m, 0);
+  EXPECT_FALSE(map.features[8].height_m);
   EXPECT_THAT(map.repairs.Lines(),
-              ElementsAre(HasSubstr("0 m is impossible"), HasSubstr("20000 m is impossible"),
+              ElementsAre(HasSubstr("-4 m is impossible"), HasSubstr("20000 m is impossible"),
                           HasSubstr("min_height 12 m is impossible")));
   PlanOptions options;
   options.height_field = "roof";
-  EXPECT_THAT(ReadMap(folder / "a.geojson", options).features[6].height_m, Optional(11.0));
+  EXPECT_THAT(ReadMap(folder / "a.geojson", options).features[8].height_m, Optional(11.0));
 }
 
 TEST(ReadMap, NamedAttributesAndLayersMustExist) {
@@ -191,6 +196,13 @@ TEST(ReadMap, WithoutIdsCountsOrUsesTheRowNumbersOfTheFile) {
   const Polygon square{{Rectangle(0, 0, 10, 10)}};
   WriteGeoJson(folder / "a.geojson", {{square, {}}, {square, {}}});
   EXPECT_THAT(Ids(ReadMap(folder / "a.geojson", {})), ElementsAre("B0001", "B0002"));
+  WriteFile(folder / "ids.geojson",
+            R"({"type":"FeatureCollection","features":[
+               {"type":"Feature","id":205,"properties":{},"geometry":{"type":"Polygon","coordinates":
+                 [[[14,50],[14.001,50],[14.001,50.001],[14,50.001],[14,50]]]}},
+               {"type":"Feature","id":7,"properties":{},"geometry":{"type":"Polygon","coordinates":
+                 [[[14,50],[14.001,50],[14.001,50.001],[14,50.001],[14,50]]]}}]})");
+  EXPECT_THAT(Ids(ReadMap(folder / "ids.geojson", {})), ElementsAre("B0205", "B0007"));
   WriteWithOgr(folder / "a.gpkg", "GPKG", "EPSG:32633", {{square, {}}, {square, {}}});
   EXPECT_THAT(Ids(ReadMap(folder / "a.gpkg", {})), ElementsAre("B0001", "B0002"));
 }
