@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 
 namespace stucco::plan {
 namespace {
@@ -15,6 +16,9 @@ constexpr int kDeepest = 6;
 constexpr int kLongestStretch = 3;
 // Perturbation swaps stretches of up to this many hovers.
 constexpr int kLongestSwap = 30;
+// Longer reversals are made only if they pay at once, not to see what may follow: trials must not
+// cost more on bigger tours.
+constexpr int kLongestTrial = 1000;
 
 }  // namespace
 
@@ -50,6 +54,11 @@ void TourSearch::Exchange(int a, int b, int c, int d) {
   const Change change{place_[b], place_[c]};
   Reverse(change.from, change.to);
   log_.push_back(change);
+}
+
+int TourSearch::ReversalLength(int from, int to) const {
+  const int apart = std::abs(place_[to] - place_[from]);
+  return std::min(apart, size_ - apart);
 }
 
 void TourSearch::TakeBack(size_t mark) {
@@ -134,6 +143,7 @@ bool TourSearch::Extend(int depth, int first, int last, double gain, double& bes
     const Port end = Facing(step.over, forward);
     const Port start = Facing(first, forward);
     bool better = costs_.IsBelow(end, start, step.gain - best);
+    if (!better && ReversalLength(last, step.over) > kLongestTrial) continue;
     if (better) best = step.gain - costs_(end, start);
     Exchange(first, last, step.over, step.to);
     if (depth + 1 < kDeepest && Extend(depth + 1, first, step.over, step.gain, best)) better = true;

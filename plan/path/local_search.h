@@ -52,6 +52,7 @@ class TourSearch {
 
   void Reverse(int from, int to);
   void Exchange(int a, int b, int c, int d);
+  int ReversalLength(int from, int to) const;
   void TakeBack(size_t mark);
   void Wake(int hover);
   double ImproveAwake();

@@ -12,7 +12,7 @@ namespace {
 
 // Per hover; a search asks for fewer different neighbours.
 constexpr size_t kEntriesPerHover = 256;
-constexpr size_t kMostEntries = size_t{1} << 23;  // 200 MB
+constexpr size_t kMostEntries = size_t{1} << 22;  // 168 MB
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -24,8 +24,7 @@ PortCosts::PortCosts(const HoverCosts& costs, std::span<const std::vector<Candid
   for (size_t i = 0; i < candidates.size(); ++i) {
     for (const Candidate& candidate : candidates[i]) {
       const int from = static_cast<int>(i);
-      Slot(from, candidate.hover) = {Pair(from, candidate.hover), candidate.length_m,
-                                     costs.Weight(from, candidate.hover)};
+      Slot(from, candidate.hover) = MakeEntry(from, candidate.hover, candidate.length_m);
     }
   }
 }
@@ -41,15 +40,25 @@ PortCosts::Entry& PortCosts::Slot(int i, int j) {
   return table_[hash & (table_.size() - 1)];
 }
 
+PortCosts::Entry PortCosts::MakeEntry(int i, int j, double length_m) const {
+  const auto [low, high] = std::minmax(i, j);
+  const double weight = costs_->Weight(low, high);
+  Entry entry{Pair(low, high), {}};
+  for (int k = 0; k < 4; ++k) {
+    const double turn = costs_->Turn(2 * low + k / 2, 2 * high + k % 2);
+    entry.costs[k] = HoverCosts::Cost(weight, length_m, turn);
+  }
+  return entry;
+}
+
 double PortCosts::operator()(Port a, Port b) {
+  if (a > b) std::swap(a, b);
   const int i = a / 2;
   const int j = b / 2;
   if (i == j) return 0;
   Entry& entry = Slot(i, j);
-  if (const uint64_t pair = Pair(i, j); entry.pair != pair) {
-    entry = {pair, costs_->Length(std::min(i, j), std::max(i, j)), costs_->Weight(i, j)};
-  }
-  return HoverCosts::Cost(entry.weight, entry.length_m, costs_->Turn(a, b));
+  if (entry.pair != Pair(i, j)) entry = MakeEntry(i, j, costs_->Length(i, j));
+  return entry.costs[2 * (a & 1) + (b & 1)];
 }
 
 bool PortCosts::IsBelow(Port a, Port b, double limit) {

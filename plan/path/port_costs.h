@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,9 +32,9 @@ class PortCosts {
  private:
   struct Entry {
     uint64_t pair = ~uint64_t{0};
-    double length_m = 0;
-    double weight = 0;
+    std::array<double, 4> costs{};  // of the ports of both, the lower hover's first
   };
+  Entry MakeEntry(int i, int j, double length_m) const;
   static uint64_t Pair(int i, int j);
   Entry& Slot(int i, int j);
 

@@ -18,7 +18,7 @@ namespace {
 // Up to here all orders are tried.
 constexpr int kMostTried = 7;
 // Perturbations per hover, and at most: what they gain falls off, what they cost does not.
-constexpr int kPerturbationsPerHover = 10;
+constexpr int kPerturbationsPerHover = 6;
 constexpr int kMostPerturbations = 200000;
 
 Order BestOfAll(int hovers, PortCosts& costs) {
@@ -43,16 +43,25 @@ Order BestOfAll(int hovers, PortCosts& costs) {
   return best;
 }
 
-Order Search(const HoverCosts& hover_costs, std::span<const std::vector<Candidate>> candidates,
-             PortCosts& costs) {
+// The tour before perturbation: nearly as good, and soon there.
+Order FirstTour(const HoverCosts& hover_costs, std::span<const std::vector<Candidate>> candidates,
+                PortCosts& costs) {
   if (hover_costs.size() <= kMostTried) return BestOfAll(hover_costs.size(), costs);
   Order order{GreedyTour(hover_costs, candidates), std::vector<char>(candidates.size())};
   ChooseDirections(order, costs);
   TourSearch search(costs, candidates, order);
   search.Improve();
+  return search.Result();
+}
+
+Order Perturbed(const Order& start, std::span<const std::vector<Candidate>> candidates,
+                PortCosts& costs) {
+  const int hovers = static_cast<int>(candidates.size());
+  if (hovers <= kMostTried) return start;
+  TourSearch search(costs, candidates, start);
   std::mt19937_64 random(candidates.size());
-  search.Perturb(std::min(kPerturbationsPerHover * hover_costs.size(), kMostPerturbations), random);
-  order = search.Result();
+  search.Perturb(std::min(kPerturbationsPerHover * hovers, kMostPerturbations), random);
+  Order order = search.Result();
   ChooseDirections(order, costs);
   return order;
 }
@@ -64,10 +73,15 @@ Tour PlanTour(const SafeSpace& space, std::vector<Hover> hovers, int threads) {
   const HoverCosts hover_costs(space, hovers);
   const auto candidates = FindCandidates(hover_costs, threads);
   PortCosts costs(hover_costs, candidates);
-  const Order order = Search(hover_costs, candidates, costs);
+  Order order = FirstTour(hover_costs, candidates, costs);
+  const double first_cost = TourCost(order, costs);
   Tour tour;
-  tour.report.cost = hovers.size() > 1 ? TourCost(order, costs) : 0;
-  tour.report.lower_bound = TourLowerBound(hover_costs, candidates, tour.report.cost);
+  // The bound needs a tour only for the length of its steps, so both go on at once.
+  ParallelFor(2, threads, [&](size_t task) {
+    if (task == 0) order = Perturbed(order, candidates, costs);
+    if (task == 1) tour.report.lower_bound = TourLowerBound(hover_costs, candidates, first_cost);
+  });
+  tour.report.cost = TourCost(order, costs);
   tour.given = order.hovers;
   for (const int k : order.hovers) {
     tour.hovers.push_back(hovers[k]);

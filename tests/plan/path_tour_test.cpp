@@ -118,7 +118,7 @@ TEST(Tour, IsTheCheapestOfFewHoversAndTheBoundBelowIt) {
   EXPECT_LT(gaps / tours, 0.10);  // a bound of nothing would be below, too
 }
 
-// Gaps and times on bigger maps are in the README of plan/path's folder.
+// Bigger ones: Tour.Figures.
 TEST(Tour, IsWithinFivePercentOfTheBound) {
   const Site open;
   const Obstacles sky(open);
