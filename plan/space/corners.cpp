@@ -46,15 +46,6 @@ std::vector<Vector2d> Distinct(const Ring& ring) {
 
 }  // namespace
 
-bool Corner::IsTangent(const Vector2d& direction) const {
-  const double from_in = Cross(in, direction);
-  const double to_out = Cross(direction, out);
-  // Within the cone between in and out, or that of the other way round.
-  const double tolerance = 1e-9 * direction.norm();
-  return (from_in >= -tolerance && to_out >= -tolerance) ||
-         (from_in <= tolerance && to_out <= tolerance);
-}
-
 std::vector<Corner> DilatedCorners(const Polygon& outline, double radius, double step_rad) {
   std::vector<Corner> corners;
   for (const Ring& ring : outline.rings) {

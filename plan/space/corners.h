@@ -3,9 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "plan/site.h"
+#include "plan/space/plane.h"
 
 namespace stucco::plan {
 
@@ -18,7 +20,14 @@ struct Corner {
 
   // Whether a straight line along `direction` touches the border here without cutting it; only such
   // lines are part of a shortest path. The way along it does not matter.
-  bool IsTangent(const Eigen::Vector2d& direction) const;
+  bool IsTangent(const Eigen::Vector2d& direction) const {
+    const double from_in = Cross(in, direction);
+    const double to_out = Cross(direction, out);
+    // Within the cone between in and out, or that of the other way round.
+    const double tolerance = 1e-9 * (std::abs(direction.x()) + std::abs(direction.y()));
+    return (from_in >= -tolerance && to_out >= -tolerance) ||
+           (from_in <= tolerance && to_out <= tolerance);
+  }
 };
 
 // Corners of the outline dilated by `radius`, arcs replaced by polygons around them whose sides

@@ -25,7 +25,7 @@ constexpr double kFootprintStep_rad = std::numbers::pi / 12;
 constexpr double kNoFlyStep_rad = std::numbers::pi / 4;
 // Beyond this many corners between two positions their distance is hundreds of metres, where a way
 // through the streets is hardly ever shorter than a climb, and the search would cost too much.
-constexpr size_t kMostNodes = 4000;
+constexpr size_t kMostNodes = 2000;
 
 // An edge of the visibility graph that may turn out to be blocked.
 struct Step {
@@ -112,23 +112,23 @@ std::optional<std::vector<Vector2d>> SafeSpace::FindTrack(const Query& query) co
   if (nodes.empty() || nodes.size() > kMostNodes) return std::nullopt;
   const int end = static_cast<int>(nodes.size());
   const int start = end + 1;
-  const auto corner = [&](int k) -> const Corner& { return nodes_[nodes[k]].corner; };
-  const auto at = [&](int k) {
-    return k == start ? query.start : k == end ? query.end : corner(k).position;
-  };
-  std::vector<int> from(nodes.size() + 2, -1);
-  std::vector<double> length(nodes.size() + 2, kInfinity);
+  std::vector<Corner> corners;  // side by side in memory: every step looks at all of them
+  for (const int k : nodes) corners.push_back(nodes_[k].corner);
+  corners.push_back({query.end, {}, {}});
+  corners.push_back({query.start, {}, {}});
+  const auto at = [&](int k) -> const Vector2d& { return corners[k].position; };
+  std::vector<int> from(corners.size(), -1);
+  std::vector<double> length(corners.size(), kInfinity);
   std::priority_queue<Step> open;
   const auto push_steps = [&](int k) {
     for (int to = 0; to <= end; ++to) {
-      if (from[to] >= 0 || to == k) continue;
       const Vector2d d = at(to) - at(k);
+      if (k != start && !corners[k].IsTangent(d)) continue;
+      if (to != end && !corners[to].IsTangent(d)) continue;
+      if (from[to] >= 0 || to == k) continue;
       const double whole = length[k] + d.norm();
       const double estimate = whole + (query.end - at(to)).norm();
-      if (!(estimate < query.bound_m) || !(whole < length[to])) continue;
-      if (to != end && !corner(to).IsTangent(d)) continue;
-      if (k != start && !corner(k).IsTangent(d)) continue;
-      open.push({estimate, whole, k, to});
+      if (estimate < query.bound_m) open.push({estimate, whole, k, to});
     }
   };
   length[start] = 0;
