@@ -9,11 +9,12 @@
 namespace stucco::plan {
 
 // A hover that may follow another in a good tour.
-struct Candidate {
+struct TourCandidate {
   int hover = 0;
   double length_m = 0;
   double cost = 0;  // of the best ports
 };
+using Candidate = TourCandidate;  // dipping views have candidates of their own
 
 // For each hover the cheapest others, cheapest first: ten by cost, and the nearest one in each
 // quadrant around it, which keeps clusters connected.
