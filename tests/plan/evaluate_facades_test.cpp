@@ -117,6 +117,20 @@ TEST(AssignViews, TakesTheBestViewAndNoMoreThanItTakes) {
   }
 }
 
+TEST(AssignViews, WeighsPhotosByWhatTheyNewlyCover) {
+  const Site site = MadeSite(std::vector<Ring>{Rectangle(0, 0, 40, 10)},
+                             {.safe_altitude_m = 25, .heights_m = {9}});
+  // They show 0 to 24 m, 4 to 26 m and 22 to 40 m of the south wall: the second is worth more than
+  // the third only as long as the first is not chosen.
+  const auto hovers = Assigned(
+      site, {Looking({12, -17, 4.5}, 0), Looking({15, -15.6, 4.5}, 0), Looking({34, -17, 4.5}, 0)});
+  EXPECT_EQ(hovers[0].shots[0].targets.size(), 1U);
+  EXPECT_EQ(hovers[1].shots[0].targets.size(), 0U);
+  ASSERT_EQ(hovers[2].shots[0].targets.size(), 1U);
+  EXPECT_NEAR(hovers[2].shots[0].targets[0].along_m.from_m, 24, 1);
+  EXPECT_NEAR(hovers[2].shots[0].targets[0].along_m.to_m, 40, 1e-9);
+}
+
 TEST(AssignViews, CoversAllThatAnyPhotoSees) {
   MadeSiteOptions options{.safe_altitude_m = 28, .margin_m = 28};
   const std::vector<Ring> town = RandomTown(9, 9);
