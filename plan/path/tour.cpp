@@ -19,7 +19,7 @@ namespace {
 constexpr int kMostTried = 7;
 // Perturbations per hover, and at most: what they gain falls off, what they cost does not.
 constexpr int kPerturbationsPerHover = 6;
-constexpr int kMostPerturbations = 200000;
+constexpr int kMostPerturbations = 100000;
 
 Order BestOfAll(int hovers, PortCosts& costs) {
   Order order;

@@ -79,6 +79,11 @@ bool SafeSpace::IsClear(const Vector2d& a, const Vector2d& b, double level_m) co
          !obstacles_->no_fly().Touches(p, q, kSafetyMargin_m);
 }
 
+// The first way found is never too much.
+bool SafeSpace::IsTooMuch(size_t nodes, const Query& query) {
+  return query.bound_m < kInfinity && nodes > kMostNodes;
+}
+
 std::vector<int> SafeSpace::NodesWithin(const Query& query) const {
   std::vector<int> found;
   const double distance = (query.end - query.start).norm();
@@ -97,7 +102,7 @@ std::vector<int> SafeSpace::NodesWithin(const Query& query) const {
                   (at - query.start).norm() + (at - query.end).norm() < query.bound_m) {
                 found.push_back(k);
               }
-              return found.size() > kMostNodes;
+              return IsTooMuch(found.size(), query);
             });
   std::sort(found.begin(), found.end());
   return found;
@@ -108,8 +113,10 @@ std::vector<int> SafeSpace::NodesWithin(const Query& query) const {
 std::optional<std::vector<Vector2d>> SafeSpace::FindTrack(const Query& query) const {
   if (!((query.end - query.start).norm() < query.bound_m)) return std::nullopt;
   if (IsClear(query.start, query.end, query.level_m)) return {{query.start, query.end}};
+  if (!IsClear(query.start, query.start, query.level_m)) return std::nullopt;
+  if (!IsClear(query.end, query.end, query.level_m)) return std::nullopt;
   const std::vector<int> nodes = NodesWithin(query);
-  if (nodes.empty() || nodes.size() > kMostNodes) return std::nullopt;
+  if (nodes.empty() || IsTooMuch(nodes.size(), query)) return std::nullopt;
   const int end = static_cast<int>(nodes.size());
   const int start = end + 1;
   std::vector<Corner> corners;  // side by side in memory: every step looks at all of them

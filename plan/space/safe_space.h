@@ -27,7 +27,9 @@ struct Route {
 // Ways on the map are found by A* on the visibility graph of dilated corners (tangents only),
 // within the ellipse that the best length so far allows; visibility is tested when an edge is about
 // to be used, against the true dilation. Arcs are polygons around the true ones, which makes a way
-// around a right-angled corner at most 0.6 % of its arc longer. Any number of threads may ask.
+// around a right-angled corner at most 0.6 % of its arc longer. Between positions with more than
+// 2000 corners in that ellipse (hundreds of metres apart) only the third family is looked at. Any
+// number of threads may ask.
 class SafeSpace {
  public:
   // Keeps a reference to the obstacles.
@@ -50,6 +52,7 @@ class SafeSpace {
   void AddCorners(const Polygon& outline, double radius, double step_rad, double top_m);
   // The shortest way on the map around what is higher than `level_m`, if shorter than `bound_m`.
   std::optional<std::vector<Eigen::Vector2d>> FindTrack(const Query& query) const;
+  static bool IsTooMuch(size_t nodes, const Query& query);
   std::vector<int> NodesWithin(const Query& query) const;
   bool IsClear(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double level_m) const;
 
