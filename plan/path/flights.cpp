@@ -38,7 +38,7 @@ struct Task {
 };
 
 void ThrowIfCancelled(const Progress& progress) {
-  if (progress.Cancelled()) throw Error(ErrorKind::kInterrupted, "planning was interrupted");
+  if (progress.Cancelled()) throw Error(ErrorKind::kInterrupted, "interrupted");
 }
 
 void CheckHome(const Task& task) {
@@ -74,6 +74,7 @@ std::vector<double> KeepReachable(const Task& task, std::vector<Hover>& hovers) 
   std::vector<double> all(hovers.size());
   task.progress.Begin("distances from home", hovers.size());
   ParallelFor(hovers.size(), task.threads, [&](size_t k) {
+    ThrowIfCancelled(task.progress);
     all[k] = task.space.Distance(task.Start(), hovers[k].position);
     task.progress.Advance();
   });
@@ -115,6 +116,7 @@ void CheckBattery(const Task& task, const std::vector<Hover>& hovers,
 std::vector<Route> FindLegs(const Task& task, const std::vector<Hover>& hovers) {
   std::vector<Route> legs(hovers.size());
   ParallelFor(legs.size(), task.threads, [&](size_t k) {
+    ThrowIfCancelled(task.progress);
     const Vector3d& from = hovers[k].position;
     const Vector3d& to = hovers[(k + 1) % hovers.size()].position;
     const auto route = task.space.ShortestRoute(from, to);
@@ -224,9 +226,7 @@ FlightPlan PlanFlights(const Site& site, const CameraPreset& camera, double batt
   const std::vector<double> given_home_m = KeepReachable(task, hovers);
   CheckBattery(task, hovers, given_home_m);
   ThrowIfCancelled(progress);
-  progress.Begin("order of the photos", 1);
-  Tour tour = PlanTour(space, std::move(hovers), threads);
-  progress.Advance();
+  Tour tour = PlanTour(space, std::move(hovers), threads, progress);
   ThrowIfCancelled(progress);
 
   const std::vector<Route> legs = FindLegs(task, tour.hovers);

@@ -10,16 +10,18 @@
 #include "plan/path/local_search.h"
 #include "plan/path/shot_order.h"
 #include "plan/path/tour_bound.h"
+#include "survey/error.h"
 #include "survey/parallel.h"
 
 namespace stucco::plan {
 namespace {
 
 // Up to here all orders are tried.
-constexpr int kMostTried = 7;
+constexpr size_t kMostTried = 7;
 // Perturbations per hover, and at most: what they gain falls off, what they cost does not.
-constexpr int kPerturbationsPerHover = 6;
-constexpr int kMostPerturbations = 100000;
+constexpr size_t kPerturbationsPerHover = 6;
+constexpr size_t kMostPerturbations = 100000;
+constexpr int kPerturbationsPerReport = 500;
 
 Order BestOfAll(int hovers, PortCosts& costs) {
   Order order;
@@ -46,7 +48,7 @@ Order BestOfAll(int hovers, PortCosts& costs) {
 // The tour before perturbation: nearly as good, and soon there.
 Order FirstTour(const HoverCosts& hover_costs, std::span<const std::vector<Candidate>> candidates,
                 PortCosts& costs) {
-  if (hover_costs.size() <= kMostTried) return BestOfAll(hover_costs.size(), costs);
+  if (candidates.size() <= kMostTried) return BestOfAll(hover_costs.size(), costs);
   Order order{GreedyTour(hover_costs, candidates), std::vector<char>(candidates.size())};
   ChooseDirections(order, costs);
   TourSearch search(costs, candidates, order);
@@ -54,13 +56,22 @@ Order FirstTour(const HoverCosts& hover_costs, std::span<const std::vector<Candi
   return search.Result();
 }
 
+int PerturbationsOf(size_t hovers) {
+  if (hovers <= kMostTried) return 0;
+  return static_cast<int>(std::min(kPerturbationsPerHover * hovers, kMostPerturbations));
+}
+
 Order Perturbed(const Order& start, std::span<const std::vector<Candidate>> candidates,
-                PortCosts& costs) {
-  const int hovers = static_cast<int>(candidates.size());
-  if (hovers <= kMostTried) return start;
+                PortCosts& costs, Progress& progress) {
+  const int perturbations = PerturbationsOf(candidates.size());
+  if (perturbations == 0) return start;
   TourSearch search(costs, candidates, start);
   std::mt19937_64 random(candidates.size());
-  search.Perturb(std::min(kPerturbationsPerHover * hovers, kMostPerturbations), random);
+  for (int done = 0; done < perturbations; done += kPerturbationsPerReport) {
+    if (progress.Cancelled()) throw Error(ErrorKind::kInterrupted, "interrupted");
+    search.Perturb(std::min(kPerturbationsPerReport, perturbations - done), random);
+    progress.Advance();
+  }
   Order order = search.Result();
   ChooseDirections(order, costs);
   return order;
@@ -68,7 +79,9 @@ Order Perturbed(const Order& start, std::span<const std::vector<Candidate>> cand
 
 }  // namespace
 
-Tour PlanTour(const SafeSpace& space, std::vector<Hover> hovers, int threads) {
+Tour PlanTour(const SafeSpace& space, std::vector<Hover> hovers, int threads, Progress& progress) {
+  const int reports = PerturbationsOf(hovers.size()) / kPerturbationsPerReport + 1;
+  progress.Begin("order of the photos", static_cast<size_t>(reports));
   ParallelFor(hovers.size(), threads, [&](size_t k) { OrderShots(hovers[k].shots); });
   const HoverCosts hover_costs(space, hovers);
   const auto candidates = FindCandidates(hover_costs, threads);
@@ -78,7 +91,7 @@ Tour PlanTour(const SafeSpace& space, std::vector<Hover> hovers, int threads) {
   Tour tour;
   // The bound needs a tour only for the length of its steps, so both go on at once.
   ParallelFor(2, threads, [&](size_t task) {
-    if (task == 0) order = Perturbed(order, candidates, costs);
+    if (task == 0) order = Perturbed(order, candidates, costs, progress);
     if (task == 1) tour.report.lower_bound = TourLowerBound(hover_costs, candidates, first_cost);
   });
   tour.report.cost = TourCost(order, costs);

@@ -6,6 +6,7 @@
 
 #include "plan/hover.h"
 #include "plan/space/safe_space.h"
+#include "survey/stage.h"
 
 namespace stucco::plan {
 
@@ -24,7 +25,9 @@ struct Tour {
 
 // A closed tour over the hovers, nearly the cheapest (costs: see HoverCosts). The photos within a
 // hover are ordered so that the camera turns little; the tour decides which end comes first. The
-// same result at any number of threads. All hovers must be free and able to reach each other.
-Tour PlanTour(const SafeSpace& space, std::vector<Hover> hovers, int threads);
+// same result at any number of threads. Throws Error (kInterrupted) when cancelled. All hovers must
+// be free and able to reach each other.
+Tour PlanTour(const SafeSpace& space, std::vector<Hover> hovers, int threads,
+              Progress& progress = SilentProgress());
 
 }  // namespace stucco::plan

@@ -15,6 +15,7 @@
 #include "plan/path/hover_costs.h"
 #include "plan/path/tour.h"
 #include "plan/path/tour_bound.h"
+#include "survey/error.h"
 #include "tests/plan/made_hovers.h"
 #include "tests/plan/made_site.h"
 
@@ -118,6 +119,29 @@ TEST(Tour, IsTheCheapestOfFewHoversAndTheBoundBelowIt) {
   EXPECT_LT(gaps / tours, 0.10);  // a bound of nothing would be below, too
 }
 
+// A bound from candidate edges alone would be the cost of a tour through the wrong neighbours.
+TEST(Tour, TheBoundHoldsWithPoorCandidates) {
+  const Site site = MadeSite(RandomTown(3, 4), {.safe_altitude_m = 40, .d_min_m = 4});
+  const Obstacles obstacles(site);
+  const SafeSpace space(obstacles);
+  for (uint64_t seed = 0; seed < 10; ++seed) {
+    const auto hovers = FewHovers(obstacles, 9, seed);
+    const HoverCosts costs(space, hovers);
+    std::vector<std::vector<Candidate>> poor(9);
+    for (int i = 0; i < 9; ++i) {
+      int farthest = i == 0 ? 1 : 0;
+      for (int j = 0; j < 9; ++j) {
+        if (j != i && costs.CheapestCost(i, j) > costs.CheapestCost(i, farthest)) farthest = j;
+      }
+      poor[i].push_back({farthest, costs.Length(i, farthest), costs.CheapestCost(i, farthest)});
+    }
+    const double cheapest = CheapestTour(costs);
+    const double bound = TourLowerBound(costs, poor, 1.1 * cheapest);
+    EXPECT_LE(bound, cheapest) << seed;
+    EXPECT_GE(bound, 0.7 * cheapest) << seed;
+  }
+}
+
 // Bigger ones: Tour.Figures.
 TEST(Tour, IsWithinFivePercentOfTheBound) {
   const Site open;
@@ -129,6 +153,21 @@ TEST(Tour, IsWithinFivePercentOfTheBound) {
   const Site town = MadeSite(RandomTown(1, 12), {.safe_altitude_m = 40, .d_min_m = 5});
   const Obstacles obstacles(town);
   EXPECT_LT(PlanTour(SafeSpace(obstacles), DippingHovers(obstacles), 2).report.gap(), 0.05);
+}
+
+TEST(Tour, StopsWhenCancelled) {
+  class Stopped : public Progress {
+   public:
+    void Begin(std::string_view, size_t) override {}
+    void Advance(size_t) override {}
+    void Warn(std::string_view) override {}
+    void Note(std::string_view) override {}
+    bool Cancelled() const override { return true; }
+  } progress;
+  const Site open;
+  const Obstacles sky(open);
+  const SafeSpace space(sky);
+  EXPECT_THROW(PlanTour(space, RandomHovers(50, 1), 2, progress), Error);
 }
 
 // Sizes of STUCCO_TOUR_SIZES ("1000 5000"), with gaps and seconds on stderr: for the docs.

@@ -160,6 +160,26 @@ TEST(SafeSpace, NoWayOutOfANoFlyRing) {
   EXPECT_TRUE(std::isinf(space.Distance({30, 30, 20}, {200, 0, 20})));
 }
 
+// More corners than a search among buildings may look at: there is no other way.
+TEST(SafeSpace, GoesRoundANoFlyBorderOfFiveThousandCorners) {
+  Ring border;
+  for (int k = 0; k < 5000; ++k) {
+    const double angle = 2 * std::numbers::pi * k / 5000;
+    border.emplace_back(300 + 100 * std::cos(angle), 100 * std::sin(angle));
+  }
+  const Site site = MadeSite({Rectangle(0, 0, 20, 20)}, {.no_fly = {{{border}}}});
+  const Obstacles obstacles(site);
+  const SafeSpace space(obstacles);
+  const Vector3d p(150, 0, 100);
+  const Vector3d q(450, 0, 100);
+  const auto route = space.ShortestRoute(p, q);
+  ASSERT_TRUE(route);
+  ExpectSafe(space, *route, p, q);
+  const double tangent = std::sqrt(150.0 * 150 - 100 * 100);
+  const double arc = 100 * (std::numbers::pi - 2 * std::acos(100.0 / 150));
+  EXPECT_NEAR(route->length_m, 2 * tangent + arc, 1);
+}
+
 TEST(SafeSpace, NothingLeadsToWhereNothingIsFree) {
   const Site site = MadeSite({Rectangle(0, 0, 20, 20)});
   const Obstacles obstacles(site);
