@@ -56,9 +56,11 @@ std::vector<std::vector<Stop>> GroupStops(std::span<const Dip> dips, double vert
   return groups;
 }
 
+// None where the wall lies above or below what the photo shows.
 std::vector<Target> TargetsOf(const WallView& view, const Facade& facade, Interval z) {
   z = {std::max(z.from_m, facade.z_m.from_m), std::min(z.to_m, facade.z_m.to_m)};
   std::vector<Target> targets;
+  if (!(z.from_m < z.to_m)) return targets;
   for (const Interval& part : view.seen) targets.push_back({view.facade, part, z});
   return targets;
 }
@@ -117,6 +119,9 @@ std::vector<Hover> Lift(const Level& level, const DippingSetting& setting,
   for (const WallView& view : point.views) {
     dips.push_back(MakeDip(level, setting, setting.site.facades[view.facade], point.position));
   }
+  const auto take = [](Shot shot, Hover& hover) {
+    if (!shot.targets.empty()) hover.shots.push_back(std::move(shot));
+  };
   std::vector<Hover> hovers;
   for (const std::vector<Stop>& group : GroupStops(dips, setting.vertical_step)) {
     const double z = (group.front().z_m + group.back().z_m) / 2;
@@ -126,15 +131,15 @@ std::vector<Hover> Lift(const Level& level, const DippingSetting& setting,
       const Facade& facade = setting.site.facades[view.facade];
       const Dip& dip = dips[stop.dip];
       const double half = dip.height_m / 2;
-      hover.shots.push_back(LevelShot(view, facade, {z - half, z + half}));
+      take(LevelShot(view, facade, {z - half, z + half}), hover);
       if (stop.z_m == dip.z_m.back() && dip.foot_pitch) {
         Shot foot = LevelShot(view, facade, {facade.z_m.from_m, z - half});
         foot.kind = ViewKind::kDippingFoot;
         foot.pitch_rad = *dip.foot_pitch;
-        hover.shots.push_back(std::move(foot));
+        take(std::move(foot), hover);
       }
     }
-    hovers.push_back(std::move(hover));
+    if (!hover.shots.empty()) hovers.push_back(std::move(hover));
   }
   return hovers;
 }

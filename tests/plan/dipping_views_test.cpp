@@ -113,6 +113,21 @@ TEST(DippingViews, NarrowCourtyardsAreListedAsUnobservable) {
   }
 }
 
+// From 6 m beside the line of a wall of 0.7 m, a level photo at 5 m ends above it.
+TEST(Lift, TakesNoPhotoThatMissesItsWall) {
+  const Scene scene(MadeSite({Rectangle(-6, -5, 6, 5)}, {.heights_m = {0.7}}));
+  const std::vector<Level> levels = SplitIntoLevels(scene.site);
+  const Vector2d p(16.5, -11);
+  const double turn = TurnTowards(scene.site.facades[0], p, 12);
+  const std::vector<Hover> hovers =
+      Lift(levels[0], scene.setting, {p, {{0, turn, false, {{6, 12}}}}});
+  ASSERT_EQ(hovers.size(), 1u);
+  ASSERT_EQ(hovers[0].shots.size(), 1u);
+  EXPECT_EQ(hovers[0].shots[0].kind, ViewKind::kDippingFoot);
+  ASSERT_EQ(hovers[0].shots[0].targets.size(), 1u);
+  EXPECT_EQ(hovers[0].shots[0].targets[0].z_m, (Interval{0, 0.7}));
+}
+
 TEST(Lift, OnePhotoHoldsALowWall) {
   const Scene scene(MadeSite({Rectangle(-6, -5, 6, 5)}, {.heights_m = {8}}));
   const std::vector<Level> levels = SplitIntoLevels(scene.site);
@@ -155,7 +170,7 @@ TEST(HoveringCost, MergingSavesOneOfTwoStopsAtTheSameHeight) {
   EXPECT_NEAR(HoveringCost(std::vector<Dip>{a, b}, 0.8), 3, 1e-9);
   const std::vector<Dip> five(5, b);
   EXPECT_NEAR(HoveringCost(five, 0.8), 2, 1e-9);  // never less than the heights there are
-  const Dip far{{24, 16}, 10, {}};  // farther than the overlap of 2 m
+  const Dip far{{24, 16}, 10, {}};                // farther than the overlap of 2 m
   EXPECT_DOUBLE_EQ(HoveringCost(std::vector<Dip>{a, far}, 0.8), 4);
 }
 
