@@ -265,29 +265,33 @@ void WriteCityJson(const std::filesystem::path& path, const std::vector<MadeBuil
                       .dump());
 }
 
-void WriteDem(const std::filesystem::path& path, double size_m, double pixel_m,
+void WriteDem(const std::filesystem::path& path, const MadeDem& dem,
               const std::function<double(double, double)>& height) {
-  const int pixels = static_cast<int>(size_m / pixel_m);
-  GDALDatasetUniquePtr dataset(
-      Driver("GTiff").Create(path.c_str(), pixels, pixels, 1, GDT_Float32, nullptr));
+  const int n = dem.pixels;
+  GDALDatasetUniquePtr dataset(Driver("GTiff").Create(path.c_str(), n, n, 1, GDT_Float32, nullptr));
   const std::vector<Geodetic> middle = {kMadePlace};
-  const Eigen::Vector2d centre = CrsFromGeodetic(kUtm, middle, "made terrain").front();
-  const double half = pixels * pixel_m / 2;
-  double place[6] = {centre.x() - half, pixel_m, 0, centre.y() + half, 0, -pixel_m};
+  const Eigen::Vector2d centre = CrsFromGeodetic(dem.crs, middle, "made terrain").front();
+  const Eigen::Vector2d corner = centre + Eigen::Vector2d(-n, n) * dem.step / 2;
+  double place[6] = {corner.x(), dem.step, 0, corner.y(), 0, -dem.step};
   dataset->SetGeoTransform(place);
-  const OGRSpatialReference reference = Reference(kUtm);
+  const OGRSpatialReference reference = Reference(dem.crs);
   dataset->SetSpatialRef(&reference);
-  constexpr float kNoData = -9999;
-  std::vector<float> z;
-  for (int row = 0; row < pixels; ++row) {
-    for (int column = 0; column < pixels; ++column) {
-      const double value = height((column + 0.5) * pixel_m - half, half - (row + 0.5) * pixel_m);
-      z.push_back(std::isnan(value) ? kNoData : static_cast<float>(value));
+  std::vector<Eigen::Vector2d> centres;
+  for (int row = 0; row < n; ++row) {
+    for (int column = 0; column < n; ++column) {
+      centres.push_back(corner + Eigen::Vector2d(column + 0.5, -row - 0.5) * dem.step);
     }
   }
+  constexpr float kNoData = -9999;
+  std::vector<float> z;
+  for (const Geodetic& pixel : GeodeticFromCrs(dem.crs, centres, "made terrain")) {
+    const Eigen::Vector2d position = PlanFromGeodetic(OriginNear(kMadePlace), pixel);
+    const double value = height(position.x(), position.y());
+    z.push_back(std::isnan(value) ? kNoData : static_cast<float>(value));
+  }
   dataset->GetRasterBand(1)->SetNoDataValue(kNoData);
-  if (dataset->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, pixels, pixels, z.data(), pixels, pixels,
-                                          GDT_Float32, 0, 0, nullptr) != CE_None) {
+  if (dataset->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, n, n, z.data(), n, n, GDT_Float32, 0, 0,
+                                          nullptr) != CE_None) {
     throw std::runtime_error(CPLGetLastErrorMsg());
   }
 }

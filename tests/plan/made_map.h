@@ -46,9 +46,14 @@ void WriteOsm(const std::filesystem::path& path, const std::vector<MadeBuilding>
 void WriteOsmPbf(const std::filesystem::path& path, const std::vector<MadeBuilding>& buildings);
 // Prisms of `height` metres in EPSG:32633 as CityJSON 2.0.
 void WriteCityJson(const std::filesystem::path& path, const std::vector<MadeBuilding>& buildings);
-// A GeoTIFF of heights over `size_m` x `size_m` around kMadePlace in EPSG:32633. `height` NaN:
-// no data.
-void WriteDem(const std::filesystem::path& path, double size_m, double pixel_m,
+// A GeoTIFF of heights around kMadePlace in a coordinate system: `pixels` x `pixels`, each `step`
+// units of the system wide. `height` takes metres east and north of kMadePlace; NaN: no data.
+struct MadeDem {
+  std::string crs = "EPSG:32633";
+  int pixels = 800;
+  double step = 1;
+};
+void WriteDem(const std::filesystem::path& path, const MadeDem& dem,
               const std::function<double(double, double)>& height);
 
 // The message and the remedy of the Error that `call` throws, or "" when it throws none.

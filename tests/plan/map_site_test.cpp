@@ -248,7 +248,7 @@ double Slope(double x, double) {
 
 TEST_F(ReadSiteTest, TerrainLiftsBuildingsAndCeiling) {
   inputs_.dem = folder_ / "dem.tif";
-  WriteDem(*inputs_.dem, 800, 1, Slope);
+  WriteDem(*inputs_.dem, {}, Slope);
   const Site site = Read(Row());
   EXPECT_NEAR(site.origin.height_m, 257, 0.1);  // 70 m east of the place
   EXPECT_NEAR(site.terrain.HeightAt({0, 0}), 0, 1e-6);
@@ -261,9 +261,20 @@ TEST_F(ReadSiteTest, TerrainLiftsBuildingsAndCeiling) {
   EXPECT_NEAR(site.FloorAt(In(site, 0, 0)), -2, 0.05);
 }
 
+TEST_F(ReadSiteTest, TerrainMayBeInDegreesAndCoarse) {
+  inputs_.dem = folder_ / "dem.tif";
+  WriteDem(*inputs_.dem, {.crs = "EPSG:4326", .pixels = 100, .step = 1.0 / 3600 / 3}, Slope);
+  const Site site = Read(Row());
+  EXPECT_NEAR(site.terrain.step_m, 6.6, 0.1);  // a third of a second of longitude
+  EXPECT_NEAR(site.origin.height_m, 257, 0.1);
+  for (const double x : {-20., 0., 33., 150.}) {
+    EXPECT_NEAR(site.terrain.HeightAt(In(site, x, 20)), 0.1 * x - 7, 0.05);
+  }
+}
+
 TEST_F(ReadSiteTest, TerrainGapsAreFilled) {
   inputs_.dem = folder_ / "dem.tif";
-  WriteDem(*inputs_.dem, 800, 2, [](double x, double y) {
+  WriteDem(*inputs_.dem, {.pixels = 400, .step = 2}, [](double x, double y) {
     return std::hypot(x - 70, y - 6) < 25 ? std::nan("") : Slope(x, y);
   });
   const Site site = Read(Row());
@@ -274,11 +285,11 @@ TEST_F(ReadSiteTest, TerrainGapsAreFilled) {
 
 TEST_F(ReadSiteTest, TerrainMustCoverTheSite) {
   inputs_.dem = folder_ / "dem.tif";
-  WriteDem(*inputs_.dem, 200, 1, Slope);
+  WriteDem(*inputs_.dem, {.pixels = 200}, Slope);
   // The area ends 160 m east of the place, the terrain 100 m.
   EXPECT_THAT(ComplaintAbout(Row()),
               AllOf(HasSubstr("does not cover the site"), HasSubstr("60 m are missing")));
-  WriteDem(*inputs_.dem, 800, 1, [](double, double) { return std::nan(""); });
+  WriteDem(*inputs_.dem, {}, [](double, double) { return std::nan(""); });
   EXPECT_THAT(ComplaintAbout(Row()), HasSubstr("has no heights"));
   WriteFile(*inputs_.dem, "no tiff");
   EXPECT_THAT(ComplaintAbout(Row()), HasSubstr("cannot be read as a raster"));
