@@ -12,7 +12,7 @@ struct PlanOptions {
   std::string method = "cocapture";
   std::string camera = "mavic-3e";
   double altitude_m = 0;      // H above the ground; 0: d_min above the tallest building
-  double gsd_m = 0.04;        // the coarsest acceptable pixel; gives d_max
+  double gsd_m = 0.02;        // the coarsest acceptable pixel; gives d_max
   double d_min_m = 10;        // distance to buildings
   double d_max_m = 0;         // 0: from gsd_m
   double min_altitude_m = 5;  // above the ground

@@ -162,4 +162,17 @@ std::vector<Candidate> FindCandidates(const Level& level, const DippingSetting& 
   return candidates;
 }
 
+void LimitReach(const DippingSetting& setting, Level& level, std::vector<Candidate>& candidates) {
+  level.reach = Reach(setting.site, candidates, setting.threads);
+  ParallelFor(candidates.size(), setting.threads, [&](size_t i) {
+    Candidate& candidate = candidates[i];
+    for (SeenFacade& seen : candidate.seen) {
+      seen.seen = level.reach.Within(seen.facade, setting.site.facades[seen.facade],
+                                     candidate.position, std::move(seen.seen));
+    }
+    std::erase_if(candidate.seen, [](const SeenFacade& seen) { return seen.seen.empty(); });
+  });
+  std::erase_if(candidates, [](const Candidate& candidate) { return candidate.seen.empty(); });
+}
+
 }  // namespace stucco::plan

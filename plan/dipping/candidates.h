@@ -21,4 +21,7 @@ struct Candidate {
 // points that see something are returned.
 std::vector<Candidate> FindCandidates(const Level& level, const DippingSetting& setting);
 
+// Sets the reach of the level from what its candidates see, and takes from them what is beyond it.
+void LimitReach(const DippingSetting& setting, Level& level, std::vector<Candidate>& candidates);
+
 }  // namespace stucco::plan

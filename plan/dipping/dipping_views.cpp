@@ -32,11 +32,12 @@ void NoteUnobservable(const Level& level, const DippingSetting& setting,
 DippingReport PlanDippingViews(const DippingSetting& setting, Progress& progress) {
   DippingReport report;
   report.unobservable_m.resize(setting.site.facades.size());
-  const std::vector<Level> levels = SplitIntoLevels(setting.site);
+  std::vector<Level> levels = SplitIntoLevels(setting.site);
   progress.Begin("dipping views", levels.size());
-  for (const Level& level : levels) {
-    const std::vector<Candidate> candidates = FindCandidates(level, setting);
+  for (Level& level : levels) {
+    std::vector<Candidate> candidates = FindCandidates(level, setting);
     NoteUnobservable(level, setting, candidates, report);
+    LimitReach(setting, level, candidates);
     std::vector<double> turns = InitialTurns(level, setting, candidates);
     std::vector<DippingPoint> points = SelectPoints(setting, ViewsOf(setting, candidates, turns));
     report.candidates += static_cast<int>(candidates.size());

@@ -72,7 +72,7 @@ Level MakeLevel(const Site& site, std::vector<int> facades) {
       AddWalls(site, static_cast<int>(i), {}, walls);
     }
   }
-  return {bottom, true, std::move(facades), Visibility(std::move(walls))};
+  return {bottom, true, std::move(facades), Visibility(std::move(walls)), {}};
 }
 
 }  // namespace
@@ -138,6 +138,7 @@ std::vector<SeenFacade> SeenFrom(const Level& level, const DippingSetting& setti
       const Interval rounded{std::ceil(part.from_m * 100) / 100, std::floor(part.to_m * 100) / 100};
       if (rounded.length_m() >= kLeastPieceM) kept.push_back(rounded);
     }
+    kept = level.reach.Within(seen.facade, facade, p, std::move(kept));
     if (!kept.empty()) result.push_back({seen.facade, std::move(kept)});
   }
   return result;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "plan/camera/preset.h"
+#include "plan/dipping/reach.h"
 #include "plan/sight/visibility.h"
 #include "plan/site.h"
 #include "plan/space/obstacles.h"
@@ -36,6 +37,7 @@ struct Level {
   bool on_ground = true;
   std::vector<int> facades;  // ascending
   Visibility visibility;     // all that reaches above the feet of its walls
+  Reach reach = {};          // of the photos; no limit at first
 };
 
 // The levels of a site from below. Together they hold every facade once.
@@ -48,8 +50,8 @@ double LowestAt(const Level& level, const DippingSetting& setting, const Eigen::
 bool MayDip(const Level& level, const DippingSetting& setting, const Eigen::Vector2d& p);
 
 // The facades of the level in sight of p with the parts that are near and frontal enough (d_max, 75
-// degrees). Ends are rounded inwards to whole centimetres, so that the same corner seen from two
-// points gives the same number; pieces below 5 cm are left out.
+// degrees, and the level's reach). Ends are rounded inwards to whole centimetres, so that the same
+// corner seen from two points gives the same number; pieces below 5 cm are left out.
 std::vector<SeenFacade> SeenFrom(const Level& level, const DippingSetting& setting,
                                  const Eigen::Vector2d& p);
 

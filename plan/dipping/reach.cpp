@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/dipping/reach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "plan/dipping/candidates.h"
+#include "survey/parallel.h"
+
+namespace stucco::plan {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kStretchM = 0.5;
+constexpr double kFrontal = 0.7071;  // cosine of 45 degrees
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+struct Observer {
+  const Candidate* candidate = nullptr;
+  const Intervals* seen = nullptr;
+};
+
+size_t Stretches(const Facade& wall) {
+  return std::max<size_t>(1, static_cast<size_t>(std::ceil(wall.length_m() / kStretchM)));
+}
+
+Interval Stretch(const Facade& wall, size_t index, size_t count) {
+  const double step = wall.length_m() / static_cast<double>(count);
+  return {step * static_cast<double>(index), step * static_cast<double>(index + 1)};
+}
+
+Vector2d MiddleOf(const Facade& wall, const Interval& stretch) {
+  return wall.a + wall.along() * ((stretch.from_m + stretch.to_m) / 2);
+}
+
+// Distances at which whole stretches are seen, the least by stretch.
+std::vector<double> LimitsOf(const Facade& wall, const std::vector<Observer>& observers) {
+  const size_t count = Stretches(wall);
+  std::vector<double> frontal(count, kNone), any(count, kNone);
+  for (const Observer& observer : observers) {
+    const Vector2d& p = observer.candidate->position;
+    for (const Interval& part : *observer.seen) {
+      for (size_t i = 0; i < count; ++i) {
+        const Interval stretch = Stretch(wall, i, count);
+        // Parts end on whole centimetres.
+        if (stretch.from_m < part.from_m - 0.011 || stretch.to_m > part.to_m + 0.011) continue;
+        const Vector2d ray = p - MiddleOf(wall, stretch);
+        const double distance = ray.norm();
+        any[i] = std::min(any[i], distance);
+        if (ray.dot(wall.normal()) >= kFrontal * distance) {
+          frontal[i] = std::min(frontal[i], distance);
+        }
+      }
+    }
+  }
+  for (size_t i = 0; i < count; ++i) {
+    any[i] = Reach::kFarther * (std::isfinite(frontal[i]) ? frontal[i] : any[i]);
+  }
+  return any;
+}
+
+}  // namespace
+
+Reach::Reach(const Site& site, std::span<const Candidate> candidates, int threads)
+    : limits_m_(site.facades.size()) {
+  std::vector<std::vector<Observer>> observers(site.facades.size());
+  for (const Candidate& candidate : candidates) {
+    for (const SeenFacade& seen : candidate.seen) {
+      observers[seen.facade].push_back({&candidate, &seen.seen});
+    }
+  }
+  ParallelFor(site.facades.size(), threads, [&](size_t i) {
+    if (!observers[i].empty()) limits_m_[i] = LimitsOf(site.facades[i], observers[i]);
+  });
+}
+
+Intervals Reach::Within(int facade, const Facade& wall, const Vector2d& p, Intervals seen) const {
+  if (limits_m_.empty() || limits_m_[facade].empty()) return seen;
+  const std::vector<double>& limits = limits_m_[facade];
+  Intervals allowed;
+  for (size_t i = 0; i < limits.size(); ++i) {
+    Interval stretch = Stretch(wall, i, limits.size());
+    if ((p - MiddleOf(wall, stretch)).norm() > limits[i]) continue;
+    // On whole centimetres, as everything that is seen.
+    stretch = {std::round(stretch.from_m * 100) / 100, std::round(stretch.to_m * 100) / 100};
+    if (i + 1 == limits.size()) stretch.to_m = wall.length_m();
+    allowed.push_back(stretch);
+  }
+  return Intersection(seen, Union(std::move(allowed)));
+}
+
+}  // namespace stucco::plan
