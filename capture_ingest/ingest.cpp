@@ -12,11 +12,14 @@
 #include "capture_ingest/consensus.h"
 #include "capture_ingest/contact_sheet.h"
 #include "capture_ingest/photo_record.h"
+#include "capture_ingest/planned_views.h"
 #include "survey/captures.h"
 #include "survey/error.h"
 #include "survey/image.h"
 #include "survey/parallel.h"
 #include "survey/photo_files.h"
+#include "survey/plan.h"
+#include "survey/survey_folder.h"
 
 namespace stucco {
 namespace {
@@ -99,6 +102,26 @@ void NoteFindings(const Captures& captures, Progress& progress) {
   }
 }
 
+// A survey without a plan, or with one that cannot be read, is as good as any other.
+void CompareWithPlan(const StageContext& context, Captures& captures) {
+  const std::filesystem::path path = context.survey / kPlanFile;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return;
+  try {
+    captures.views = MatchToPlan(ReadPlan(path), captures.photos);
+  } catch (const Error& problem) {
+    context.progress->Warn(fmt::format("the plan is not used: {}", problem.what()));
+    return;
+  }
+  const size_t captured =
+      std::count_if(captures.views.begin(), captures.views.end(),
+                    [](const CapturedView& view) { return view.status == "captured"; });
+  context.progress->Note(
+      fmt::format("{} of {} planned views are captured, by the ids in the names "
+                  "of the photos",
+                  captured, captures.views.size()));
+}
+
 }  // namespace
 
 void Describe(OptionTable& table, IngestOptions& options) {
@@ -129,6 +152,7 @@ void RunIngest(const IngestOptions& options, StageContext& context) {
   for (const PhotoRecord& record : records) captures.photos.push_back(record.photo);
   WarnAboutDoubts(records, *context.progress);
   NoteFindings(captures, *context.progress);
+  CompareWithPlan(context, captures);
   WriteCaptures(captures, context.out / "captures.json");
   WriteImage(ContactSheet(records), context.out / "contact-sheet.jpg", 85);
 }

@@ -71,12 +71,18 @@ static void Fields(Archive& archive, T& photo) {
   archive.Optional("duplicate_of", photo.duplicate_of);
 }
 
+template <typename Archive, internal::Is<CapturedView> T>
+static void Fields(Archive& archive, T& view) {
+  archive.Required("id", view.id);
+  archive.Required("status", view.status);
+  archive.Optional("photo", view.photo);
+}
+
 template <typename Archive, internal::Is<Captures> T>
 static void Fields(Archive& archive, T& captures) {
   archive.Required("cameras", captures.cameras);
   archive.Required("photos", captures.photos);
-  // Planned views and what became of them: without a plan there are none.
-  if constexpr (!Archive::kReads) archive.Required("views", std::vector<std::string>());
+  archive.Optional("views", captures.views);
 }
 
 Captures ReadCaptures(const std::filesystem::path& path) {

@@ -59,9 +59,17 @@ struct CapturedCamera {
   bool fixed = false;  // hold the intrinsics in calibration
 };
 
+// What became of a view of the plan: "captured", "elsewhere", "unusable" or "missing".
+struct CapturedView {
+  std::string id;
+  std::string status;
+  std::string photo;  // path; empty when missing
+};
+
 struct Captures {
   std::vector<CapturedCamera> cameras;
   std::vector<CapturedPhoto> photos;  // by path
+  std::vector<CapturedView> views;    // of the plan, in its order; none without a plan
 };
 
 // ingest/captures.json; the names in it are fixed (docs/formats.md). Throws Error (kBadInput).
