@@ -10,6 +10,7 @@
 
 #include "calib/descriptors.h"
 #include "calib/pairs.h"
+#include "calib/planned_pairs.h"
 #include "survey/files.h"
 #include "survey/georef.h"
 #include "survey/image.h"
@@ -65,7 +66,8 @@ std::vector<std::optional<Eigen::Vector3d>> RoughPositions(
 
 std::vector<std::pair<int, int>> ChoosePairs(const CalibOptions& options,
                                              const std::vector<const CapturedPhoto*>& photos,
-                                             const std::vector<Features>& features) {
+                                             const std::vector<Features>& features,
+                                             const StageContext& context) {
   const PairOptions pair_options{options.exhaustive_below, options.neighbours};
   std::vector<std::vector<float>> signatures(photos.size());
   if (static_cast<int>(photos.size()) > options.exhaustive_below) {
@@ -80,7 +82,12 @@ std::vector<std::pair<int, int>> ChoosePairs(const CalibOptions& options,
     const std::vector<float> words = TrainVocabulary(samples, kVocabularyWords);
     for (size_t i = 0; i < photos.size(); ++i) signatures[i] = Signature(features[i], words);
   }
-  return SelectPairs(pair_options, RoughPositions(photos), signatures);
+  const auto likely = SelectPairs(pair_options, RoughPositions(photos), signatures);
+  const auto planned = PlannedPairs(context, photos);
+  std::vector<std::pair<int, int>> pairs;
+  std::set_union(likely.begin(), likely.end(), planned.begin(), planned.end(),
+                 std::back_inserter(pairs));
+  return pairs;
 }
 
 std::vector<Eigen::Vector2d> Pixels(const Features& features) {
@@ -121,7 +128,7 @@ std::vector<VerifiedPair> MatchAll(const CalibOptions& options,
                                    const std::vector<const CapturedPhoto*>& photos,
                                    const std::vector<Features>& features,
                                    const StageContext& context) {
-  const auto candidates = ChoosePairs(options, photos, features);
+  const auto candidates = ChoosePairs(options, photos, features, context);
   std::vector<std::optional<PairGeometry>> geometries(candidates.size());
   context.progress->Begin("matching pairs", candidates.size());
   ParallelFor(candidates.size(), context.threads, [&](size_t i) {
