@@ -33,6 +33,7 @@ constexpr char kFooter[] =
     "3 bad input, 4 a quality gate was not met, 5 out of disk or memory, 130 interrupted.";
 
 void AddVerbs(CLI::App& app, stucco::Program& program) {
+  stucco::AddPlan(app, program);
   stucco::AddInit(app, program);
   stucco::AddCheck(app, program);
   stucco::AddRun(app, program);

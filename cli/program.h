@@ -54,6 +54,7 @@ void AddCommonOptions(CLI::App& verb, CommonOptions& common);
 void AddSurveyArgument(CLI::App& verb, Program& program);
 
 // One function per file of the same name.
+void AddPlan(CLI::App& app, Program& program);
 void AddInit(CLI::App& app, Program& program);
 void AddCheck(CLI::App& app, Program& program);
 void AddRun(CLI::App& app, Program& program);

@@ -17,6 +17,7 @@ Stage IngestStage() {
   Stage stage;
   stage.name = "ingest";
   stage.title = "the list of photos with metadata and health";
+  stage.inputs = {kPlanFile};
   stage.photos_are_input = true;
   stage.opens_photos = true;
   stage.cost = {
@@ -31,7 +32,7 @@ Stage CalibStage() {
   stage.name = "calib";
   stage.title = "camera poses and lens calibration";
   stage.needs = {"ingest"};
-  stage.inputs = {kCapturesFile};
+  stage.inputs = {kCapturesFile, kPlanFile};
   stage.opens_photos = true;
   stage.cost = {.cpu_s_per_megapixel = 0.55,
                 .cpu_s_per_pair = 0.33,

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/plan_survey.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "pipeline/events.h"
+#include "pipeline/exit_code.h"
+#include "pipeline/layout.h"
+#include "pipeline/lock.h"
+#include "pipeline/outputs.h"
+#include "pipeline/progress.h"
+#include "pipeline/resources.h"
+#include "pipeline/settings.h"
+#include "pipeline/work_folder.h"
+#include "plan/make_plan.h"
+#include "plan/map/read_site.h"
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/survey_folder.h"
+
+namespace stucco {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kPlanFolder[] = "plan";
+constexpr char kPhotoFolder[] = "photos";
+
+plan::PlanOptions ReadOptions(const std::vector<std::string>& set) {
+  plan::PlanOptions options;
+  OptionTable table(kPlanFolder);
+  plan::Describe(table, options);
+  std::vector<std::string> problems;
+  for (const std::string& item : set) {
+    const size_t equals = item.find('=');
+    const std::string problem = SetOptionFromText(
+        table, item.substr(0, equals), equals == std::string::npos ? "" : item.substr(equals + 1));
+    if (!problem.empty()) problems.push_back(problem);
+  }
+  if (!problems.empty()) {
+    throw Error(ErrorKind::kUsage, fmt::format("{}", fmt::join(problems, "\n")),
+                "stucco plan --help lists the options");
+  }
+  return options;
+}
+
+plan::SiteInputs InputsOf(const PlanRequest& request) {
+  plan::SiteInputs inputs;
+  inputs.map = request.map;
+  if (!request.area.empty()) inputs.area_of_interest = request.area;
+  if (!request.no_fly.empty()) inputs.no_fly = request.no_fly;
+  if (!request.terrain.empty()) inputs.dem = request.terrain;
+  if (!request.home.empty()) inputs.home = request.home;
+  return inputs;
+}
+
+// What is in the folder already stays; only what a survey needs is added.
+void MakeSurvey(const fs::path& survey, const StageTable& table) {
+  std::error_code error;
+  if (fs::exists(survey, error) && !fs::is_directory(survey, error)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: is a file, not a folder", survey.string()),
+                "choose another name for the survey");
+  }
+  if (fs::exists(survey / kSettingsFile, error)) return;
+  fs::create_directories(survey / kPhotoFolder, error);
+  if (error) {
+    throw WriteError(survey / kPhotoFolder, "cannot be created", error.value());
+  }
+  RequireApart(survey, survey / kPhotoFolder, table);
+  WriteFileAtomically(survey / kSettingsFile, SettingsTemplate(table, kPhotoFolder));
+}
+
+PlanSummary Summarise(const plan::PlanResult& result, const plan::Site& site) {
+  PlanSummary summary;
+  summary.method = result.plan.method;
+  summary.photos = result.plan.views.size();
+  summary.hovers = static_cast<size_t>(result.stats.hovers);
+  summary.flights = result.plan.flights.size();
+  summary.length_m = result.stats.length_m;
+  summary.time_min = result.stats.time_min;
+  summary.battery_percent = result.stats.battery_percent;
+  summary.table = plan::StatsTable(result.stats);
+  summary.repairs = site.repairs;
+  return summary;
+}
+
+}  // namespace
+
+OptionTable PlanOptionTable() {
+  static plan::PlanOptions defaults;
+  OptionTable table(kPlanFolder);
+  plan::Describe(table, defaults);
+  return table;
+}
+
+PlanSummary PlanSurvey(const fs::path& survey, const PlanRequest& request, const StageTable& table,
+                       Console& console) {
+  const plan::PlanOptions options = ReadOptions(request.set);
+  const int threads = request.threads > 0 ? request.threads : AvailableCores();
+  // All that can be wrong with the input shows before the survey is touched.
+  const plan::Site site = plan::ReadSite(InputsOf(request), options);
+  MakeSurvey(survey, table);
+  const SurveyLock lock(survey, fmt::format("plan {}", request.map.string()));
+  CleanScratch(survey);
+  ScratchFolder scratch(survey, kPlanFolder);
+  EventLog events(WorkFolder(survey).Events());
+  PlanSummary summary;
+  {
+    StageProgress progress(kPlanFolder, console, events);
+    for (const std::string& repair : site.repairs) progress.Note(repair);
+    const plan::PlanResult result = plan::MakePlan(site, options, threads, progress);
+    summary = Summarise(result, site);
+    summary.notes = plan::WritePlanFolder(result, options, scratch.path());
+  }
+  if (const auto moved = scratch.Publish()) {
+    summary.notes.push_back(fmt::format("a folder {} that stucco did not make is now {}",
+                                        kPlanFolder, moved->string()));
+  }
+  return summary;
+}
+
+}  // namespace stucco

@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/make_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <numbers>
+
+#include "plan/baseline/dronescan.h"
+#include "plan/baseline/oblique.h"
+#include "plan/dipping/dipping_views.h"
+#include "plan/evaluate/evaluate_facades.h"
+#include "plan/evaluate/target_all.h"
+#include "plan/path/flights.h"
+#include "plan/planar/planar_views.h"
+#include "survey/error.h"
+
+namespace stucco::plan {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+struct Views {
+  std::vector<Hover> hovers;
+  std::vector<std::vector<Interval>> unobservable_m;  // by facade; cocapture only
+};
+
+// Everything that planning goes by.
+struct Task {
+  const Site& site;
+  const PlanOptions& options;
+  CameraPreset camera;
+  double d_max_m = 0;
+  int threads = 1;
+};
+
+GridOptions GridOf(const PlanOptions& options) {
+  return {options.forward_overlap, options.side_overlap};
+}
+
+// Where the ground is farther away than walls may be, it still has to be reconstructed.
+double PlanarReach(const Task& task) {
+  constexpr double kTilted = 3;  // heights to what a photo tilted by 45 degrees shows on top
+  return std::max(task.d_max_m, kTilted * task.site.safe_altitude_m);
+}
+
+Views Cocapture(const Task& task, Progress& progress) {
+  const Obstacles obstacles(task.site);
+  DippingSetting setting = MakeSetting(task.site, obstacles, task.camera, task.d_max_m);
+  setting.vertical_step = task.options.vertical_step;
+  setting.threads = task.threads;
+  DippingReport dipping = PlanDippingViews(setting, progress);
+  progress.Note(fmt::format("{} dipping points of {} candidates, after {} rounds", dipping.points,
+                            dipping.candidates, dipping.rounds));
+  const PlanarOptions planar = {.grid = GridOf(task.options),
+                                .d_max_m = PlanarReach(task),
+                                .tau_r = task.options.reconstructability};
+  std::vector<Hover> above =
+      PlanarViews(task.site, task.camera, planar, dipping.hovers, task.threads, progress);
+  Views views{std::move(dipping.hovers), std::move(dipping.unobservable_m)};
+  std::move(above.begin(), above.end(), std::back_inserter(views.hovers));
+  return views;
+}
+
+Views PlanViews(const Task& task, Progress& progress) {
+  Views views;
+  if (task.options.method == "oblique") {
+    views.hovers = ObliqueViews(task.site, task.camera, GridOf(task.options));
+  } else if (task.options.method == "dronescan") {
+    views.hovers = DroneScanViews(task.site, task.camera, {.d_max_m = PlanarReach(task)},
+                                  task.threads, progress);
+  } else {
+    views = Cocapture(task, progress);
+  }
+  if (views.hovers.empty()) {
+    throw Error(ErrorKind::kBadInput, "the site has no place from which anything could be captured",
+                "look for no-fly polygons that cover it, or lower d_min_m");
+  }
+  if (task.options.method == "cocapture") {
+    // Walls that nothing is meant for, such as those of narrow streets, get the photos from above
+    // that see them best.
+    AssignViews(task.site, task.camera, task.d_max_m, views.hovers, task.threads);
+  } else {
+    TargetAllSeen(task.site, task.camera, task.d_max_m, views.hovers, task.threads);
+  }
+  return views;
+}
+
+PlannedView MakeView(const Site& site, const Hover& hover, size_t index, size_t shot_index) {
+  const Shot& shot = hover.shots[shot_index];
+  PlannedView view;
+  view.id = fmt::format("h{:04}v{}", index + 1, shot_index + 1);
+  view.position_m = hover.position;
+  view.yaw_deg = shot.yaw_rad * kDegrees;
+  view.pitch_deg = shot.pitch_rad * kDegrees;
+  view.kind = shot.kind;
+  view.hover = static_cast<int>(index);
+  for (const Target& target : shot.targets) {
+    view.targets.push_back({site.facades[target.facade].id, target.along_m, target.z_m});
+  }
+  return view;
+}
+
+// Views in order of capture; `flight_of_hover` as the flights have them.
+void AddViews(const Site& site, const FlightPlan& path, Plan& plan) {
+  std::vector<int> flight_of_hover(path.hovers.size(), 0);
+  for (size_t flight = 0; flight < path.flights.size(); ++flight) {
+    for (const PlannedWaypoint& waypoint : path.flights[flight].waypoints) {
+      if (waypoint.hover >= 0) flight_of_hover[waypoint.hover] = static_cast<int>(flight);
+    }
+  }
+  for (size_t i = 0; i < path.hovers.size(); ++i) {
+    for (size_t k = 0; k < path.hovers[i].shots.size(); ++k) {
+      PlannedView view = MakeView(site, path.hovers[i], i, k);
+      view.order = static_cast<int>(plan.views.size());
+      view.flight = flight_of_hover[i];
+      plan.views.push_back(std::move(view));
+    }
+  }
+}
+
+void AddFacades(const Task& task, const Views& views, const std::vector<Hover>& hovers,
+                Plan& plan) {
+  const std::vector<FacadeReport> reports =
+      EvaluateFacades(task.site, task.camera, task.d_max_m, hovers, task.threads);
+  std::vector<std::vector<std::string>> meant(task.site.facades.size());
+  size_t order = 0;
+  for (const Hover& hover : hovers) {
+    for (const Shot& shot : hover.shots) {
+      const std::string& id = plan.views[order++].id;
+      for (const Target& target : shot.targets) {
+        std::vector<std::string>& ids = meant[target.facade];
+        if (ids.empty() || ids.back() != id) ids.push_back(id);
+      }
+    }
+  }
+  for (size_t i = 0; i < task.site.facades.size(); ++i) {
+    const Facade& facade = task.site.facades[i];
+    PlannedFacade planned{
+        facade.id,           facade.a,         facade.b, facade.z_m, facade.top_known,
+        std::move(meant[i]), reports[i].meant, {}};
+    if (i < views.unobservable_m.size()) planned.unobservable_m = views.unobservable_m[i];
+    plan.facades.push_back(std::move(planned));
+  }
+}
+
+Plan DescribeSite(const Task& task) {
+  const Site& site = task.site;
+  Plan plan;
+  plan.method = task.options.method;
+  plan.crs = site.crs;
+  plan.origin = site.origin;
+  plan.camera = task.camera.camera;
+  plan.d_min_m = site.d_min_m;
+  plan.d_max_m = task.d_max_m;
+  plan.safe_altitude_m = site.safe_altitude_m;
+  plan.min_altitude_m = site.min_altitude_m;
+  plan.home_m = site.home;
+  for (const Footprint& footprint : site.footprints) {
+    plan.footprints.push_back(
+        {footprint.building, footprint.outline.rings, footprint.z_m, footprint.blocked_to_m});
+  }
+  for (const Polygon& polygon : site.no_fly) {
+    for (const Ring& ring : polygon.rings) plan.no_fly_m.push_back(ring);
+  }
+  return plan;
+}
+
+double DMax(const PlanOptions& options, const CameraPreset& camera) {
+  const double d_max = options.d_max_m > 0 ? options.d_max_m : camera.DistanceForGsd(options.gsd_m);
+  if (d_max > options.d_min_m) return d_max;
+  throw Error(ErrorKind::kUsage,
+              fmt::format("a pixel of {} covers {:.4f} m only up to a distance of {:.1f} m, but "
+                          "buildings are kept {:.1f} m away (d_min_m)",
+                          camera.camera.label, options.gsd_m, d_max, options.d_min_m),
+              "ask for a coarser gsd_m, or take a camera with a longer focal length");
+}
+
+}  // namespace
+
+PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  Task task{site, options, FindCamera(options.camera), 0, threads};
+  task.d_max_m = DMax(options, task.camera);
+  Views views = PlanViews(task, progress);
+  const FlightPlan path = PlanFlights(site, task.camera, options.battery_percent,
+                                      std::move(views.hovers), threads, progress);
+  PlanResult result;
+  result.plan = DescribeSite(task);
+  result.plan.flights = path.flights;
+  AddViews(site, path, result.plan);
+  AddFacades(task, views, path.hovers, result.plan);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  result.stats = StatsOf(result.plan, taken.count(), path.tour.gap());
+  return result;
+}
+
+}  // namespace stucco::plan

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/make_plan.h"
+#include "plan/mission/mission.h"
+#include "plan/output/preview.h"
+#include "survey/files.h"
+
+namespace stucco::plan {
+
+std::vector<std::string> WritePlanFolder(const PlanResult& result, const PlanOptions& options,
+                                         const std::filesystem::path& folder) {
+  const CameraPreset camera = FindCamera(options.camera);
+  MissionOptions mission;
+  mission.dji = {camera.dji_drone, camera.dji_drone_sub, camera.dji_payload};
+  WritePlan(result.plan, folder / "plan.json");
+  WriteStats(result.stats, folder / "stats.json");
+  WriteFile(folder / "preview.svg", PreviewSvg(result.plan, result.stats));
+  return WriteMissionFiles(result.plan, mission, folder).notes;
+}
+
+}  // namespace stucco::plan
