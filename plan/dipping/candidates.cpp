@@ -22,6 +22,7 @@ constexpr double kGridM = 6;  // of regular points
 constexpr double kRayStep = 1.5 * M_PI / 180;
 constexpr double kWallStepM = 1;        // between the rays' starting points on unseen walls
 constexpr double kClearOfLineM = 0.05;  // how far beyond the border of the zone a point is put
+constexpr double kUsedWidth = 0.95;     // of a photo, so that neighbours meet on the wall
 constexpr size_t kBlock = 64;           // points looked at as one piece of work
 
 // Points of a lattice inside the convex hull of nothing but the area's bounding box; those outside
@@ -41,19 +42,25 @@ std::vector<Vector2d> GridPoints(const Site& site) {
   return points;
 }
 
-// In front of the wall, as near as allowed, as densely as photos from there need; twice and four
-// times as far for walls whose front is not free.
+// `count` points evenly in front of the wall.
+void AddRow(const Facade& facade, double distance, int count, std::vector<Vector2d>& points) {
+  for (int i = 0; i < count; ++i) {
+    const double along = facade.length_m() * (i + 0.5) / count;
+    points.push_back(facade.a + facade.along() * along + facade.normal() * distance);
+  }
+}
+
+// In front of the wall, as near as allowed: as few as photos from there need, and twice as many for
+// where something stands in the way; twice and four times as far for walls whose front is not free.
 std::vector<Vector2d> FrontalPoints(const Facade& facade, const DippingSetting& setting) {
   std::vector<Vector2d> points;
   for (const double distance :
        {setting.d_min_m + kClearOfLineM, 2 * setting.d_min_m, 4 * setting.d_min_m}) {
     if (distance > setting.d_max_m) break;
-    const double step = setting.width_per_m * distance / 2;
-    const int count = std::max(1, static_cast<int>(std::ceil(facade.length_m() / step)));
-    for (int i = 0; i < count; ++i) {
-      const double along = facade.length_m() * (i + 0.5) / count;
-      points.push_back(facade.a + facade.along() * along + facade.normal() * distance);
-    }
+    const double photos = facade.length_m() / (kUsedWidth * setting.width_per_m * distance);
+    const int few = std::max(1, static_cast<int>(std::ceil(photos)));
+    AddRow(facade, distance, few, points);
+    AddRow(facade, distance, 2 * few, points);
   }
   return points;
 }

@@ -44,7 +44,7 @@ double BestTurn(const DippingSetting& setting, std::span<const Candidate> candid
   double best = -1, best_turn = 0;
   // From the normal outwards, so that it wins ties.
   for (int step = 0; step <= 2 * kTurnSteps; ++step) {
-    const double turn = (step + 1) / 2 * kTurnStep * (step % 2 ? 1 : -1);
+    const double turn = (step + 1) / 2 * kTurnStep * (step % 2 ? 1 : -1) + 0.0;
     std::vector<SeenPart> parts;
     Intervals seen;
     double length = 1;
@@ -58,7 +58,8 @@ double BestTurn(const DippingSetting& setting, std::span<const Candidate> candid
       seen.insert(seen.end(), view.seen.begin(), view.seen.end());
     }
     const double share = Length(Union(std::move(seen))) / length;
-    const double quality = QualityOfFacade(parts, share, setting.d_min_m, setting.d_max_m).sum();
+    const FacadeQuality terms = QualityOfFacade(parts, share, setting.d_min_m, setting.d_max_m);
+    const double quality = terms.q_s + terms.q_c;
     if (quality > best) {
       best = quality;
       best_turn = turn;

@@ -11,8 +11,10 @@
 namespace stucco::plan {
 
 // Paper, section 4.2: every facade gets one viewing direction, the one around its inverse normal
-// with which all candidates together would give it the highest quality. Returns turns (WallView) by
-// facade of the site.
+// with which all candidates together would give it the highest quality. Of the terms only Q_s and
+// Q_c are asked: a direction changes no distance, and that hundreds of candidates overlap says
+// nothing about the few that will stay (with Q_u, directions win that most candidates miss).
+// Returns turns (WallView) by facade of the site.
 std::vector<double> InitialTurns(const Level& level, const DippingSetting& setting,
                                  std::span<const Candidate> candidates);
 
