@@ -15,7 +15,8 @@ namespace {
 
 // Shorter or lower pieces are leftovers of imprecise maps, not walls to photograph.
 constexpr double kLeastLength_m = 0.1;
-constexpr double kLeastUpperWall_m = 1;
+constexpr double kLeastHeight_m = 0.5;
+constexpr double kLeastUpperWall_m = 1;  // of what a lower part leaves free
 // Size of the cells in which neighbours are looked for: about a long wall.
 constexpr double kCell_m = 20;
 
@@ -140,7 +141,7 @@ std::vector<Cover> FreePieces(double length, const Interval& z, const std::vecto
       if (Overlap(cover.along_m, along)) taken.push_back(cover.z_m);
     }
     for (const Interval& free : Without(z, taken)) {
-      if (free.length_m() < kLeastUpperWall_m && !(free == z)) continue;
+      if (free.length_m() < (free == z ? kLeastHeight_m : kLeastUpperWall_m)) continue;
       const auto same = [&](const Cover& piece) {
         return piece.z_m == free && piece.along_m.to_m == along.from_m;
       };

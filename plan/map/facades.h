@@ -15,10 +15,10 @@ inline constexpr double kSnap_m = 0.05;
 // facade numbers come out wherever a map starts its rings.
 Ring FromSouthWest(Ring ring);
 
-// The walls of the footprints that stand free. Where two buildings share an edge or a part of it,
-// that part is a party wall and no facade, whatever their heights. Where two parts of one building
-// touch, the higher one's wall above the other is a facade. Footprints that are obstacles only
-// (`in_area` false) get none.
+// The walls of the footprints that stand free, from 10 cm length and half a metre height on. Where
+// two buildings share an edge or a part of it, that part is a party wall and no facade, whatever
+// their heights. Where two parts of one building touch, the higher one's wall above the other is a
+// facade, from a metre on. Footprints that are obstacles only (`in_area` false) get none.
 //
 // Ids count the walls of a building from corner to corner, party walls included, over its
 // footprints and rings, so that a neighbour that is built or torn down renumbers nothing:

@@ -163,6 +163,14 @@ TEST(MakeFacades, ObstaclesHaveNoneButStillMakePartyWalls) {
   EXPECT_EQ(Ids(facades), (Strings{"B0001/F00", "B0001/F02", "B0001/F03"}));
 }
 
+TEST(MakeFacades, KerbsAreNoWalls) {
+  EXPECT_EQ(MakeFacades({Part("B0001", Rectangle(0, 0, 30, 30), {0, 0.6})}).size(), 4u);
+  EXPECT_TRUE(MakeFacades({Part("B0001", Rectangle(0, 0, 30, 30), {0, 0.4})}).empty());
+  const auto facades = MakeFacades({Part("B0001", Rectangle(0, 0, 10, 10), {0, 8}),
+                                    Part("B0001", Rectangle(10, 0, 20, 10), {0, 8.9})});
+  EXPECT_EQ(facades.size(), 6u);
+}
+
 TEST(MakeFacades, NothingFromNothing) {
   EXPECT_TRUE(MakeFacades({}).empty());
 }
