@@ -97,7 +97,7 @@ void DrawSymbols(const Plan& plan, Column& column) {
 
 void DrawFlights(const Plan& plan, Column& column) {
   column.Heading(plan.flights.size() == 1 ? "Flight" : "Flights");
-  column.Note("solid between buildings, dashed above them");
+  column.Note("dashed at the safe altitude, solid below it");
   column.Down(5);
   for (size_t i = 0; i < std::min(plan.flights.size(), kMostFlights); ++i) {
     const PlannedFlight& flight = plan.flights[i];

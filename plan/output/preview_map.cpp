@@ -17,7 +17,7 @@ constexpr double kBestQuality = 4;  // the sum of four terms
 constexpr int kQualityClasses = 24;
 constexpr double kMarginShare = 0.03;
 constexpr double kSmallestSite = 20;  // metres, so that a plan without buildings has a map
-// A flight counts as between the buildings below this share of the safe altitude.
+// Below this share of the safe altitude a flight counts as below it.
 constexpr double kLow = 0.98;
 
 struct Box {
