@@ -5,8 +5,8 @@
 
   bench/plan_check.py PLAN.json [--samples N]
 
-Safety: every view and every leg of every flight keeps d_min from every footprint below the height up
-to which that is blocked, and stays outside no-fly polygons. Completeness: N random points between
+Safety: every view and every leg of every flight keeps d_min from every footprint below the height
+up to which that is blocked, and stays outside no-fly polygons. Completeness: N random points between
 the buildings are tried, and every wall point that one of them sees within d_max and 75 degrees has
 to be in the target of a view. Exit code 1 when anything is wrong.
 """
@@ -35,7 +35,8 @@ def point_segment(p, a, b):
     length = d[0] * d[0] + d[1] * d[1]
     t = Fraction(0)
     if length:
-        t = max(Fraction(0), min(Fraction(1), ((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / length))
+        t = ((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / length
+        t = max(Fraction(0), min(Fraction(1), t))
     x, y = a[0] + t * d[0] - p[0], a[1] + t * d[1] - p[1]
     return x * x + y * y
 
@@ -160,7 +161,8 @@ def unseen_parts(plan, samples, seed=1):
                 continue
             tested += 1
             if not any(i[0] - 0.1 <= along <= i[1] + 0.1 for i in targets.get(facade["id"], [])):
-                missed.append(f"{facade['id']} at {along:.2f} m, seen from ({p[0]:.2f}, {p[1]:.2f})")
+                missed.append(f"{facade['id']} at {along:.2f} m, "
+                              f"seen from ({p[0]:.2f}, {p[1]:.2f})")
     return tested, missed
 
 

@@ -6,9 +6,10 @@
   bench/plan_methods.py SITES.json OUT [--stucco PROGRAM] [-- ARGS for `stucco plan`]
 
 SITES.json is a list of {"name": ..., "map": FILE, "args": [...]}; relative files count from where
-SITES.json lies. Printed are the figures of every plan, cocapture over oblique and over dronescan per
-site, and the means of these ratios. Quality is the mean of q_s + q_d over the facades that the
-cocapture plan does not find wholly unobservable.
+SITES.json lies, and so do arguments that begin with @. Printed are the figures of every plan,
+cocapture over oblique and over dronescan per site, and the means of these ratios. Quality is the
+mean of q_s + q_d over the facades that the cocapture plan does not find wholly unobservable. A
+baseline means no photo for any facade: all that see one count for it.
 """
 import argparse
 import json
@@ -40,7 +41,8 @@ def quality(stats, ids):
 
 
 def ratios(ours, theirs, ids):
-    return {"photos": ours["photos"] / theirs["photos"], "hovers": ours["hovers"] / theirs["hovers"],
+    return {"photos": ours["photos"] / theirs["photos"],
+            "hovers": ours["hovers"] / theirs["hovers"],
             "length": ours["length_m"] / theirs["length_m"],
             "quality": quality(ours, ids) / max(1e-9, quality(theirs, ids))}
 

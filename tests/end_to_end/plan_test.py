@@ -151,12 +151,12 @@ class BadMaps(Plan):
         self.assertEqual(self.plan(bare, "--altitude", 30).returncode, 0)
 
     def test_an_altitude_below_a_building_is_refused(self):
-        self.assertIn("B0004", self.refused(self.map(HOUSES), "--altitude", 15))
+        self.assertIn("B0004", self.refused(self.map(HOUSES), "--altitude", 15, code=2))
 
     def test_home_in_a_no_fly_polygon_is_refused(self):
         zone = self.map([feature([box(-20, -60, 40, -20)])], "zone.geojson")
         x, y = degrees(0, -40)
-        message = self.refused(self.map(HOUSES), "--no-fly", zone, f"--home={y},{x}")
+        message = self.refused(self.map(HOUSES), "--no-fly", zone, f"--home={y},{x}", code=2)
         self.assertIn("home", message)
 
     def test_a_camera_that_cannot_see_so_finely_is_refused(self):
