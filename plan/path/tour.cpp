@@ -19,7 +19,7 @@ namespace {
 // Up to here all orders are tried.
 constexpr size_t kMostTried = 7;
 // Perturbations per hover, and at most: what they gain falls off, what they cost does not.
-constexpr size_t kPerturbationsPerHover = 6;
+constexpr size_t kPerturbationsPerHover = 12;
 constexpr size_t kMostPerturbations = 100000;
 constexpr int kPerturbationsPerReport = 500;
 

@@ -3,6 +3,7 @@
 #include "plan/path/tour_bound.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <queue>
@@ -11,39 +12,94 @@ namespace stucco::plan {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kMostSteps = 300;
-constexpr double kWorkPerBound = 4e8;  // edges looked at: fewer steps on big maps
+constexpr int kMostSteps = 600;
+constexpr double kWorkPerBound = 1e8;  // edges looked at, four costs each: fewer steps on big maps
 constexpr int kPatience = 8;           // steps without progress before they are halved
 constexpr int kMostRounds = 4;
 
+// Costs from both ports of one hover to both of another: of port a to port b at 2 a + b.
+using PortTable = std::array<double, 4>;
+
 struct Neighbour {
   int hover = 0;
-  double cost = 0;
+  PortTable costs{};
 };
 using Graph = std::vector<std::vector<Neighbour>>;
-using Weights = std::vector<double>;
+using Weights = std::vector<double>;  // by port
 
-struct OneTree {
-  double cost = 0;  // with weights, less twice their sum: a bound if the tree is least
-  std::vector<int> parent;
-  std::vector<int> degree;
-  int leaf = 0;    // has one more edge,
-  int second = 0;  // to here
+// An edge between two hovers with its cheapest ports, weights included.
+struct Edge {
+  int hover = -1;  // the other end
+  double cost = kInfinity;
+  Port from = 0;
+  Port to = 0;
 };
 
-void AddEdge(Graph& graph, int i, int j, double cost) {
-  const auto has = [&](const Neighbour& n) { return n.hover == j; };
-  if (std::any_of(graph[i].begin(), graph[i].end(), has)) return;
-  graph[i].push_back({j, cost});
-  graph[j].push_back({i, cost});
+Edge Cheapest(int i, const Neighbour& neighbour, const Weights& weights) {
+  Edge best;
+  for (int a = 0; a < 2; ++a) {
+    for (int b = 0; b < 2; ++b) {
+      const Port from = 2 * i + a;
+      const Port to = 2 * neighbour.hover + b;
+      const double cost = neighbour.costs[2 * a + b] + weights[from] + weights[to];
+      if (cost < best.cost) best = {neighbour.hover, cost, from, to};
+    }
+  }
+  return best;
 }
 
-Graph CandidateGraph(std::span<const std::vector<Candidate>> candidates) {
+struct OneTree {
+  // With weights, less their sum: a bound if the tree is least.
+  double cost = 0;
+  std::vector<Edge> parent;     // by hover; hover -1 at the root
+  std::vector<int> degree;      // by hover
+  std::vector<int> port_edges;  // by port
+  int leaf = 0;                 // has one more edge,
+  Edge second;                  // this
+};
+
+void AddEdge(Graph& graph, int i, int j, const PortTable& costs) {
+  const auto has = [&](const Neighbour& n) { return n.hover == j; };
+  if (std::any_of(graph[i].begin(), graph[i].end(), has)) return;
+  graph[i].push_back({j, costs});
+  graph[j].push_back({i, {costs[0], costs[2], costs[1], costs[3]}});
+}
+
+PortTable TableOf(const HoverCosts& costs, int i, int j, double length_m) {
+  PortTable table{};
+  const double weight = costs.Weight(i, j);
+  for (int a = 0; a < 2; ++a) {
+    for (int b = 0; b < 2; ++b) {
+      table[2 * a + b] = HoverCosts::Cost(weight, length_m, costs.Turn(2 * i + a, 2 * j + b));
+    }
+  }
+  return table;
+}
+
+Graph CandidateGraph(const HoverCosts& costs, std::span<const std::vector<Candidate>> candidates) {
   Graph graph(candidates.size());
-  for (size_t i = 0; i < candidates.size(); ++i) {
-    for (const Candidate& c : candidates[i]) AddEdge(graph, static_cast<int>(i), c.hover, c.cost);
+  for (size_t k = 0; k < candidates.size(); ++k) {
+    const int i = static_cast<int>(k);
+    for (const Candidate& c : candidates[k]) {
+      AddEdge(graph, i, c.hover, TableOf(costs, i, c.hover, c.length_m));
+    }
   }
   return graph;
+}
+
+void Count(int hover, const Edge& edge, OneTree& tree) {
+  ++tree.degree[hover];
+  ++tree.degree[edge.hover];
+  ++tree.port_edges[edge.from];
+  ++tree.port_edges[edge.to];
+}
+
+void CountDegrees(OneTree& tree) {
+  tree.degree.assign(tree.parent.size(), 0);
+  tree.port_edges.assign(2 * tree.parent.size(), 0);
+  for (size_t k = 0; k < tree.parent.size(); ++k) {
+    if (tree.parent[k].hover >= 0) Count(static_cast<int>(k), tree.parent[k], tree);
+  }
 }
 
 // Any leaf with any edge that is not the tree's gives a 1-tree; the dearest second edge of a leaf
@@ -53,33 +109,25 @@ void AddSecondEdge(OneTree& tree, const Second& second) {
   double dearest = -kInfinity;
   for (size_t k = 0; k < tree.degree.size(); ++k) {
     if (tree.degree[k] != 1) continue;
-    const Neighbour edge = second(static_cast<int>(k));
+    const Edge edge = second(static_cast<int>(k));
     if (!(edge.cost > dearest) || edge.cost == kInfinity) continue;
     dearest = edge.cost;
     tree.leaf = static_cast<int>(k);
-    tree.second = edge.hover;
+    tree.second = edge;
   }
   if (dearest == -kInfinity) return;
   tree.cost += dearest;
-  ++tree.degree[tree.leaf];
-  ++tree.degree[tree.second];
-}
-
-void CountDegrees(OneTree& tree) {
-  tree.degree.assign(tree.parent.size(), 0);
-  for (size_t k = 0; k < tree.parent.size(); ++k) {
-    if (tree.parent[k] < 0) continue;
-    ++tree.degree[k];
-    ++tree.degree[tree.parent[k]];
-  }
+  Count(tree.leaf, tree.second, tree);
 }
 
 // The hover at the only tree edge of a leaf.
 std::vector<int> TreeNeighbourOfLeaves(const OneTree& tree) {
-  std::vector<int> neighbour = tree.parent;
+  std::vector<int> neighbour(tree.parent.size(), -1);
   for (size_t k = 0; k < tree.parent.size(); ++k) {
-    const int p = tree.parent[k];
-    if (p >= 0 && tree.parent[p] < 0) neighbour[p] = static_cast<int>(k);
+    const int p = tree.parent[k].hover;
+    if (p < 0) continue;
+    neighbour[k] = p;
+    if (tree.parent[p].hover < 0) neighbour[p] = static_cast<int>(k);
   }
   return neighbour;
 }
@@ -88,8 +136,8 @@ std::vector<int> TreeNeighbourOfLeaves(const OneTree& tree) {
 OneTree LeastOneTree(const Graph& graph, const Weights& weights) {
   const size_t n = graph.size();
   OneTree tree;
-  tree.parent.assign(n, -1);
-  Weights key(n, kInfinity);
+  tree.parent.assign(n, {});
+  std::vector<double> key(n, kInfinity);
   std::vector<char> done(n);
   using Item = std::pair<double, int>;
   std::priority_queue<Item, std::vector<Item>, std::greater<>> open;
@@ -104,39 +152,49 @@ OneTree LeastOneTree(const Graph& graph, const Weights& weights) {
       if (done[at]) continue;
       done[at] = 1;
       tree.cost += cost;
-      for (const Neighbour& edge : graph[at]) {
-        const double next = edge.cost + weights[at] + weights[edge.hover];
-        if (done[edge.hover] || !(next < key[edge.hover])) continue;
-        key[edge.hover] = next;
-        tree.parent[edge.hover] = at;
-        open.push({next, edge.hover});
+      for (const Neighbour& neighbour : graph[at]) {
+        if (done[neighbour.hover]) continue;
+        const Edge edge = Cheapest(at, neighbour, weights);
+        if (!(edge.cost < key[edge.hover])) continue;
+        key[edge.hover] = edge.cost;
+        tree.parent[edge.hover] = {at, edge.cost, edge.to, edge.from};
+        open.push({edge.cost, edge.hover});
       }
     }
   }
   CountDegrees(tree);
   const std::vector<int> neighbour = TreeNeighbourOfLeaves(tree);
   AddSecondEdge(tree, [&](int leaf) {
-    Neighbour best{-1, kInfinity};
-    for (const Neighbour& edge : graph[leaf]) {
-      const double cost = edge.cost + weights[leaf] + weights[edge.hover];
-      if (edge.hover != neighbour[leaf] && cost < best.cost) best = {edge.hover, cost};
+    Edge best;
+    for (const Neighbour& other : graph[leaf]) {
+      if (other.hover == neighbour[leaf]) continue;
+      const Edge edge = Cheapest(leaf, other, weights);
+      if (edge.cost < best.cost) best = edge;
     }
     return best;
   });
-  for (const double weight : weights) tree.cost -= 2 * weight;
+  for (const double weight : weights) tree.cost -= weight;
   return tree;
 }
 
+// Weights are raised hover by hover first, which soon comes near the best, then port by port.
+enum class By { kHover, kPort };
+
+// How many edges too many a hover, or a port, has.
+double Excess(const OneTree& tree, size_t port, By by) {
+  return by == By::kHover ? tree.degree[port / 2] - 2 : tree.port_edges[port] - 1;
+}
+
 // The weights that make the least 1-tree of the graph dearest.
-Weights Ascend(const Graph& graph, double tour_cost, Weights weights) {
+Weights Ascend(const Graph& graph, double tour_cost, Weights weights, By by) {
   size_t edges = 0;
   for (const auto& neighbours : graph) edges += neighbours.size();
   const int steps =
       std::clamp(static_cast<int>(kWorkPerBound / static_cast<double>(edges)), 60, kMostSteps);
   Weights best_weights = weights;
-  std::vector<double> previous(graph.size(), 0);
+  std::vector<double> previous(weights.size(), 0);
   double best = -kInfinity;
-  double scale = 1;
+  double scale = by == By::kHover ? 1 : 0.25;
   int stalled = 0;
   for (int step = 0; step < steps; ++step) {
     const OneTree tree = LeastOneTree(graph, weights);
@@ -151,13 +209,14 @@ Weights Ascend(const Graph& graph, double tour_cost, Weights weights) {
       weights = best_weights;
     }
     double squares = 0;
-    for (const int degree : tree.degree) squares += (degree - 2) * (degree - 2);
-    if (squares == 0) break;  // a tour: nothing is better
+    for (size_t k = 0; k < weights.size(); ++k) squares += std::pow(Excess(tree, k, by), 2);
+    if (squares == 0) break;             // nothing to learn from it
+    if (by == By::kHover) squares /= 2;  // both ports of a hover count the same
     const double length = scale * std::max(tour_cost - tree.cost, 1e-3 * tour_cost) / squares;
     for (size_t k = 0; k < weights.size(); ++k) {
-      const double direction = 0.7 * (tree.degree[k] - 2) + 0.3 * previous[k];
-      weights[k] += length * direction;
-      previous[k] = tree.degree[k] - 2;
+      const double excess = Excess(tree, k, by);
+      weights[k] += length * (0.7 * excess + 0.3 * previous[k]);
+      previous[k] = excess;
     }
   }
   return best_weights;
@@ -174,19 +233,24 @@ class AllPairs {
   void ForCheap(int i, std::span<const int> others, const Limit& limit, const Fn& fn) const {
     const Eigen::Vector3d at = costs_.Position(i);
     for (const int j : others) {
-      const double reach = (limit(j) - weights_[i] - weights_[j]) / kLeastWeight;
+      const double reach = (limit(j) - Lighter(i) - Lighter(j)) / kLeastWeight;
       if (!(reach > 0) || (costs_.Position(j) - at).squaredNorm() >= reach * reach) continue;
-      if (j != i) fn(j, Cost(i, j));
+      if (j != i) fn(j, Between(i, j));
     }
   }
-  double Cost(int i, int j) const {
-    for (const Neighbour& edge : graph_[i]) {
-      if (edge.hover == j) return edge.cost + weights_[i] + weights_[j];
+  Edge Between(int i, int j) const {
+    for (const Neighbour& neighbour : graph_[i]) {
+      if (neighbour.hover == j) return Cheapest(i, neighbour, weights_);
     }
-    return costs_.LeastCost(i, j) + weights_[i] + weights_[j];
+    return {j, costs_.LeastCost(i, j) + Lighter(i) + Lighter(j), LighterPort(i), LighterPort(j)};
   }
 
  private:
+  Port LighterPort(int i) const {
+    return weights_[2 * i + 1] < weights_[2 * i] ? 2 * i + 1 : 2 * i;
+  }
+  double Lighter(int i) const { return weights_[LighterPort(i)]; }
+
   const HoverCosts& costs_;
   const Graph& graph_;
   const Weights& weights_;
@@ -197,17 +261,17 @@ OneTree LeastOneTreeOfAll(const HoverCosts& costs, const Graph& graph, const Wei
   const int n = costs.size();
   const AllPairs pairs(costs, graph, weights);
   OneTree tree;
-  tree.parent.assign(n, -1);
-  Weights key(n, kInfinity);
+  tree.parent.assign(n, {});
+  std::vector<double> key(n, kInfinity);
   std::vector<int> open(n - 1);
   for (int k = 1; k < n; ++k) open[k - 1] = k;
   for (int at = 0; !open.empty();) {
     pairs.ForCheap(
         at, open, [&](int j) { return key[j]; },
-        [&](int j, double cost) {
-          if (!(cost < key[j])) return;
-          key[j] = cost;
-          tree.parent[j] = at;
+        [&](int j, const Edge& edge) {
+          if (!(edge.cost < key[j])) return;
+          key[j] = edge.cost;
+          tree.parent[j] = {at, edge.cost, edge.to, edge.from};
         });
     const auto least =
         std::min_element(open.begin(), open.end(), [&](int i, int j) { return key[i] < key[j]; });
@@ -224,9 +288,9 @@ OneTree LeastOneTreeOfAll(const HoverCosts& costs, const Graph& graph, const Wei
   for (int k = 0; k < n; ++k) {
     if (tree.degree[k] != 1) continue;
     double second = kInfinity;
-    for (const Neighbour& edge : graph[k]) {
-      if (edge.hover != neighbour[k]) {
-        second = std::min(second, edge.cost + weights[k] + weights[edge.hover]);
+    for (const Neighbour& other : graph[k]) {
+      if (other.hover != neighbour[k]) {
+        second = std::min(second, Cheapest(k, other, weights).cost);
       }
     }
     if (second < dearest && leaf >= 0) continue;
@@ -234,15 +298,15 @@ OneTree LeastOneTreeOfAll(const HoverCosts& costs, const Graph& graph, const Wei
     leaf = k;
   }
   AddSecondEdge(tree, [&](int k) {
-    Neighbour best{-1, kInfinity};
+    Edge best;
     if (k != leaf) return best;
     for (int j = 0; j < n; ++j) {
       if (j == k || j == neighbour[k]) continue;
-      if (const double cost = pairs.Cost(k, j); cost < best.cost) best = {j, cost};
+      if (const Edge edge = pairs.Between(k, j); edge.cost < best.cost) best = edge;
     }
     return best;
   });
-  for (const double weight : weights) tree.cost -= 2 * weight;
+  for (const double weight : weights) tree.cost -= weight;
   return tree;
 }
 
@@ -254,13 +318,13 @@ bool AddTreeEdges(const HoverCosts& costs, const OneTree& tree, Graph& graph) {
   const auto add = [&](int i, int j) {
     const auto is_j = [&](const Neighbour& edge) { return edge.hover == j; };
     if (std::none_of(graph[i].begin(), graph[i].end(), is_j)) {
-      AddEdge(graph, i, j, costs.CheapestCost(i, j));
+      AddEdge(graph, i, j, TableOf(costs, i, j, costs.Length(i, j)));
     }
   };
   for (size_t k = 0; k < tree.parent.size(); ++k) {
-    if (tree.parent[k] >= 0) add(static_cast<int>(k), tree.parent[k]);
+    if (tree.parent[k].hover >= 0) add(static_cast<int>(k), tree.parent[k].hover);
   }
-  add(tree.leaf, tree.second);
+  if (tree.second.hover >= 0) add(tree.leaf, tree.second.hover);
   for (const auto& edges : graph) after += edges.size();
   return after > before;
 }
@@ -272,14 +336,15 @@ double TourLowerBound(const HoverCosts& costs, std::span<const std::vector<Candi
   const int n = costs.size();
   if (n < 2) return 0;
   if (n == 2) return 2 * costs.CheapestCost(0, 1);
-  Graph graph = CandidateGraph(candidates);
-  Weights weights(n, 0);
+  Graph graph = CandidateGraph(costs, candidates);
+  Weights weights(2 * static_cast<size_t>(n), 0);
   // A least tree over all pairs connects the graph.
   OneTree tree = LeastOneTreeOfAll(costs, graph, weights);
   double bound = tree.cost;
   AddTreeEdges(costs, tree, graph);
   for (int round = 0; round < kMostRounds; ++round) {
-    weights = Ascend(graph, tour_cost, std::move(weights));
+    weights = Ascend(graph, tour_cost, std::move(weights), By::kHover);
+    weights = Ascend(graph, tour_cost, std::move(weights), By::kPort);
     tree = LeastOneTreeOfAll(costs, graph, weights);
     bound = std::max(bound, tree.cost);
     if (!AddTreeEdges(costs, tree, graph)) break;
