@@ -20,11 +20,14 @@
 namespace {
 
 constexpr char kAbout[] =
-    "Stucco turns a folder of building photos into a textured planar 3D model with a quality\n"
-    "report for every facade. It continues where it was stopped and repeats only what changed.";
+    "Stucco plans a drone survey from a map of buildings, and turns a folder of building photos "
+    "into\n"
+    "a textured planar 3D model with a quality report for every facade. It continues where it was\n"
+    "stopped and repeats only what changed.";
 
 constexpr char kFooter[] =
     "Start here:\n"
+    "  stucco plan town.geojson -o my-survey       plan a flight; or, with photos at hand,\n"
     "  stucco init my-survey --photos my-photos    create a survey\n"
     "  stucco run my-survey                        make everything\n"
     "  stucco status my-survey                     see what is done and what to do next\n"
@@ -41,6 +44,7 @@ void AddVerbs(CLI::App& app, stucco::Program& program) {
   stucco::AddStageVerbs(app, program);
   stucco::AddImport(app, program);
   stucco::AddExport(app, program);
+  stucco::AddLint(app, program);
   stucco::AddOptions(app, program);
   stucco::AddCompletion(app, program);
   for (CLI::App* verb : app.get_subcommands(nullptr)) {

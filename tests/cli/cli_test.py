@@ -13,8 +13,8 @@ import unittest
 
 import stucco
 
-VERBS = ["init", "check", "run", "status", "ingest", "calib", "dense", "proxy", "texture", "report",
-         "import", "export", "options", "completion"]
+VERBS = ["plan", "lint", "init", "check", "run", "status", "ingest", "calib", "dense", "proxy",
+         "texture", "report", "import", "export", "options", "completion"]
 STAGES = ["ingest", "calib", "dense", "proxy", "texture", "report"]
 
 

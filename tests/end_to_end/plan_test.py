@@ -84,6 +84,19 @@ class GoodMaps(Plan):
                 found.add(part.split("<")[0])
         self.assertEqual(found, views)
 
+    def test_missions_pass_the_linter_and_damaged_ones_do_not(self):
+        self.assertEqual(self.plan(self.map(HOUSES)).returncode, 0)
+        for mission in (self.root / "survey/plan").glob("mission*.kmz"):
+            self.assertEqual(stucco.run("lint", mission).returncode, 0)
+            damaged = self.root / "damaged.kmz"
+            with zipfile.ZipFile(mission) as old, zipfile.ZipFile(damaged, "w") as new:
+                for name in old.namelist():
+                    new.writestr(name, old.read(name).replace(b"<wpml:index>1<", b"<wpml:index>7<"))
+            found = stucco.run("lint", damaged, "--json")
+            self.assertEqual(found.returncode, 4, found.stderr)
+            faults = json.loads(found.stdout)["faults"]
+            self.assertTrue(any("index" in fault["element"] for fault in faults), faults)
+
     def test_is_the_same_at_any_number_of_threads(self):
         town = self.map(HOUSES)
         for threads in (1, 2):
