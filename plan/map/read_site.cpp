@@ -235,22 +235,18 @@ double SafeAltitude(const Site& site, const SiteInputs& inputs, const PlanOption
   return options.altitude_m;
 }
 
-// Around the buildings, or around what the user wants to see.
-Polygon AreaAround(const Site& site, const std::vector<Polygon>& area_of_interest,
-                   double margin_m) {
-  std::vector<Polygon> core = area_of_interest;
-  if (core.empty()) {
-    for (const Footprint& footprint : site.footprints) core.push_back(footprint.outline);
+// Around the buildings to capture: an area of interest says which those are, not that the fields
+// beside them are wanted too.
+Polygon AreaAround(const Site& site, double margin_m) {
+  std::vector<Polygon> core;
+  for (const Footprint& footprint : site.footprints) {
+    if (footprint.in_area) core.push_back(footprint.outline);
   }
   const auto all = internal::ToOgr(core);
   constexpr int kQuarterCircle = 8;
   std::unique_ptr<OGRGeometry> area;
-  if (!area_of_interest.empty()) area.reset(all->Buffer(margin_m, kQuarterCircle));
-  const bool in_one_piece = area && area->getGeometryType() == wkbPolygon;
-  if (!in_one_piece) {
-    const std::unique_ptr<OGRGeometry> hull(all->ConvexHull());
-    if (hull) area.reset(hull->Buffer(margin_m, kQuarterCircle));
-  }
+  const std::unique_ptr<OGRGeometry> hull(all->ConvexHull());
+  if (hull) area.reset(hull->Buffer(margin_m, kQuarterCircle));
   std::vector<Polygon> polygons = area ? internal::OrientedPolygons(*area) : std::vector<Polygon>{};
   if (polygons.empty()) throw Error(ErrorKind::kStageFailed, "the area of the site is empty");
   return polygons.front();
@@ -294,7 +290,7 @@ Site ReadSite(const SiteInputs& inputs, const PlanOptions& options) {
   MarkArea(inputs, located.area_of_interest, site);
   site.safe_altitude_m = SafeAltitude(site, inputs, options);
   const double margin = options.margin_m > 0 ? options.margin_m : site.safe_altitude_m;
-  site.area = AreaAround(site, located.area_of_interest, margin);
+  site.area = AreaAround(site, margin);
   if (inputs.no_fly) AddNoFly(*inputs.no_fly, options, site);
   if (inputs.dem) AddTerrain(*inputs.dem, site, repairs);
   PlaceOnGround(site);
