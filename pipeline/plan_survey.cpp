@@ -97,6 +97,9 @@ OptionTable PlanOptionTable() {
 
 PlanSummary PlanSurvey(const fs::path& survey, const PlanRequest& request, const StageTable& table,
                        Console& console) {
+  if (survey.empty()) {
+    throw Error(ErrorKind::kUsage, "--out: names no folder", "give the folder of the survey");
+  }
   const plan::PlanOptions options = ReadOptions(request.set);
   const int threads = request.threads > 0 ? request.threads : AvailableCores();
   // All that can be wrong with the input shows before the survey is touched.

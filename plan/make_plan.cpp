@@ -16,17 +16,13 @@
 #include "plan/evaluate/target_all.h"
 #include "plan/path/flights.h"
 #include "plan/planar/planar_views.h"
+#include "plan/quality/intervals.h"
 #include "survey/error.h"
 
 namespace stucco::plan {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-
-struct Views {
-  std::vector<Hover> hovers;
-  std::vector<std::vector<Interval>> unobservable_m;  // by facade; cocapture only
-};
 
 // Everything that planning goes by.
 struct Task {
@@ -47,7 +43,7 @@ double PlanarReach(const Task& task) {
   return std::max(task.d_max_m, kTilted * task.site.safe_altitude_m);
 }
 
-Views Cocapture(const Task& task, Progress& progress) {
+std::vector<Hover> Cocapture(const Task& task, Progress& progress) {
   const Obstacles obstacles(task.site);
   DippingSetting setting = MakeSetting(task.site, obstacles, task.camera, task.d_max_m);
   setting.vertical_step = task.options.vertical_step;
@@ -60,33 +56,53 @@ Views Cocapture(const Task& task, Progress& progress) {
                                 .tau_r = task.options.reconstructability};
   std::vector<Hover> above =
       PlanarViews(task.site, task.camera, planar, dipping.hovers, task.threads, progress);
-  Views views{std::move(dipping.hovers), std::move(dipping.unobservable_m)};
-  std::move(above.begin(), above.end(), std::back_inserter(views.hovers));
-  return views;
+  std::vector<Hover> hovers = std::move(dipping.hovers);
+  std::move(above.begin(), above.end(), std::back_inserter(hovers));
+  return hovers;
 }
 
-Views PlanViews(const Task& task, Progress& progress) {
-  Views views;
+std::vector<Hover> PlanViews(const Task& task, Progress& progress) {
+  std::vector<Hover> hovers;
   if (task.options.method == "oblique") {
-    views.hovers = ObliqueViews(task.site, task.camera, GridOf(task.options));
+    hovers = ObliqueViews(task.site, task.camera, GridOf(task.options));
   } else if (task.options.method == "dronescan") {
-    views.hovers = DroneScanViews(task.site, task.camera, {.d_max_m = PlanarReach(task)},
-                                  task.threads, progress);
+    hovers = DroneScanViews(task.site, task.camera, {.d_max_m = PlanarReach(task)}, task.threads,
+                            progress);
   } else {
-    views = Cocapture(task, progress);
+    hovers = Cocapture(task, progress);
   }
-  if (views.hovers.empty()) {
-    throw Error(ErrorKind::kBadInput, "the site has no place from which anything could be captured",
-                "look for no-fly polygons that cover it, or lower d_min_m");
+  if (!hovers.empty()) return hovers;
+  throw Error(ErrorKind::kBadInput, "the site has no place from which anything could be captured",
+              "look for no-fly polygons that cover it, or lower d_min_m");
+}
+
+// What no dipping view captures of each facade, as it was planned.
+std::vector<Intervals> NotDippedAt(const Site& site, const std::vector<Hover>& hovers) {
+  constexpr double kLeastGapM = 0.05;
+  std::vector<Intervals> captured(site.facades.size());
+  for (const Hover& hover : hovers) {
+    for (const Shot& shot : hover.shots) {
+      if (shot.kind != ViewKind::kDipping) continue;
+      for (const Target& target : shot.targets) captured[target.facade].push_back(target.along_m);
+    }
   }
+  std::vector<Intervals> gaps;
+  for (size_t i = 0; i < captured.size(); ++i) {
+    gaps.push_back(Gaps(Union(std::move(captured[i])), {0, site.facades[i].length_m()}));
+    std::erase_if(gaps.back(), [](const Interval& gap) { return gap.length_m() < kLeastGapM; });
+  }
+  return gaps;
+}
+
+// What the photos are meant for besides, once it is known which can be flown.
+void Assign(const Task& task, std::vector<Hover>& hovers) {
   if (task.options.method == "cocapture") {
     // Walls that nothing is meant for, such as those of narrow streets, get the photos from above
     // that see them best.
-    AssignViews(task.site, task.camera, task.d_max_m, views.hovers, task.threads);
+    AssignViews(task.site, task.camera, task.d_max_m, hovers, task.threads);
   } else {
-    TargetAllSeen(task.site, task.camera, task.d_max_m, views.hovers, task.threads);
+    TargetAllSeen(task.site, task.camera, task.d_max_m, hovers, task.threads);
   }
-  return views;
 }
 
 PlannedView MakeView(const Site& site, const Hover& hover, size_t index, size_t shot_index) {
@@ -122,8 +138,8 @@ void AddViews(const Site& site, const FlightPlan& path, Plan& plan) {
   }
 }
 
-void AddFacades(const Task& task, const Views& views, const std::vector<Hover>& hovers,
-                Plan& plan) {
+void AddFacades(const Task& task, const std::vector<Intervals>& unobservable,
+                const std::vector<Hover>& hovers, Plan& plan) {
   const std::vector<FacadeReport> reports =
       EvaluateFacades(task.site, task.camera, task.d_max_m, hovers, task.threads);
   std::vector<std::vector<std::string>> meant(task.site.facades.size());
@@ -142,7 +158,7 @@ void AddFacades(const Task& task, const Views& views, const std::vector<Hover>& 
     PlannedFacade planned{
         facade.id,           facade.a,         facade.b, facade.z_m, facade.top_known,
         std::move(meant[i]), reports[i].meant, {}};
-    if (i < views.unobservable_m.size()) planned.unobservable_m = views.unobservable_m[i];
+    if (task.options.method == "cocapture") planned.unobservable_m = unobservable[i];
     plan.facades.push_back(std::move(planned));
   }
 }
@@ -185,14 +201,20 @@ PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, P
   const auto start = std::chrono::steady_clock::now();
   Task task{site, options, FindCamera(options.camera), 0, threads};
   task.d_max_m = DMax(options, task.camera);
-  Views views = PlanViews(task, progress);
-  const FlightPlan path = PlanFlights(site, task.camera, options.battery_percent,
-                                      std::move(views.hovers), threads, progress);
+  // The tour keeps photos of a facade together, so they have to be assigned before it; where
+  // no-fly polygons cut some off, the others stand in.
+  std::vector<Hover> hovers = PlanViews(task, progress);
+  Assign(task, hovers);
+  const size_t planned = hovers.size();
+  FlightPlan path =
+      PlanFlights(site, task.camera, options.battery_percent, std::move(hovers), threads, progress);
+  const std::vector<Intervals> unobservable = NotDippedAt(site, path.hovers);
+  if (path.hovers.size() < planned && options.method == "cocapture") Assign(task, path.hovers);
   PlanResult result;
   result.plan = DescribeSite(task);
   result.plan.flights = path.flights;
   AddViews(site, path, result.plan);
-  AddFacades(task, views, path.hovers, result.plan);
+  AddFacades(task, unobservable, path.hovers, result.plan);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   result.stats = StatsOf(result.plan, taken.count(), path.tour.gap());
   return result;

@@ -3,6 +3,7 @@
 #include "plan/dipping/level.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -18,6 +19,8 @@ constexpr double kStoreyM = 3;
 constexpr double kTouchM = 0.1;
 constexpr double kOnLineM = 0.002;  // twice the grid that cleaned maps are rounded to
 constexpr double kLeastPieceM = 0.05;
+constexpr double kRoomM = 0.2;
+constexpr std::array<std::array<double, 2>, 4> kAround = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 // The stretches of the edge from a to b that none of these facades covers.
 Intervals Uncovered(const Site& site, const std::vector<int>& facades, const Vector2d& a,
@@ -123,7 +126,13 @@ double LowestAt(const Level& level, const DippingSetting& setting, const Vector2
 
 bool MayDip(const Level& level, const DippingSetting& setting, const Vector2d& p) {
   const double lowest = LowestAt(level, setting, p);
-  return setting.obstacles.IsFree(p, {lowest, std::max(lowest, setting.site.CeilingAt(p))});
+  const Interval z{lowest, std::max(lowest, setting.site.CeilingAt(p))};
+  if (!setting.obstacles.IsFree(p, z)) return false;
+  // A point on the very border of a no-fly polygon is free, but no path leads there.
+  return setting.site.no_fly.empty() ||
+         std::all_of(kAround.begin(), kAround.end(), [&](const std::array<double, 2>& d) {
+           return setting.obstacles.IsFree(p + kRoomM * Vector2d(d[0], d[1]), z);
+         });
 }
 
 std::vector<SeenFacade> SeenFrom(const Level& level, const DippingSetting& setting,

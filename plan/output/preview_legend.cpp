@@ -58,7 +58,7 @@ void DrawQualityBar(Column& column) {
       "<path d=\"M{:.1f} {:.1f}h26\" stroke=\"#d7191c\" stroke-width=\"4\" "
       "stroke-dasharray=\"4 4\"/>",
       column.X(0), column.Y(-4));
-  column.Entry("wall that no allowed position sees");
+  column.Entry("wall seen from above only, or not at all");
 }
 
 void DrawSymbols(const Plan& plan, Column& column) {

@@ -84,7 +84,7 @@ std::string StatsTable(const PlanStats& stats) {
   const auto parts = std::ranges::count_if(stats.facades, [](const FacadeStats& facade) {
     return facade.UnobservableLength() > kNoteworthy;
   });
-  text += Row("never seen", fmt::format("{:.1f} of {:.1f} m of wall, on {} facades",
+  text += Row("from above only", fmt::format("{:.1f} of {:.1f} m of wall, on {} facades",
                                         stats.unobservable_m, stats.wall_m, parts));
   return text + WorstFacades(stats);
 }

@@ -15,7 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostSteps = 600;
 constexpr double kWorkPerBound = 1e8;  // edges looked at, four costs each: fewer steps on big maps
 constexpr int kPatience = 8;           // steps without progress before they are halved
-constexpr int kMostRounds = 4;
+constexpr int kMostRounds = 40;
 
 // Costs from both ports of one hover to both of another: of port a to port b at 2 a + b.
 using PortTable = std::array<double, 4>;

@@ -95,7 +95,9 @@ class Sweeper {
       return sa <= 0 && sb <= 0;
     }
   };
-  using Active = std::set<int, Nearer>;
+  // Walls that cross after all, by less than a map can say, leave no order: with equal ones allowed,
+  // every wall keeps a place of its own.
+  using Active = std::multiset<int, Nearer>;
 
   bool Before(const Event& a, const Event& b) const {
     if (a.angle < b.angle - kAngleSlack) return true;
@@ -123,7 +125,7 @@ class Sweeper {
 
   int Front() const { return active_.empty() ? -1 : *active_.begin(); }
   void Insert(int wall) {
-    if (place_[wall] == active_.end()) place_[wall] = active_.insert(wall).first;
+    if (place_[wall] == active_.end()) place_[wall] = active_.insert(wall);
   }
   void Erase(int wall) {
     if (place_[wall] == active_.end()) return;

@@ -172,12 +172,25 @@ class BadMaps(Plan):
         message = self.refused(self.map(HOUSES), "--no-fly", zone, f"--home={y},{x}", code=2)
         self.assertIn("home", message)
 
+    def test_a_home_walled_in_by_no_fly_polygons_is_refused(self):
+        moat = self.map([feature([box(-110, -110, 150, 150), box(-100, -100, 140, 140)[::-1]])],
+                        "moat.geojson")
+        x, y = degrees(300, 300)
+        message = self.refused(self.map(HOUSES), "--no-fly", moat, f"--home={y},{x}")
+        self.assertIn("no-fly", message)
+
+    def test_no_folder_to_write_to_is_refused(self):
+        done = stucco.run("plan", self.map(HOUSES), "-o", "", cwd=self.root)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual([path.name for path in self.root.iterdir()], ["map.geojson"])
+
     def test_a_camera_that_cannot_see_so_finely_is_refused(self):
         self.assertIn("gsd_m", self.refused(self.map(HOUSES), "--gsd", 0.002, code=2))
         self.assertIn("mavic-3e", self.refused(self.map(HOUSES), "--camera", "mavik-3e", code=2))
 
     def test_repairs_are_reported_and_the_plan_is_still_safe(self):
-        crossed = feature([[(0, 0), (20, 12), (20, 0), (0, 12)]], id=1, height=8)
+        scribble = [(0, 0), (33, 20), (5, 18), (30, -2), (20, 24), (12, -6), (36, 9)]
+        crossed = feature([scribble], id=1, height=8)
         twice = feature([box(60, 0, 80, 12)], id=2, height=8)
         done = self.plan(self.map([crossed, twice, twice]))
         self.assertEqual(done.returncode, 0, done.stderr)
