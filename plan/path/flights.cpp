@@ -91,7 +91,7 @@ std::vector<double> KeepReachable(const Task& task, std::vector<Hover>& hovers) 
                     "and left out",
                     hovers.size() - kept.size()));
   }
-  if (kept.empty()) {
+  if (kept.empty() && !hovers.empty()) {
     throw Error(ErrorKind::kBadInput,
                 "no photo can be reached from the home point without crossing a no-fly polygon",
                 "give another home point (--home), or correct the no-fly polygons");
