@@ -113,6 +113,21 @@ double PixelSize(const Raster& raster, const PlanOrigin& origin,
   return kProbe_m / per_pixel;
 }
 
+// The border of the bounds, as densely as the grid.
+std::vector<Eigen::Vector2d> BorderOf(const Eigen::AlignedBox2d& bounds, double step_m) {
+  std::vector<Eigen::Vector2d> border;
+  const Eigen::Vector2d size = bounds.sizes();
+  const int steps = static_cast<int>(std::ceil(size.maxCoeff() / step_m)) + 1;
+  for (int i = 0; i <= steps; ++i) {
+    const Eigen::Vector2d along = size * i / steps;
+    border.emplace_back(bounds.min() + Eigen::Vector2d(along.x(), 0));
+    border.emplace_back(bounds.max() - Eigen::Vector2d(along.x(), 0));
+    border.emplace_back(bounds.min() + Eigen::Vector2d(0, along.y()));
+    border.emplace_back(bounds.max() - Eigen::Vector2d(0, along.y()));
+  }
+  return border;
+}
+
 void CheckCover(const Raster& raster, const std::vector<Eigen::Vector2d>& pixels, double pixel_m,
                 const std::filesystem::path& path) {
   double outside = 0;
@@ -206,6 +221,92 @@ size_t FillGaps(Terrain& terrain) {
   return gaps.size();
 }
 
+float RoundedUp(double value) {
+  const float rounded = static_cast<float>(value);
+  return rounded >= value ? rounded
+                          : std::nextafter(rounded, std::numeric_limits<float>::infinity());
+}
+
+// Raises the corners of a cell of the grid onto a plane that the raster does not pierce within the
+// cell: a level one or the one along the slope, whichever is lower on average.
+class CellCover {
+ public:
+  CellCover(const Raster& raster, const std::vector<Eigen::Vector2d>& pixels, const Terrain& ground)
+      : raster_(raster), pixels_(pixels), ground_(ground) {}
+
+  void Raise(const std::array<size_t, 4>& corners, std::vector<float>& z_m) const {
+    const Eigen::Vector2d gradient = Gradient(corners);
+    Eigen::AlignedBox2d box;
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    double mean = 0;
+    for (const size_t corner : corners) {
+      box.extend(pixels_[corner]);
+      middle += pixels_[corner] / 4;
+      mean += ground_.z_m[corner] / 4;
+    }
+    const auto tilted = [&](const Eigen::Vector2d& at) { return mean + gradient.dot(at - middle); };
+    double above = 0;  // the tilted plane
+    double highest = -std::numeric_limits<double>::infinity();
+    const auto cover = [&](const Eigen::Vector2d& at, double z) {
+      if (std::isnan(z)) return;
+      above = std::max(above, z - tilted(at));
+      highest = std::max(highest, z);
+    };
+    for (const size_t corner : corners) cover(pixels_[corner], ground_.z_m[corner]);
+    const Eigen::Array2i low = (box.min().array() - 0.5).floor().cast<int>();
+    const Eigen::Array2i high = (box.max().array() - 0.5).floor().cast<int>() + 1;
+    for (int row = low.y(); row <= high.y(); ++row) {
+      for (int column = low.x(); column <= high.x(); ++column) {
+        cover({column + 0.5, row + 0.5}, raster_.Value(column, row));
+      }
+    }
+    for (const size_t corner : corners) {
+      const double z = mean + above < highest ? tilted(pixels_[corner]) + above : highest;
+      z_m[corner] = std::max(z_m[corner], RoundedUp(z));
+    }
+  }
+
+ private:
+  // Of the ground in the cell, per pixel.
+  Eigen::Vector2d Gradient(const std::array<size_t, 4>& corners) const {
+    const auto along = [&](int from, int to) {
+      return Eigen::Vector2d(pixels_[corners[to]] - pixels_[corners[from]]);
+    };
+    const auto rise = [&](int from, int to) {
+      return double{ground_.z_m[corners[to]]} - ground_.z_m[corners[from]];
+    };
+    Eigen::Matrix2d sides;
+    sides << (along(0, 1) + along(2, 3)).transpose(), (along(0, 2) + along(1, 3)).transpose();
+    return sides.inverse() * Eigen::Vector2d(rise(0, 1) + rise(2, 3), rise(0, 2) + rise(1, 3));
+  }
+
+  const Raster& raster_;
+  const std::vector<Eigen::Vector2d>& pixels_;
+  const Terrain& ground_;
+};
+
+// A grid whose bilinear surface is nowhere below the raster's, so that nothing flies through a
+// ridge between two samples. Proof: let L be an affine function of position that no pixel exceeds
+// whose bilinear patches reach into a cell. A patch minus L is bilinear in the coordinates of the
+// raster, thus highest at one of its four pixels, so that the raster is below L in the cell. The
+// grid minus L is bilinear in the coordinates of the grid, and where all four corners are not below
+// L nothing in between is. Each cell has such an L; a corner takes the highest of its four cells'.
+// (That L is affine in both coordinates leaves out how the map projections bend within a cell: less
+// than 0.1 mm in the plane.) Slopes stay as they are, as L follows them.
+Terrain Covering(const Raster& raster, const std::vector<Eigen::Vector2d>& pixels,
+                 const Terrain& ground) {
+  Terrain result = ground;
+  const CellCover cover(raster, pixels, ground);
+  for (int row = 0; row + 1 < ground.rows; ++row) {
+    for (int column = 0; column + 1 < ground.columns; ++column) {
+      const size_t corner = static_cast<size_t>(row) * ground.columns + column;
+      cover.Raise({corner, corner + 1, corner + ground.columns, corner + ground.columns + 1},
+                  result.z_m);
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 ReadTerrain ReadDem(const std::filesystem::path& path, const PlanOrigin& origin,
@@ -214,32 +315,34 @@ ReadTerrain ReadDem(const std::filesystem::path& path, const PlanOrigin& origin,
   Raster raster = Describe(*dataset, path);
   const double pixel_m = PixelSize(raster, origin, path);
   ReadTerrain result;
-  Terrain& terrain = result.terrain;
-  terrain = GridOver(bounds, pixel_m);
+  Terrain& ground = result.ground;
+  ground = GridOver(bounds, pixel_m);
   std::vector<Eigen::Vector2d> positions;
-  positions.reserve(static_cast<size_t>(terrain.rows) * terrain.columns);
-  for (int row = 0; row < terrain.rows; ++row) {
-    for (int column = 0; column < terrain.columns; ++column) {
-      // The last samples lie up to a step beyond the bounds: there, the rim of the bounds counts.
-      const Eigen::Vector2d at = terrain.corner + terrain.step_m * Eigen::Vector2d(column, row);
-      positions.push_back(at.cwiseMin(bounds.max()));
+  positions.reserve(static_cast<size_t>(ground.rows) * ground.columns);
+  for (int row = 0; row < ground.rows; ++row) {
+    for (int column = 0; column < ground.columns; ++column) {
+      positions.push_back(ground.corner + ground.step_m * Eigen::Vector2d(column, row));
     }
   }
+  // The last samples lie up to a step beyond the bounds, where the raster need not reach.
+  CheckCover(raster, PixelsOf(raster, origin, BorderOf(bounds, ground.step_m), path), pixel_m,
+             path);
   const std::vector<Eigen::Vector2d> pixels = PixelsOf(raster, origin, positions, path);
-  CheckCover(raster, pixels, pixel_m, path);
   ReadWindow(*dataset, pixels, raster, path);
-  for (const Eigen::Vector2d& pixel : pixels) terrain.z_m.push_back(raster.Interpolated(pixel));
-  if (std::all_of(terrain.z_m.begin(), terrain.z_m.end(), [](float z) { return std::isnan(z); })) {
+  for (const Eigen::Vector2d& pixel : pixels) ground.z_m.push_back(raster.Interpolated(pixel));
+  if (std::all_of(ground.z_m.begin(), ground.z_m.end(), [](float z) { return std::isnan(z); })) {
     Fail(path, "has no heights at the place of the map",
          "give the terrain of the place of the map");
   }
-  if (const size_t gaps = FillGaps(terrain); gaps > 0) {
+  if (const size_t gaps = FillGaps(ground); gaps > 0) {
     result.repairs.Add("",
                        fmt::format("terrain: gaps ({:.1f} % of the site) filled from around them",
-                                   100.0 * gaps / terrain.z_m.size()));
+                                   100.0 * gaps / ground.z_m.size()));
   }
-  result.origin_height_m = terrain.HeightAt({0, 0});
-  for (float& z : terrain.z_m) z = static_cast<float>(z - result.origin_height_m);
+  result.terrain = Covering(raster, pixels, ground);
+  result.origin_height_m = ground.HeightAt({0, 0});
+  for (float& z : ground.z_m) z = static_cast<float>(z - result.origin_height_m);
+  for (float& z : result.terrain.z_m) z = RoundedUp(z - result.origin_height_m);
   return result;
 }
 

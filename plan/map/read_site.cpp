@@ -252,7 +252,8 @@ Polygon AreaAround(const Site& site, double margin_m) {
   return polygons.front();
 }
 
-void AddTerrain(const std::filesystem::path& dem, Site& site, RepairLog& repairs) {
+// Returns the ground as it is, where `site.terrain` is the one to keep clear of.
+Terrain AddTerrain(const std::filesystem::path& dem, Site& site, RepairLog& repairs) {
   Eigen::AlignedBox2d bounds = internal::BoundsOf(site.area);
   for (const Footprint& footprint : site.footprints) {
     if (footprint.in_area) bounds.extend(internal::BoundsOf(footprint.outline));
@@ -261,6 +262,7 @@ void AddTerrain(const std::filesystem::path& dem, Site& site, RepairLog& repairs
   site.terrain = read.terrain;
   site.origin.height_m = read.origin_height_m;
   repairs.Add(read.repairs);
+  return read.ground;
 }
 
 void AddNoFly(const std::filesystem::path& path, const PlanOptions& options, Site& site) {
@@ -292,12 +294,15 @@ Site ReadSite(const SiteInputs& inputs, const PlanOptions& options) {
   const double margin = options.margin_m > 0 ? options.margin_m : site.safe_altitude_m;
   site.area = AreaAround(site, margin);
   if (inputs.no_fly) AddNoFly(*inputs.no_fly, options, site);
-  if (inputs.dem) AddTerrain(*inputs.dem, site, repairs);
+  Terrain ground;
+  if (inputs.dem) ground = AddTerrain(*inputs.dem, site, repairs);
   PlaceOnGround(site);
   site.facades = MakeFacades(site.footprints);
   site.home = inputs.home
                   ? CheckedHome(site, PlanFromGeodetic(site.origin, ParseHome(*inputs.home)))
                   : DefaultHome(site);
+  // Drones count heights from where they take off: a home too high would have them fly too low.
+  site.home.z() = ground.HeightAt(site.home.head<2>());
   site.repairs = repairs.Lines();
   return site;
 }

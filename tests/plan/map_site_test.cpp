@@ -252,7 +252,7 @@ TEST_F(ReadSiteTest, TerrainLiftsBuildingsAndCeiling) {
   WriteDem(*inputs_.dem, {}, Slope);
   const Site site = Read(Row());
   EXPECT_NEAR(site.origin.height_m, 257, 0.1);  // 70 m east of the place
-  EXPECT_NEAR(site.terrain.HeightAt({0, 0}), 0, 1e-6);
+  EXPECT_NEAR(site.terrain.HeightAt({0, 0}), 0, 1e-3);
   EXPECT_NEAR(site.terrain.HeightAt(In(site, 100, 40)), 3, 0.05);
   EXPECT_EQ(site.terrain.step_m, 2);
   EXPECT_NEAR(site.footprints[0].z_m.from_m, -7, 0.05);
@@ -271,6 +271,16 @@ TEST_F(ReadSiteTest, TerrainMayBeInDegreesAndCoarse) {
   for (const double x : {-20., 0., 33., 150.}) {
     EXPECT_NEAR(site.terrain.HeightAt(In(site, x, 20)), 0.1 * x - 7, 0.05);
   }
+}
+
+// Heights count from the take-off: it is on the ground, not on what covers the ridges beside it.
+TEST_F(ReadSiteTest, HomeBesideRidgesIsOnTheGround) {
+  inputs_.dem = folder_ / "dem.tif";
+  WriteDem(*inputs_.dem, {}, [](double x, double) { return x > 55 && x < 60 ? 290 : 250; });
+  inputs_.home = AsText({53, -30});
+  const Site site = Read(Row());
+  EXPECT_NEAR(site.home.z(), 250 - site.origin.height_m, 0.01);
+  EXPECT_GT(site.terrain.HeightAt(site.home.head<2>()) - site.home.z(), 1);
 }
 
 TEST_F(ReadSiteTest, TerrainGapsAreFilled) {
