@@ -11,7 +11,7 @@ void Describe(OptionTable& table, PlanOptions& options) {
   table.Add("camera", options.camera, {},
             "Drone by name, or a camera as 17.3x13mm,12.29mm,5280x3956 (sensor, focal length, "
             "pixels)");
-  table.Add("altitude_m", options.altitude_m, 0, 500,
+  table.Add("altitude_m", options.altitude_m, 0, kMostAltitude_m,
             "Safe altitude above the ground, over every building; 0: d_min_m above the tallest one "
             "of a map with heights");
   table.Add("gsd_m", options.gsd_m, 0.001, 1, "Coarsest size of a pixel on a wall, in metres");

@@ -8,6 +8,8 @@
 
 namespace stucco::plan {
 
+inline constexpr double kMostAltitude_m = 500;
+
 struct PlanOptions {
   std::string method = "cocapture";
   std::string camera = "mavic-3e";

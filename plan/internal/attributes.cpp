@@ -89,6 +89,7 @@ std::string BuildingIds::Next(std::string_view id, int place) {
   }
   std::string unique = name;
   for (int i = 2; !taken_.insert(unique).second; ++i) unique = fmt::format("{}-{}", name, i);
+  renamed_ = unique != name;
   return unique;
 }
 

@@ -148,6 +148,7 @@ class Reader {
   void ReadBuilding(const std::string& id, const Json& building, const Json& objects) {
     ++place_;
     const std::string name = ids_.Next(OwnId(id, building), place_);
+    if (ids_.renamed()) map_.repairs.Add(name, internal::kRenamed);
     std::vector<Solid> solids;
     if (auto own = BestGeometry(building)) solids.push_back(std::move(*own));
     std::vector<Solid> parts;

@@ -191,15 +191,21 @@ bool NamesBuildings(OGRLayer& layer) {
                      [&](const char* word) { return name.find(word) != std::string::npos; });
 }
 
-[[noreturn]] void FailNoPolygons(const std::filesystem::path& path, const std::string& layer) {
+constexpr char kGiveBuildings[] =
+    "give a map with the outlines of buildings as areas, not as points or lines";
+constexpr char kGiveAreas[] =
+    "give polygons, not points or lines, or leave the option out if there are none";
+
+[[noreturn]] void FailNoPolygons(const std::filesystem::path& path, const std::string& layer,
+                                 const char* remedy) {
   throw Error(ErrorKind::kBadInput,
               fmt::format("{}: {}has no polygons", path.string(),
                           layer.empty() ? "" : fmt::format("layer {:?} ", layer)),
-              "give a map with the outlines of buildings as areas, not as points or lines");
+              remedy);
 }
 
 OGRLayer& ChooseLayer(GDALDataset& dataset, const std::filesystem::path& path,
-                      const std::string& wanted, RepairLog& repairs) {
+                      const std::string& wanted, const char* remedy, RepairLog& repairs) {
   std::vector<std::string> names;
   std::vector<OGRLayer*> candidates;
   for (OGRLayer* layer : dataset.GetLayers()) {
@@ -213,7 +219,7 @@ OGRLayer& ChooseLayer(GDALDataset& dataset, const std::filesystem::path& path,
                 fmt::format("{}: has no layer {:?} (--map-layer)", path.string(), wanted),
                 fmt::format("give one of {}", fmt::join(names, ", ")));
   }
-  if (candidates.empty()) FailNoPolygons(path, "");
+  if (candidates.empty()) FailNoPolygons(path, "", remedy);
   const auto named = std::find_if(candidates.begin(), candidates.end(),
                                   [](OGRLayer* layer) { return NamesBuildings(*layer); });
   OGRLayer& chosen = named != candidates.end() ? **named : *candidates.front();
@@ -289,6 +295,7 @@ class LayerReader {
     result.has_open_ring = internal::HasOpenRing(*geometry);
     const std::string own = OwnId(feature);
     result.building = ids_.Next(own, place_);
+    if (ids_.renamed()) map_.repairs.Add(result.building, internal::kRenamed);
     ReadHeights(feature, columns_, map_.repairs, result);
     map_.features.push_back(std::move(result));
   }
@@ -325,18 +332,19 @@ GDALDatasetUniquePtr OpenMap(const std::filesystem::path& path) {
                                {fmt::format("CONFIG_FILE={}", kOsmSettingsPath)});
 }
 
-RawMap ReadLayer(const std::filesystem::path& path, const PlanOptions& options) {
+RawMap ReadLayer(const std::filesystem::path& path, const PlanOptions& options,
+                 const char* remedy) {
   RawMap map;
   map.path = path;
   const GDALDatasetUniquePtr dataset = OpenMap(path);
   const bool is_osm = std::string_view(dataset->GetDriverName()) == "OSM";
   if (is_osm) dataset->ExecuteSQL("SET interest_layers = multipolygons", nullptr, nullptr);
   OGRLayer& layer = is_osm ? *dataset->GetLayerByName("multipolygons")
-                           : ChooseLayer(*dataset, path, options.map_layer, map.repairs);
+                           : ChooseLayer(*dataset, path, options.map_layer, remedy, map.repairs);
   const Columns columns = ColumnsOf(layer, path, options);
   map.crs = CrsOf(layer);
   LayerReader(layer, columns, is_osm, map).Read();
-  if (map.features.empty()) FailNoPolygons(path, layer.GetName());
+  if (map.features.empty()) FailNoPolygons(path, layer.GetName(), remedy);
   return map;
 }
 
@@ -344,11 +352,11 @@ RawMap ReadLayer(const std::filesystem::path& path, const PlanOptions& options) 
 
 RawMap ReadMap(const std::filesystem::path& path, const PlanOptions& options) {
   if (internal::LooksLikeCityJson(path)) return internal::ReadCityJson(path, options);
-  return ReadLayer(path, options);
+  return ReadLayer(path, options, kGiveBuildings);
 }
 
 RawMap ReadAreas(const std::filesystem::path& path) {
-  return ReadLayer(path, {});
+  return ReadLayer(path, {}, kGiveAreas);
 }
 
 }  // namespace stucco::plan

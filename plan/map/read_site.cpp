@@ -127,6 +127,13 @@ void CheckExtent(const RawMap& map) {
                   kWidestSite_m / 1000));
 }
 
+[[noreturn]] void FailNotInArea(const SiteInputs& inputs) {
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: no building of {} is inside the area",
+                          inputs.area_of_interest->string(), inputs.map.string()),
+              "check that both are of one place and in the coordinate systems they name");
+}
+
 struct Located {
   RawMap map;  // in the frame of the plan
   PlanOrigin origin;
@@ -154,6 +161,7 @@ Located Locate(const SiteInputs& inputs, const PlanOptions& options, double marg
   DropLostFeatures(map);
   if (inputs.area_of_interest) {
     KeepNear(map, BoundsOf(located.area_of_interest), margin_m + kSurroundings_m);
+    if (map.features.empty()) FailNotInArea(inputs);
   }
   CheckExtent(map);
   return located;
@@ -172,11 +180,7 @@ void MarkArea(const SiteInputs& inputs, const std::vector<Polygon>& area, Site& 
   for (Footprint& footprint : site.footprints) {
     footprint.in_area = touched.contains(footprint.building);
   }
-  if (!touched.empty()) return;
-  throw Error(ErrorKind::kBadInput,
-              fmt::format("{}: no building of {} is inside the area",
-                          inputs.area_of_interest->string(), inputs.map.string()),
-              "check that both are of one place and in the coordinate systems they name");
+  if (touched.empty()) FailNotInArea(inputs);
 }
 
 std::map<std::string, double> HeightsByBuilding(const Site& site, int& unknown) {
@@ -194,7 +198,16 @@ std::map<std::string, double> HeightsByBuilding(const Site& site, int& unknown) 
   return heights;
 }
 
-double SafeAltitude(const Site& site, const SiteInputs& inputs, const PlanOptions& options) {
+// The first of the heights that the map has and nobody can use, as " (B0001: height ...)".
+std::string UnusableHeights(const RepairLog& repairs) {
+  for (const std::string& line : repairs.Lines()) {
+    if (line.find(": height ") != std::string::npos) return fmt::format(" ({})", line);
+  }
+  return "";
+}
+
+double SafeAltitude(const Site& site, const SiteInputs& inputs, const PlanOptions& options,
+                    const RepairLog& repairs) {
   int unknown = 0;
   const std::map<std::string, double> heights = HeightsByBuilding(site, unknown);
   double tallest = 0;
@@ -204,14 +217,23 @@ double SafeAltitude(const Site& site, const SiteInputs& inputs, const PlanOption
     tallest = height;
     building = name;
   }
+  if (tallest + options.d_min_m > kMostAltitude_m) {
+    throw Error(
+        ErrorKind::kBadInput,
+        fmt::format("{}: building {} is {:.1f} m high, and {:g} m above it is more than "
+                    "the highest safe altitude of {:g} m",
+                    inputs.map.string(), building, tallest, options.d_min_m, kMostAltitude_m),
+        "check the unit of the height attribute (metres are read unless it says ft), or "
+        "name another: --height-field NAME");
+  }
   if (options.altitude_m == 0) {
     if (unknown == 0) return std::max(tallest + options.d_min_m, options.min_altitude_m);
     throw Error(
         ErrorKind::kBadInput,
         fmt::format("{}: {} of {} buildings have no height, so that a safe altitude cannot "
-                    "be told",
+                    "be told{}",
                     inputs.map.string(), unknown,
-                    std::max<size_t>(unknown, heights.size() + unknown)),
+                    std::max<size_t>(unknown, heights.size() + unknown), UnusableHeights(repairs)),
         "give the safe altitude, as --altitude 60 (metres above the ground, d_min above the "
         "highest roof), or name the attribute with the heights: --height-field NAME");
   }
@@ -290,7 +312,7 @@ Site ReadSite(const SiteInputs& inputs, const PlanOptions& options) {
                 "check the coordinate system of the map: its outlines enclose no area");
   }
   MarkArea(inputs, located.area_of_interest, site);
-  site.safe_altitude_m = SafeAltitude(site, inputs, options);
+  site.safe_altitude_m = SafeAltitude(site, inputs, options, repairs);
   const double margin = options.margin_m > 0 ? options.margin_m : site.safe_altitude_m;
   site.area = AreaAround(site, margin);
   if (inputs.no_fly) AddNoFly(*inputs.no_fly, options, site);

@@ -149,7 +149,8 @@ void CheckTakeOff(const Place& document, const Place& folder, LintLog& log) {
         Place{node, fmt::format("{}/Placemark[{}]", folder.path, index++)}.Child("Point");
     const auto here = internal::ParsePair(point.Text("coordinates"));
     if (!home || !here) continue;
-    if (std::abs(here->first - home->second) > kFar ||
+    constexpr double kTurn = 360;  // places on both sides of the date line are neighbours
+    if (std::abs(std::remainder(here->first - home->second, kTurn)) > kFar ||
         std::abs(here->second - home->first) > kFar) {
       log.Add(point.Of("coordinates"), "take-off",
               fmt::format("{},{} is longitude,latitude far from takeOffRefPoint, which is "

@@ -19,6 +19,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 MadeBuilding House(int id, const Ring& ring, const std::string& height = "10") {
   std::map<std::string, std::string> attributes = {{"id", std::to_string(id)}};
@@ -139,7 +140,43 @@ TEST_F(ReadSiteTest, AreaOfInterestElsewhereIsRefused) {
   inputs_.area_of_interest = Areas("area.geojson", {Rectangle(20, 20, 50, 50)});
   EXPECT_THAT(ComplaintAbout(Row()), HasSubstr("no building of"));
   inputs_.area_of_interest = Areas("area.geojson", {Rectangle(20000, 20, 20050, 50)});
-  EXPECT_NE(ComplaintAbout(Row()), "");
+  EXPECT_THAT(ComplaintAbout(Row()),
+              AllOf(HasSubstr("area.geojson: no building of"), HasSubstr("of one place")));
+}
+
+TEST_F(ReadSiteTest, UnusableHeightsAreNamed) {
+  const MadeBuilding negative = House(1, Rectangle(0, 0, 9, 9), "-5");
+  const MadeBuilding text = House(2, Rectangle(30, 0, 39, 9), "abc");
+  const MadeBuilding huge = House(3, Rectangle(60, 0, 69, 9), "1000000000");
+  EXPECT_THAT(ComplaintAbout({negative}), HasSubstr("(B0001: height -5 m is impossible; ignored)"));
+  EXPECT_THAT(ComplaintAbout({text}), HasSubstr("(B0002: height \"abc\" is no length; ignored)"));
+  EXPECT_THAT(ComplaintAbout({huge}), HasSubstr("(B0003: height 1000000000 m is impossible"));
+  EXPECT_THAT(ComplaintAbout(Row("")), Not(HasSubstr("(B")));
+  options_.altitude_m = 60;
+  EXPECT_EQ(Read({negative, text, huge}).repairs.size(), 3u);
+}
+
+TEST_F(ReadSiteTest, HeightsBeyondEveryAltitudeAreRefused) {
+  EXPECT_EQ(ComplaintAbout(Row("490")), "");
+  EXPECT_THAT(ComplaintAbout(Row("490.5")),
+              AllOf(HasSubstr("building B0001 is 490.5 m high"), HasSubstr("check the unit")));
+  options_.altitude_m = 500;
+  EXPECT_THAT(ComplaintAbout(Row("800")), HasSubstr("check the unit"));
+}
+
+TEST_F(ReadSiteTest, EmptyAreasAreRefused) {
+  WriteFile(folder_ / "none.geojson", R"({"type":"FeatureCollection","features":[]})");
+  inputs_.no_fly = folder_ / "none.geojson";
+  const auto says = AllOf(HasSubstr("has no polygons"), HasSubstr("leave the option out"));
+  EXPECT_THAT(ComplaintAbout(Row()), says);
+  inputs_ = {};
+  inputs_.area_of_interest = folder_ / "none.geojson";
+  EXPECT_THAT(ComplaintAbout(Row()), says);
+}
+
+TEST_F(ReadSiteTest, SharedIdsAreNoted) {
+  EXPECT_THAT(Read({House(7, Rectangle(0, 0, 9, 9)), House(7, Rectangle(30, 0, 39, 9))}).repairs,
+              testing::ElementsAre("B0007-2: another building has its id; numbered"));
 }
 
 TEST_F(ReadSiteTest, NoFlyZonesAreJoined) {
