@@ -169,6 +169,18 @@ TEST(WpmlLint, KnowsTheRulesOfTheTemplate) {
   }
 }
 
+TEST(WpmlLint, TakeOffMayBeBeyondTheDateLine) {
+  std::string text = Template();
+  const size_t home = text.find(",4.35", text.find("takeOffRefPoint>"));
+  ASSERT_NE(home, std::string::npos);
+  text.replace(home, 5, ",-179.99");
+  EXPECT_TRUE(Has(LintTemplate(text), "take-off", "coordinates"));
+  while (text.find("<coordinates>4.35") != std::string::npos) {
+    text = Replaced(text, "<coordinates>4.35", "<coordinates>179.99");
+  }
+  EXPECT_EQ(Listed(LintTemplate(text)), "");
+}
+
 TEST(WpmlLint, TemplatesKeepToNoOrder) {
   const std::string moved =
       Replaced(Replaced(Template(), "<wpml:useGlobalHeight>0</wpml:useGlobalHeight>", ""),
