@@ -74,7 +74,7 @@ static void Fields(Archive& archive, T& photo) {
 template <typename Archive, internal::Is<CapturedView> T>
 static void Fields(Archive& archive, T& view) {
   archive.Required("id", view.id);
-  archive.Required("status", view.status);
+  archive.Optional("status", view.status);
   archive.Optional("photo", view.photo);
 }
 

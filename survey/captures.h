@@ -62,7 +62,7 @@ struct CapturedCamera {
 // What became of a view of the plan: "captured", "elsewhere", "unusable" or "missing".
 struct CapturedView {
   std::string id;
-  std::string status;
+  std::string status = "missing";
   std::string photo;  // path; empty when missing
 };
 

@@ -169,6 +169,19 @@ TEST(Captures, TakeUnknownFieldsAndNull) {
   const Captures captures = ReadCaptures(folder / "c.json");
   ASSERT_EQ(captures.photos.size(), 1u);
   EXPECT_FALSE(captures.photos[0].position);
+  ASSERT_EQ(captures.views.size(), 1u);
+  EXPECT_EQ(captures.views[0].status, "missing");
+}
+
+TEST(Captures, KeepWhatBecameOfPlannedViews) {
+  const TemporaryFolder folder;
+  Captures written;
+  written.views = {{"h0001v1", "captured", "a.jpg"}, {"h0001v2", "missing", ""}};
+  WriteCaptures(written, folder / "c.json");
+  const Captures read = ReadCaptures(folder / "c.json");
+  ASSERT_EQ(read.views.size(), 2u);
+  EXPECT_EQ(read.views[0].photo, "a.jpg");
+  EXPECT_EQ(read.views[1].status, "missing");
 }
 
 TEST(Calibration, ReadsBackAsWritten) {
