@@ -33,12 +33,15 @@ def write_area(path, bounds):
          "geometry": {"type": "Polygon", "coordinates": [ring]}}]}))
 
 
-def whole_and_quarters(out, name, source, bounds, args):
-    sites = [{"name": name, "map": str(source), "args": args}]
+def whole_and_quarters(out, site, bounds, wanted):
+    name, source, args = site["name"], site["map"], site["args"]
+    sites = [site]
     for quarter, part in quarters(bounds).items():
+        if quarter not in wanted:
+            continue
         area = out / f"{name}-{quarter}.geojson"
         write_area(area, part)
-        sites.append({"name": f"{name}-{quarter}", "map": str(source),
+        sites.append({"name": f"{name}-{quarter}", "map": source,
                       "args": [*args, "--area", f"@{area.name}"]})
     return sites
 
@@ -49,10 +52,13 @@ def main():
     parser.add_argument("--delft", type=pathlib.Path)
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
-    sites = whole_and_quarters(arguments.out, "prague", ROOT / "data/maps/prague_bubenec.geojson",
-                               PRAGUE, ["--altitude", "35"])
+    prague = {"name": "prague", "map": str(ROOT / "data/maps/prague_bubenec.geojson"),
+              "args": ["--altitude", "35"]}
+    sites = whole_and_quarters(arguments.out, prague, PRAGUE, ("sw", "se", "nw", "ne"))
     if arguments.delft:
-        sites += whole_and_quarters(arguments.out, "delft", arguments.delft.resolve(), DELFT, [])
+        delft = {"name": "delft", "map": str(arguments.delft.resolve()), "args": []}
+        # There are no buildings in the north of it.
+        sites += whole_and_quarters(arguments.out, delft, DELFT, ("sw", "se"))
     for seed in (1, 2, 3):
         town = arguments.out / f"town-{seed}.geojson"
         subprocess.run([sys.executable, ROOT / "bench/make_town.py", "--buildings", "40", "--seed",

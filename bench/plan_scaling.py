@@ -36,7 +36,7 @@ def main():
                         "--seed", str(arguments.seed), "-o", town], check=True)
         survey = arguments.out / f"plan-{count}"
         cost = measure.measure([arguments.stucco, "plan", str(town), "-o", str(survey), "--quiet",
-                                "--json", *arguments.args])
+                                *arguments.args])
         if cost["exit_code"] != 0:
             sys.exit(f"{town}: stucco plan ended with {cost['exit_code']}")
         stats = json.loads((survey / "plan/stats.json").read_text())
