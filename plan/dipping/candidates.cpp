@@ -170,7 +170,7 @@ std::vector<Candidate> FindCandidates(const Level& level, const DippingSetting& 
 }
 
 void LimitReach(const DippingSetting& setting, Level& level, std::vector<Candidate>& candidates) {
-  level.reach = Reach(setting.site, candidates, setting.threads);
+  level.reach = Reach(setting, candidates);
   ParallelFor(candidates.size(), setting.threads, [&](size_t i) {
     Candidate& candidate = candidates[i];
     for (SeenFacade& seen : candidate.seen) {

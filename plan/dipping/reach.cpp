@@ -37,7 +37,8 @@ Vector2d MiddleOf(const Facade& wall, const Interval& stretch) {
 }
 
 // Distances at which whole stretches are seen, the least by stretch.
-std::vector<double> LimitsOf(const Facade& wall, const std::vector<Observer>& observers) {
+std::vector<double> LimitsOf(const Facade& wall, const std::vector<Observer>& observers,
+                             double near_enough) {
   const size_t count = Stretches(wall);
   std::vector<double> frontal(count, kNone), any(count, kNone);
   for (const Observer& observer : observers) {
@@ -57,23 +58,26 @@ std::vector<double> LimitsOf(const Facade& wall, const std::vector<Observer>& ob
     }
   }
   for (size_t i = 0; i < count; ++i) {
-    any[i] = Reach::kFarther * (std::isfinite(frontal[i]) ? frontal[i] : any[i]);
+    const double nearest = std::isfinite(frontal[i]) ? frontal[i] : any[i];
+    any[i] = std::max(Reach::kFarther * nearest, near_enough);
   }
   return any;
 }
 
 }  // namespace
 
-Reach::Reach(const Site& site, std::span<const Candidate> candidates, int threads)
-    : limits_m_(site.facades.size()) {
+Reach::Reach(const DippingSetting& setting, std::span<const Candidate> candidates)
+    : limits_m_(setting.site.facades.size()) {
+  const Site& site = setting.site;
   std::vector<std::vector<Observer>> observers(site.facades.size());
   for (const Candidate& candidate : candidates) {
     for (const SeenFacade& seen : candidate.seen) {
       observers[seen.facade].push_back({&candidate, &seen.seen});
     }
   }
-  ParallelFor(site.facades.size(), threads, [&](size_t i) {
-    if (!observers[i].empty()) limits_m_[i] = LimitsOf(site.facades[i], observers[i]);
+  ParallelFor(site.facades.size(), setting.threads, [&](size_t i) {
+    if (observers[i].empty()) return;
+    limits_m_[i] = LimitsOf(site.facades[i], observers[i], kNearEnough * setting.d_max_m);
   });
 }
 

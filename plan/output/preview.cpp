@@ -55,8 +55,8 @@ std::string Figures(const Plan& plan, const PlanStats& stats) {
       stats.battery_by_flight.size(), stats.battery_by_flight.size() == 1 ? "" : "s",
       stats.battery_percent, stats.mean.sum());
   if (stats.unobservable_m > 0) {
-    text +=
-        fmt::format("  ·  {:.0f} of {:.0f} m of wall unseen", stats.unobservable_m, stats.wall_m);
+    text += fmt::format("  ·  {:.0f} of {:.0f} m of wall from above only", stats.unobservable_m,
+                        stats.wall_m);
   }
   return text + fmt::format("  ·  safe altitude {:.0f} m", plan.safe_altitude_m);
 }

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include "plan/dipping/candidates.h"
 #include "plan/dipping/coverage.h"
 #include "plan/dipping/dipping_views.h"
 #include "plan/dipping/level.h"
 #include "plan/dipping/lift.h"
+#include "plan/dipping/wall_view.h"
 #include "plan/map/facades.h"
 #include "plan/map/ground.h"
 #include "tests/plan/made_site.h"
@@ -90,6 +92,27 @@ TEST(DippingViews, FollowTheGroundDownASlope) {
   // Well below what would be safe over the western house.
   EXPECT_LT(lowest_east, site.footprints[0].z_m.from_m - 5);
   EXPECT_GT(lowest_west - lowest_east, 15);
+}
+
+TEST(Reach, WallsAreCapturedFromNearButNoNearerThanPixelsNeed) {
+  const Site site = MadeSite({Rectangle(0, 0, 20, 12)}, {.d_min_m = 5, .heights_m = {9}});
+  const Obstacles obstacles(site);
+  const auto furthest = [&](double d_max) {
+    const DippingSetting setting = MakeSetting(site, obstacles, FindCamera("mavic-3e"), d_max);
+    std::vector<Level> levels = SplitIntoLevels(site);
+    std::vector<Candidate> candidates = FindCandidates(levels[0], setting);
+    LimitReach(setting, levels[0], candidates);
+    double distance = 0;
+    for (const Candidate& candidate : candidates) {
+      for (const SeenFacade& seen : candidate.seen) {
+        distance = std::max(distance, DistanceTo(site.facades[seen.facade], candidate.position));
+      }
+    }
+    return distance;
+  };
+  EXPECT_LT(furthest(30), 1.6 * 5.1 + 0.1);
+  EXPECT_GT(furthest(75), 12);
+  EXPECT_LT(furthest(75), 15.1);
 }
 
 TEST(CoverCounts, CountsViewsOverEveryPiece) {
