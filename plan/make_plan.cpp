@@ -49,8 +49,9 @@ std::vector<Hover> Cocapture(const Task& task, Progress& progress) {
   setting.vertical_step = task.options.vertical_step;
   setting.threads = task.threads;
   DippingReport dipping = PlanDippingViews(setting, progress);
-  progress.Note(fmt::format("{} dipping points of {} candidates, after {} rounds", dipping.points,
-                            dipping.candidates, dipping.rounds));
+  progress.Note(
+      fmt::format("{} dipping points of {} candidates, optimised in {} rounds and {:.2f} s",
+                  dipping.points, dipping.candidates, dipping.rounds, dipping.optimise_s));
   const PlanarOptions planar = {.grid = GridOf(task.options),
                                 .d_max_m = PlanarReach(task),
                                 .tau_r = task.options.reconstructability};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plan/dipping/dipping_views.h"
 
+#include <chrono>
 #include <iterator>
 
 #include "plan/dipping/candidates.h"
@@ -42,7 +43,10 @@ DippingReport PlanDippingViews(const DippingSetting& setting, Progress& progress
     std::vector<DippingPoint> points = SelectPoints(setting, ViewsOf(setting, candidates, turns));
     report.candidates += static_cast<int>(candidates.size());
     report.initial_points += static_cast<int>(points.size());
+    const auto start = std::chrono::steady_clock::now();
     report.rounds += OptimiseViews(level, setting, turns, points).rounds;
+    report.optimise_s +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     report.points += static_cast<int>(points.size());
     for (const DippingPoint& point : points) {
       std::vector<Hover> hovers = Lift(level, setting, point);

@@ -16,6 +16,7 @@ struct DippingReport {
   int initial_points = 0;  // before the optimisation
   int points = 0;
   int rounds = 0;
+  double optimise_s = 0;  // wall time of the optimisation
   // By facade, along it from a: what no allowed position sees within d_max and 75 degrees.
   std::vector<std::vector<Interval>> unobservable_m;
 };

@@ -85,7 +85,7 @@ std::string StatsTable(const PlanStats& stats) {
     return facade.UnobservableLength() > kNoteworthy;
   });
   text += Row("from above only", fmt::format("{:.1f} of {:.1f} m of wall, on {} facades",
-                                        stats.unobservable_m, stats.wall_m, parts));
+                                             stats.unobservable_m, stats.wall_m, parts));
   return text + WorstFacades(stats);
 }
 

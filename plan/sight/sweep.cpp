@@ -95,8 +95,8 @@ class Sweeper {
       return sa <= 0 && sb <= 0;
     }
   };
-  // Walls that cross after all, by less than a map can say, leave no order: with equal ones allowed,
-  // every wall keeps a place of its own.
+  // Walls that cross after all, by less than a map can say, leave no order: with equal ones
+  // allowed, every wall keeps a place of its own.
   using Active = std::multiset<int, Nearer>;
 
   bool Before(const Event& a, const Event& b) const {
