@@ -6,9 +6,9 @@
   bench/plan_check.py PLAN.json [--samples N]
 
 Safety: every view and every leg of every flight keeps d_min from every footprint below the height
-up to which that is blocked, and stays outside no-fly polygons. Completeness: N random points between
-the buildings are tried, and every wall point that one of them sees within d_max and 75 degrees has
-to be in the target of a view. Exit code 1 when anything is wrong.
+up to which that is blocked, and stays outside no-fly polygons. Completeness: N random points
+between the buildings are tried, and every wall point that one of them sees within d_max and 75
+degrees has to be in the target of a view. Exit code 1 when anything is wrong.
 """
 import argparse
 import json

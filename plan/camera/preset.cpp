@@ -72,7 +72,8 @@ std::string Problem(const PlannedCamera& camera) {
 // "17.3x13mm,12.29mm,5280x3956"; nothing when the text is not of this form.
 std::optional<CameraPreset> CustomCamera(const std::string& text) {
   static const std::regex form(
-      R"(\s*(\d+(?:\.\d+)?)\s*[xX]\s*(\d+(?:\.\d+)?)\s*(?:mm)?\s*,\s*(\d+(?:\.\d+)?)\s*(?:mm)?\s*,\s*(\d+)\s*[xX]\s*(\d+)\s*(?:px)?\s*)");
+      R"(\s*(\d+(?:\.\d+)?)\s*[xX]\s*(\d+(?:\.\d+)?)\s*(?:mm)?\s*,)"
+      R"(\s*(\d+(?:\.\d+)?)\s*(?:mm)?\s*,\s*(\d+)\s*[xX]\s*(\d+)\s*(?:px)?\s*)");
   std::smatch found;
   if (!std::regex_match(text, found, form)) return std::nullopt;
   CameraPreset result;
