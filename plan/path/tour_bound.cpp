@@ -16,6 +16,7 @@ constexpr int kMostSteps = 600;
 constexpr double kWorkPerBound = 1e8;  // edges looked at, four costs each: fewer steps on big maps
 constexpr int kPatience = 8;           // steps without progress before they are halved
 constexpr int kMostRounds = 40;
+constexpr double kWorthARound = 2e-3;  // of the bound, that another round has to promise
 
 // Costs from both ports of one hover to both of another: of port a to port b at 2 a + b.
 using PortTable = std::array<double, 4>;
@@ -347,7 +348,9 @@ double TourLowerBound(const HoverCosts& costs, std::span<const std::vector<Candi
     weights = Ascend(graph, tour_cost, std::move(weights), By::kPort);
     tree = LeastOneTreeOfAll(costs, graph, weights);
     bound = std::max(bound, tree.cost);
-    if (!AddTreeEdges(costs, tree, graph)) break;
+    // With all pairs priced the bound can come up to that of the graph, no farther.
+    const double most = LeastOneTree(graph, weights).cost;
+    if (!AddTreeEdges(costs, tree, graph) || tree.cost >= most - kWorthARound * most) break;
   }
   // Costs are sums of rounded terms.
   return std::max(0.0, bound * (1 - 1e-12));
