@@ -24,17 +24,6 @@ bool Holds(const Target& target, const FacadeGrid& grid, uint32_t cell) {
   return Holds(target.along_m, grid.Along(cell)) && Holds(target.z_m, grid.Heights(cell));
 }
 
-Target BoxAround(const FacadeGrid& grid, int facade, std::span<const uint32_t> cells) {
-  Target out{facade, grid.Along(cells.front()), grid.Heights(cells.front())};
-  for (const uint32_t cell : cells) {
-    const Interval u = grid.Along(cell);
-    const Interval v = grid.Heights(cell);
-    out.along_m = {std::min(out.along_m.from_m, u.from_m), std::max(out.along_m.to_m, u.to_m)};
-    out.z_m = {std::min(out.z_m.from_m, v.from_m), std::max(out.z_m.to_m, v.to_m)};
-  }
-  return out;
-}
-
 // Cells of the facade that some photo shows.
 class Coverage {
  public:

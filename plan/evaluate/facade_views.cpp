@@ -134,4 +134,15 @@ double FacadeSight::ScoreOf(int facade, const SeenPart& part) const {
   return ViewScore(QualityOfView(part, widest, site_.d_min_m, d_max_m_));
 }
 
+Target BoxAround(const FacadeGrid& grid, int facade, std::span<const uint32_t> cells) {
+  Target out{facade, grid.Along(cells.front()), grid.Heights(cells.front())};
+  for (const uint32_t cell : cells) {
+    const Interval u = grid.Along(cell);
+    const Interval v = grid.Heights(cell);
+    out.along_m = {std::min(out.along_m.from_m, u.from_m), std::max(out.along_m.to_m, u.to_m)};
+    out.z_m = {std::min(out.z_m.from_m, v.from_m), std::max(out.z_m.to_m, v.to_m)};
+  }
+  return out;
+}
+
 }  // namespace stucco::plan

@@ -32,6 +32,9 @@ struct FacadeGrid {
   int rows = 0;
 };
 
+// The target on a facade that just holds these cells, of which there is at least one.
+Target BoxAround(const FacadeGrid& grid, int facade, std::span<const uint32_t> cells);
+
 // What one photo sees of a facade.
 struct SeenView {
   int hover = 0;

@@ -17,11 +17,11 @@ constexpr size_t kNearest = 30;   // looked at: those of a facade cost half of w
 constexpr size_t kMeasured = 14;  // of which the shortest safe path is searched
 constexpr size_t kKept = 10;
 
-bool IsCheaper(const Candidate& a, const Candidate& b) {
+bool IsCheaper(const TourCandidate& a, const TourCandidate& b) {
   return a.cost != b.cost ? a.cost < b.cost : a.hover < b.hover;
 }
 
-Candidate Measure(const HoverCosts& costs, int i, int j) {
+TourCandidate Measure(const HoverCosts& costs, int i, int j) {
   const double length = costs.Length(i, j);
   return {j, length, HoverCosts::Cost(costs.Weight(i, j), length, costs.LeastTurn(i, j))};
 }
@@ -41,14 +41,15 @@ std::vector<int> NearestInQuadrants(const HoverCosts& costs, const NearestPoints
   return found;
 }
 
-std::vector<Candidate> CandidatesOf(const HoverCosts& costs, const NearestPoints& points, int i) {
-  std::vector<Candidate> found;
+std::vector<TourCandidate> CandidatesOf(const HoverCosts& costs, const NearestPoints& points,
+                                        int i) {
+  std::vector<TourCandidate> found;
   for (const int j : points.Find(costs.Position(i), kNearest, [&](int j) { return j != i; })) {
     found.push_back({j, 0, costs.LeastCost(i, j)});
   }
   std::sort(found.begin(), found.end(), IsCheaper);
   if (found.size() > kMeasured) found.resize(kMeasured);
-  for (Candidate& candidate : found) candidate = Measure(costs, i, candidate.hover);
+  for (TourCandidate& candidate : found) candidate = Measure(costs, i, candidate.hover);
   std::sort(found.begin(), found.end(), IsCheaper);
   if (found.size() > kKept) found.resize(kKept);
   for (const int j : NearestInQuadrants(costs, points, i)) {
@@ -62,11 +63,11 @@ std::vector<Candidate> CandidatesOf(const HoverCosts& costs, const NearestPoints
 
 }  // namespace
 
-std::vector<std::vector<Candidate>> FindCandidates(const HoverCosts& costs, int threads) {
+std::vector<std::vector<TourCandidate>> FindCandidates(const HoverCosts& costs, int threads) {
   std::vector<Vector3d> positions;
   for (int k = 0; k < costs.size(); ++k) positions.push_back(costs.Position(k));
   const NearestPoints points(positions);
-  std::vector<std::vector<Candidate>> candidates(positions.size());
+  std::vector<std::vector<TourCandidate>> candidates(positions.size());
   ParallelFor(candidates.size(), threads,
               [&](size_t k) { candidates[k] = CandidatesOf(costs, points, static_cast<int>(k)); });
   return candidates;

@@ -14,10 +14,9 @@ struct TourCandidate {
   double length_m = 0;
   double cost = 0;  // of the best ports
 };
-using Candidate = TourCandidate;  // dipping views have candidates of their own
 
 // For each hover the cheapest others, cheapest first: ten by cost, and the nearest one in each
 // quadrant around it, which keeps clusters connected.
-std::vector<std::vector<Candidate>> FindCandidates(const HoverCosts& costs, int threads);
+std::vector<std::vector<TourCandidate>> FindCandidates(const HoverCosts& costs, int threads);
 
 }  // namespace stucco::plan

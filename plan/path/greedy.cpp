@@ -16,7 +16,7 @@ int Root(std::vector<int>& parent, int k) {
   return k;
 }
 
-Links GreedyPaths(std::span<const std::vector<Candidate>> candidates) {
+Links GreedyPaths(std::span<const std::vector<TourCandidate>> candidates) {
   struct Edge {
     double cost;
     int a;
@@ -24,7 +24,7 @@ Links GreedyPaths(std::span<const std::vector<Candidate>> candidates) {
   };
   std::vector<Edge> edges;
   for (size_t i = 0; i < candidates.size(); ++i) {
-    for (const Candidate& candidate : candidates[i]) {
+    for (const TourCandidate& candidate : candidates[i]) {
       const int a = static_cast<int>(i);
       edges.push_back({candidate.cost, std::min(a, candidate.hover), std::max(a, candidate.hover)});
     }
@@ -50,7 +50,7 @@ Links GreedyPaths(std::span<const std::vector<Candidate>> candidates) {
 }  // namespace
 
 std::vector<int> GreedyTour(const HoverCosts& costs,
-                            std::span<const std::vector<Candidate>> candidates) {
+                            std::span<const std::vector<TourCandidate>> candidates) {
   const Links links = GreedyPaths(candidates);
   std::vector<int> ends;  // of paths not taken yet
   for (int k = 0; k < costs.size(); ++k) {

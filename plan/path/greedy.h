@@ -12,6 +12,6 @@ namespace stucco::plan {
 // A closed tour to start from: the cheapest candidate edges that leave paths, then the paths one
 // after the other, each time the one that begins nearest.
 std::vector<int> GreedyTour(const HoverCosts& costs,
-                            std::span<const std::vector<Candidate>> candidates);
+                            std::span<const std::vector<TourCandidate>> candidates);
 
 }  // namespace stucco::plan

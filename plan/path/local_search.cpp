@@ -74,7 +74,7 @@ void TourSearch::Wake(int hover) {
   awake_.push_back(hover);
 }
 
-TourSearch::TourSearch(PortCosts& costs, std::span<const std::vector<Candidate>> candidates,
+TourSearch::TourSearch(PortCosts& costs, std::span<const std::vector<TourCandidate>> candidates,
                        const Order& start)
     : costs_(costs),
       candidates_(candidates),
@@ -163,7 +163,7 @@ std::vector<TourSearch::Step> TourSearch::LookAhead(int first, int last, double 
   std::vector<Step> steps;
   const bool forward = Next(first) == last;
   const Port open = Facing(last, !forward);
-  for (const Candidate& candidate : candidates_[last]) {
+  for (const TourCandidate& candidate : candidates_[last]) {
     if (candidate.cost >= gain) break;
     const int to = candidate.hover;
     if (to == first) continue;
@@ -196,7 +196,7 @@ double TourSearch::MoveStretch(int hover, bool forward) {
     const double freed = costs_(near_port, Facing(before, !forward)) +
                          costs_(far_port, Facing(after, forward)) -
                          costs_(Facing(before, !forward), Facing(after, forward));
-    for (const Candidate& candidate : candidates_[hover]) {
+    for (const TourCandidate& candidate : candidates_[hover]) {
       if (candidate.cost >= freed) break;
       const int beside = candidate.hover;
       // Steps from the stretch's end to `beside`, were it part of the stretch.

@@ -18,7 +18,7 @@ namespace stucco::plan {
 class TourSearch {
  public:
   // At least eight hovers. Keeps references to costs and candidates.
-  TourSearch(PortCosts& costs, std::span<const std::vector<Candidate>> candidates,
+  TourSearch(PortCosts& costs, std::span<const std::vector<TourCandidate>> candidates,
              const Order& start);
 
   // To a local optimum.
@@ -65,7 +65,7 @@ class TourSearch {
   double SwapStretches(std::mt19937_64& random);
 
   PortCosts& costs_;
-  std::span<const std::vector<Candidate>> candidates_;
+  std::span<const std::vector<TourCandidate>> candidates_;
   int size_ = 0;
   std::vector<int> order_;
   std::vector<int> place_;

@@ -18,11 +18,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-PortCosts::PortCosts(const HoverCosts& costs, std::span<const std::vector<Candidate>> candidates)
+PortCosts::PortCosts(const HoverCosts& costs,
+                     std::span<const std::vector<TourCandidate>> candidates)
     : costs_(&costs),
       table_(std::min(std::bit_ceil(kEntriesPerHover * candidates.size() + 1), kMostEntries)) {
   for (size_t i = 0; i < candidates.size(); ++i) {
-    for (const Candidate& candidate : candidates[i]) {
+    for (const TourCandidate& candidate : candidates[i]) {
       const int from = static_cast<int>(i);
       Slot(from, candidate.hover) = MakeEntry(from, candidate.hover, candidate.length_m);
     }

@@ -24,7 +24,7 @@ struct Order {
 class PortCosts {
  public:
   // Keeps a reference to the costs.
-  PortCosts(const HoverCosts& costs, std::span<const std::vector<Candidate>> candidates);
+  PortCosts(const HoverCosts& costs, std::span<const std::vector<TourCandidate>> candidates);
   double operator()(Port a, Port b);
   // Whether that cost is below the limit; often without looking for a path.
   bool IsBelow(Port a, Port b, double limit);

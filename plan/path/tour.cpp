@@ -46,8 +46,8 @@ Order BestOfAll(int hovers, PortCosts& costs) {
 }
 
 // The tour before perturbation: nearly as good, and soon there.
-Order FirstTour(const HoverCosts& hover_costs, std::span<const std::vector<Candidate>> candidates,
-                PortCosts& costs) {
+Order FirstTour(const HoverCosts& hover_costs,
+                std::span<const std::vector<TourCandidate>> candidates, PortCosts& costs) {
   if (candidates.size() <= kMostTried) return BestOfAll(hover_costs.size(), costs);
   Order order{GreedyTour(hover_costs, candidates), std::vector<char>(candidates.size())};
   ChooseDirections(order, costs);
@@ -61,7 +61,7 @@ int PerturbationsOf(size_t hovers) {
   return static_cast<int>(std::min(kPerturbationsPerHover * hovers, kMostPerturbations));
 }
 
-Order Perturbed(const Order& start, std::span<const std::vector<Candidate>> candidates,
+Order Perturbed(const Order& start, std::span<const std::vector<TourCandidate>> candidates,
                 PortCosts& costs, Progress& progress) {
   const int perturbations = PerturbationsOf(candidates.size());
   if (perturbations == 0) return start;

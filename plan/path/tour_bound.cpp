@@ -77,11 +77,12 @@ PortTable TableOf(const HoverCosts& costs, int i, int j, double length_m) {
   return table;
 }
 
-Graph CandidateGraph(const HoverCosts& costs, std::span<const std::vector<Candidate>> candidates) {
+Graph CandidateGraph(const HoverCosts& costs,
+                     std::span<const std::vector<TourCandidate>> candidates) {
   Graph graph(candidates.size());
   for (size_t k = 0; k < candidates.size(); ++k) {
     const int i = static_cast<int>(k);
-    for (const Candidate& c : candidates[k]) {
+    for (const TourCandidate& c : candidates[k]) {
       AddEdge(graph, i, c.hover, TableOf(costs, i, c.hover, c.length_m));
     }
   }
@@ -332,8 +333,8 @@ bool AddTreeEdges(const HoverCosts& costs, const OneTree& tree, Graph& graph) {
 
 }  // namespace
 
-double TourLowerBound(const HoverCosts& costs, std::span<const std::vector<Candidate>> candidates,
-                      double tour_cost) {
+double TourLowerBound(const HoverCosts& costs,
+                      std::span<const std::vector<TourCandidate>> candidates, double tour_cost) {
   const int n = costs.size();
   if (n < 2) return 0;
   if (n == 2) return 2 * costs.CheapestCost(0, 1);

@@ -17,7 +17,7 @@ namespace stucco::plan {
 // sets the length of the steps. The steps look at candidate edges only; what is returned does not:
 // it is the least 1-tree over all pairs, where pairs that are no candidates count with a cost that
 // is at most the true one (straight line instead of safe path).
-double TourLowerBound(const HoverCosts& costs, std::span<const std::vector<Candidate>> candidates,
-                      double tour_cost);
+double TourLowerBound(const HoverCosts& costs,
+                      std::span<const std::vector<TourCandidate>> candidates, double tour_cost);
 
 }  // namespace stucco::plan

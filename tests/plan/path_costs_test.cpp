@@ -187,7 +187,7 @@ TEST(Candidates, ReachEveryHoverOfAClusteredMap) {
     ++count;
     EXPECT_TRUE(std::is_sorted(candidates[at].begin(), candidates[at].end(),
                                [](const auto& a, const auto& b) { return a.cost < b.cost; }));
-    for (const Candidate& candidate : candidates[at]) open_list.push_back(candidate.hover);
+    for (const TourCandidate& candidate : candidates[at]) open_list.push_back(candidate.hover);
   }
   EXPECT_EQ(count, hovers.size());
 }

@@ -127,7 +127,7 @@ TEST(Tour, TheBoundHoldsWithPoorCandidates) {
   for (uint64_t seed = 0; seed < 10; ++seed) {
     const auto hovers = FewHovers(obstacles, 9, seed);
     const HoverCosts costs(space, hovers);
-    std::vector<std::vector<Candidate>> poor(9);
+    std::vector<std::vector<TourCandidate>> poor(9);
     for (int i = 0; i < 9; ++i) {
       int farthest = i == 0 ? 1 : 0;
       for (int j = 0; j < 9; ++j) {
