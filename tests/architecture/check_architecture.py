@@ -21,7 +21,7 @@ ARROWS = {stage: {"survey"} for stage in STAGES}
 ARROWS["survey"] = set()
 ARROWS["pipeline"] = STAGES | {"survey"}
 ARROWS["simulate"] = {"survey", "plan"}
-ARROWS["evaluate"] = {"survey", "plan"}
+ARROWS["evaluate"] = {"survey", "plan", "simulate"}
 ARROWS["cli"] = {"pipeline", "survey", "simulate", "evaluate"}
 MODULES = set(ARROWS)
 

@@ -76,7 +76,7 @@ class CheckArchitectureTest(unittest.TestCase):
         self.assert_refused("pipeline/run.cpp", '"cli/arguments.h"', may_not)
         self.assert_refused("cli/main.cpp", '"calib/adjust.h"', may_not)
         self.assert_refused("simulate/fly.cpp", '"calib/adjust.h"', may_not)
-        self.assert_refused("evaluate/poses.cpp", '"simulate/fly.h"', may_not)
+        self.assert_refused("simulate/fly.cpp", '"evaluate/evaluate.h"', may_not)
         self.assert_refused("tests/calib/a_test.cpp", '"dense/densify.h"', may_not)
         self.assert_refused("calib/adjust.cpp", '"tests/calib/scene.h"', "only tests")
 

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "evaluate/evaluation.h"
+
+namespace stucco::evaluate {
+
+struct EvaluateRequest {
+  std::filesystem::path survey;       // with whatever stages have results
+  std::filesystem::path scene;        // a scene folder with truth
+  std::filesystem::path flight;       // survey folder with truth/flight.json; empty: `survey`
+  std::filesystem::path output;       // evaluation.json, facades.csv, evaluation.html, pictures/
+  std::filesystem::path lpips_model;  // ONNX; empty: LPIPS is not measured
+  double tolerance_m = 0.1;
+  int threads = 0;
+};
+
+// Measures every result of the survey against the truth. What a stage has not made yet is not
+// measured and noted. Throws Error (kBadInput) where the scene or the flight has no truth.
+Evaluation Evaluate(const EvaluateRequest& request);
+
+// The names of design and docs/formats.md; NaN becomes null.
+void WriteEvaluation(const Evaluation& evaluation, const std::filesystem::path& output);
+
+}  // namespace stucco::evaluate

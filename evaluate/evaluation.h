@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace stucco::evaluate {
+
+// A measure that could not be taken: the stage has no result. Written as null.
+inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+struct PoseFigures {
+  int posed = 0;
+  int total = 0;
+  double position_mean_m = kNotMeasured;  // after the best similarity
+  double position_max_m = kNotMeasured;
+  double rotation_mean_deg = kNotMeasured;
+  double rotation_max_deg = kNotMeasured;
+  double georeferenced_mean_m = kNotMeasured;  // in the frames as they are
+};
+
+struct SurfaceFigures {
+  double error95_m = kNotMeasured;     // 95 % of the result lies nearer to the truth
+  double completeness = kNotMeasured;  // share of the truth's area with the result nearby
+};
+
+struct ProxyFigures {
+  int buildings = 0;
+  int watertight = 0;
+  int manifold = 0;
+  int self_intersecting = 0;
+  int facets = 0;
+  int truth_facets = 0;
+  SurfaceFigures all, wall, roof, ground;
+  double facade_id_rate = kNotMeasured;  // share of the truth's wall area whose facet has its id
+};
+
+struct PictureFigures {
+  double ssim = kNotMeasured;
+  double ms_ssim = kNotMeasured;
+  double psnr = kNotMeasured;
+  double gmsd = kNotMeasured;
+  double flip = kNotMeasured;
+  double lpips = kNotMeasured;
+};
+
+struct FacadeFigures {
+  std::string id;     // of the truth
+  std::string facet;  // of the result; empty: none
+  double area_m2 = 0;
+  double painted = 0;  // share of the truth's area that the result paints
+  PictureFigures picture;
+  double misregistration_px = kNotMeasured;
+  std::string truth_picture;  // for the page, relative to the output folder; may be empty
+  std::string result_picture;
+};
+
+struct HeldOutFigures {
+  std::string photo;
+  PictureFigures picture;
+  std::string truth_picture;
+  std::string result_picture;
+};
+
+struct PlanFigures {
+  std::string method;
+  int photos = 0;
+  int hovers = 0;
+  double length_m = 0;
+  double time_min = 0;
+  double battery_percent = 0;
+  double q_s = 0, q_d = 0, q_u = 0, q_c = 0;  // means over facades, by length
+};
+
+struct Evaluation {
+  std::string survey;
+  std::string scene;
+  double tolerance_m = 0.1;  // of completeness
+  PoseFigures poses;
+  SurfaceFigures dense, mesh;
+  ProxyFigures proxy;
+  PictureFigures texture_mean;
+  double misregistration_px = kNotMeasured;  // median over facades, by area
+  std::vector<FacadeFigures> facades;
+  PictureFigures views_mean;
+  std::vector<HeldOutFigures> views;
+  bool has_plan = false;
+  PlanFigures plan;
+  std::vector<std::string> notes;  // what could not be measured and why
+};
+
+}  // namespace stucco::evaluate

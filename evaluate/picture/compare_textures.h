@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "evaluate/evaluation.h"
+#include "simulate/flight/flight_folder.h"
+#include "simulate/render/renderer.h"
+#include "survey/pose.h"
+#include "survey/proxy.h"
+#include "survey/texture_set.h"
+
+namespace stucco::evaluate {
+
+// A result and the truth that it is compared with. `truth_from_world` takes the survey's world into
+// the scene's frame (from the camera positions); scale 1 up to calibration's error.
+struct TextureComparison {
+  std::filesystem::path texture_folder;  // of the images that `textures` names
+  const Proxy& proxy;
+  const TextureSet& textures;
+  const Proxy& truth;
+  const simulate::Renderer& scene;  // the truth is drawn on the texel grid of the result
+  simulate::Light light;            // of the middle of the flight
+  std::vector<bool> occluders;      // elements of the scene that are no part of a facade
+  Similarity truth_from_world;
+  std::filesystem::path output;       // pictures/ is made in it
+  std::filesystem::path lpips_model;  // empty: none
+  int threads = 0;
+};
+
+// Figures of every wall of the truth, matched to the result's facet on the same plane.
+std::vector<FacadeFigures> CompareFacades(const TextureComparison& comparison);
+
+// Renders texture/model.glb where the held-out photos of the flight were taken, with their lens.
+std::vector<HeldOutFigures> CompareViews(const TextureComparison& comparison,
+                                         const simulate::Flight& flight,
+                                         const std::filesystem::path& flight_folder);
+
+}  // namespace stucco::evaluate

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stucco::simulate {
+
+struct CityOptions {
+  std::string style = "hamlet";  // hamlet, block, asia, campus, terrain
+  uint64_t seed = 1;
+  double metres_per_texel = 0.01;  // of walls and roofs
+  double latitude_deg = 50.0875;   // of the origin
+  double longitude_deg = 14.4213;
+  double height_m = 200;  // of z = 0 above the ellipsoid
+  int threads = 0;
+};
+
+std::vector<std::string> CityStyles();
+
+struct CitySummary {
+  int buildings = 0;
+  int facades = 0;
+  int triangles = 0;
+  double wall_area_m2 = 0;
+};
+
+// Makes a scene folder (scene_folder.h). The same options give the same bytes. Throws Error (kUsage
+// for an unknown style, kOutOfResource).
+CitySummary MakeCity(const CityOptions& options, const std::filesystem::path& scene_folder);
+
+}  // namespace stucco::simulate

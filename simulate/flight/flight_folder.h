@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulate/render/light.h"
+#include "survey/camera.h"
+#include "survey/pose.h"
+
+namespace stucco::simulate {
+
+// The truth of a simulated flight, beside its photos in SURVEY/truth:
+//   flight.json          this struct
+//   sparse/{cameras,images,points3D}.txt  the same cameras and poses for COLMAP's readers
+//   depth/<photo>.dmap   on request
+//   held_out/<photo>     photos that the survey does not have, listed in flight.json
+inline constexpr char kTruthFolder[] = "truth";
+inline constexpr char kFlightFile[] = "truth/flight.json";
+
+struct FlownPhoto {
+  std::string path;     // below the photo folder, or below truth/ when held out
+  std::string view;     // of the plan; empty: none
+  Camera camera;        // exact, with its distortion
+  Pose cam_from_world;  // exact; the world is the scene's frame
+  Light light;          // at its time
+  double exposure = 1;  // radiance times this is what the sensor counts, 1 = white
+  Eigen::Vector3d white_balance = Eigen::Vector3d::Ones();  // times this, by channel
+  bool held_out = false;
+  bool lost = false;         // planned, but there is no such file
+  std::string duplicate_of;  // path of the photo that was taken twice
+};
+
+struct Flight {
+  std::string scene;  // as given
+  uint64_t seed = 0;
+  std::vector<FlownPhoto> photos;  // in order of capture, held-out ones last
+};
+
+// Throws Error (kBadInput).
+Flight ReadFlight(const std::filesystem::path& survey);
+void WriteFlight(const Flight& flight, const std::filesystem::path& survey);
+
+}  // namespace stucco::simulate

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "simulate/flight/options.h"
+#include "simulate/scene/scene_folder.h"
+
+namespace stucco::simulate {
+
+struct FlyRequest {
+  std::filesystem::path scene;   // a scene folder or a model
+  ModelReading reading;          // for models
+  std::filesystem::path plan;    // plan.json, or a survey folder with plan/plan.json
+  std::filesystem::path survey;  // photos/ and truth/ are made in it
+  int threads = 0;
+};
+
+struct FlySummary {
+  int photos = 0;
+  int lost = 0;
+  int held_out = 0;
+  double megapixels = 0;
+  double render_s = 0;
+};
+
+// Flies a plan through a scene: photos with the metadata that a drone writes into SURVEY/photos,
+// the truth beside them. `progress` hears (done, total) after each photo. What an interrupted
+// flight has finished is kept: the same call goes on. Throws Error (kBadInput): the plan is for
+// another place, a camera stands inside a building, ...
+FlySummary Fly(const FlyRequest& request, const FlightOptions& options,
+               const std::function<void(size_t, size_t)>& progress);
+
+}  // namespace stucco::simulate

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "simulate/paint/wall_design.h"
+#include "survey/image.h"
+
+namespace stucco::simulate {
+
+// The albedo (sRGB) of a wall at `metres_per_texel`, ceil(width / mpt) x ceil(height / mpt) texels,
+// the top-left corner of the top-left texel at the wall's top-left corner. Grain and joints down to
+// a texel, nothing repeats. Colours and weathering come from the facade pictures of the library.
+Image PaintWall(const WallDesign& design, double metres_per_texel);
+Image PaintCovering(const CoveringDesign& design, double metres_per_texel);
+
+// Small pictures for parts that are not on a wall's picture: reveals of windows, balcony slabs.
+Image PaintTrim(const WallDesign& design, double width_m, double height_m, double metres_per_texel);
+
+// Leaves with alpha, for trees; and the side of a parked car with alpha one, by `variant`.
+Image PaintLeaves(uint64_t seed, int side_px);
+Image PaintCar(uint64_t seed, double metres_per_texel);
+
+}  // namespace stucco::simulate
