@@ -2,16 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/planned_pairs.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
-#include "survey/error.h"
-#include "survey/survey_folder.h"
+#include "survey/plan_of_survey.h"
 
 namespace stucco {
 namespace {
@@ -69,15 +66,9 @@ std::vector<std::pair<int, int>> PairsOfPlan(const Plan& plan,
 
 std::vector<std::pair<int, int>> PlannedPairs(const StageContext& context,
                                               const std::vector<const CapturedPhoto*>& photos) {
-  const std::filesystem::path path = context.survey / kPlanFile;
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) return {};
-  try {
-    return PairsOfPlan(ReadPlan(path), photos);
-  } catch (const Error& problem) {
-    context.progress->Warn(fmt::format("the plan is not used: {}", problem.what()));
-    return {};
-  }
+  const std::optional<Plan> plan = PlanOfSurvey(context);
+  if (!plan) return {};
+  return PairsOfPlan(*plan, photos);
 }
 
 }  // namespace stucco

@@ -18,8 +18,7 @@
 #include "survey/image.h"
 #include "survey/parallel.h"
 #include "survey/photo_files.h"
-#include "survey/plan.h"
-#include "survey/survey_folder.h"
+#include "survey/plan_of_survey.h"
 
 namespace stucco {
 namespace {
@@ -102,17 +101,10 @@ void NoteFindings(const Captures& captures, Progress& progress) {
   }
 }
 
-// A survey without a plan, or with one that cannot be read, is as good as any other.
 void CompareWithPlan(const StageContext& context, Captures& captures) {
-  const std::filesystem::path path = context.survey / kPlanFile;
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) return;
-  try {
-    captures.views = MatchToPlan(ReadPlan(path), captures.photos);
-  } catch (const Error& problem) {
-    context.progress->Warn(fmt::format("the plan is not used: {}", problem.what()));
-    return;
-  }
+  const std::optional<Plan> plan = PlanOfSurvey(context);
+  if (!plan) return;
+  captures.views = MatchToPlan(*plan, captures.photos);
   const size_t captured =
       std::count_if(captures.views.begin(), captures.views.end(),
                     [](const CapturedView& view) { return view.status == "captured"; });

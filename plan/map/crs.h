@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "plan/map/frame.h"
 #include "plan/map/read_map.h"
+#include "survey/plan_frame.h"
 
 namespace stucco::plan {
 

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "plan/map/frame.h"
 #include "plan/site.h"
+#include "survey/plan_frame.h"
 
 namespace stucco::plan {
 

@@ -16,12 +16,12 @@
 #include "plan/map/clean.h"
 #include "plan/map/crs.h"
 #include "plan/map/facades.h"
-#include "plan/map/frame.h"
 #include "plan/map/ground.h"
 #include "plan/map/home.h"
 #include "plan/map/read_dem.h"
 #include "plan/map/read_map.h"
 #include "survey/error.h"
+#include "survey/plan_frame.h"
 
 namespace stucco::plan {
 namespace {

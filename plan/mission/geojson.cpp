@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "plan/map/frame.h"
 #include "plan/mission/kml.h"
+#include "survey/plan_frame.h"
 
 namespace stucco::plan {
 namespace {

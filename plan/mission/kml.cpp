@@ -8,8 +8,8 @@
 #include <pugixml.hpp>
 #include <vector>
 
-#include "plan/map/frame.h"
 #include "plan/output/colors.h"
+#include "survey/plan_frame.h"
 
 namespace stucco::plan {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "plan/map/frame.h"
 #include "survey/plan.h"
+#include "survey/plan_frame.h"
 
 namespace stucco::plan {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "plan/map/frame.h"
 #include "plan/site.h"
+#include "survey/plan_frame.h"
 
 namespace stucco::plan {
 

@@ -11,9 +11,9 @@
 #include <set>
 
 #include "plan/internal/ogr.h"
-#include "plan/map/frame.h"
 #include "plan/map/read_site.h"
 #include "survey/error.h"
+#include "survey/plan_frame.h"
 
 namespace stucco::plan {
 namespace {

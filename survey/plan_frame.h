@@ -5,9 +5,10 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "survey/georef.h"
 #include "survey/plan.h"
 
-namespace stucco::plan {
+namespace stucco {
 
 // WGS 84.
 struct Geodetic {
@@ -22,6 +23,12 @@ struct Geodetic {
 Geodetic GeodeticFromPlan(const PlanOrigin& origin, const Eigen::Vector2d& position);
 Eigen::Vector2d PlanFromGeodetic(const PlanOrigin& origin, const Geodetic& geodetic);
 
+// Where a point of the plan lies east and north in the world frame of an "enu" survey. Heights stay
+// out of it: plans count them from the terrain, surveys as their photos state them, and over the
+// kilometre of a site a height of 100 m moves nothing by more than 2 cm.
+Eigen::Vector2d EnuFromPlan(const PlanOrigin& origin, const Georef& georef,
+                            const Eigen::Vector2d& position);
+
 // "+proj=tmerc +lat_0=... "; the origin's height is not part of it.
 std::string FrameCrs(const PlanOrigin& origin);
 
@@ -29,4 +36,4 @@ std::string FrameCrs(const PlanOrigin& origin);
 // of the map that moves by a few centimetres moves nothing else.
 PlanOrigin OriginNear(const Geodetic& place);
 
-}  // namespace stucco::plan
+}  // namespace stucco

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/map/frame.h"
+#include "survey/plan_frame.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <complex>
 #include <numbers>
 
-namespace stucco::plan {
+namespace stucco {
 namespace {
 
 constexpr double kSemiMajor_m = 6378137.0;  // WGS 84
@@ -93,6 +93,13 @@ Geodetic GeodeticFromPlan(const PlanOrigin& origin, const Eigen::Vector2d& posit
           WrappedDegrees(origin.longitude_deg + longitude)};
 }
 
+Eigen::Vector2d EnuFromPlan(const PlanOrigin& origin, const Georef& georef,
+                            const Eigen::Vector2d& position) {
+  const Geodetic place = GeodeticFromPlan(origin, position);
+  return EnuFromGeodetic(georef, place.latitude_deg, place.longitude_deg, georef.origin_height_m)
+      .head<2>();
+}
+
 std::string FrameCrs(const PlanOrigin& origin) {
   return fmt::format(
       "+proj=tmerc +lat_0={:.5f} +lon_0={:.5f} +k=1 +x_0=0 +y_0=0 +datum=WGS84 "
@@ -107,4 +114,4 @@ PlanOrigin OriginNear(const Geodetic& place) {
           .height_m = 0};
 }
 
-}  // namespace stucco::plan
+}  // namespace stucco

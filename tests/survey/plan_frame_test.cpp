@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/plan_frame.h"
+
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
 
 #include <memory>
 #include <random>
 
-#include "plan/map/frame.h"
-
-namespace stucco::plan {
+namespace stucco {
 namespace {
 
 struct DestroyTransformation {
@@ -66,6 +66,24 @@ TEST(Frame, OriginIsZeroAndNorthIsNorth) {
   EXPECT_NEAR(north.y(), 1112, 2);
 }
 
+TEST(Frame, LiesInTheWorldFrameOfASurvey) {
+  const PlanOrigin origin{47.05, 15.4, 0};
+  Georef same;
+  same.frame = "enu";
+  same.origin_latitude_deg = 47.05;
+  same.origin_longitude_deg = 15.4;
+  // The map and the tangent plane touch here and part with the cube of the distance.
+  EXPECT_NEAR((EnuFromPlan(origin, same, {300, -200}) - Eigen::Vector2d(300, -200)).norm(), 0,
+              1e-3);
+  // The survey's origin lies 100 m north and 50 m east of the plan's.
+  const Geodetic place = GeodeticFromPlan(origin, {50, 100});
+  Georef other = same;
+  other.origin_latitude_deg = place.latitude_deg;
+  other.origin_longitude_deg = place.longitude_deg;
+  other.origin_height_m = 400;
+  EXPECT_NEAR((EnuFromPlan(origin, other, {80, 90}) - Eigen::Vector2d(30, -10)).norm(), 0, 5e-3);
+}
+
 TEST(Frame, SpansTheDateLine) {
   const PlanOrigin origin{-18.0, 179.9999, 0};
   const Eigen::Vector2d east = PlanFromGeodetic(origin, {-18.0, -179.9999});
@@ -83,4 +101,4 @@ TEST(Frame, OriginLiesOnALattice) {
 }
 
 }  // namespace
-}  // namespace stucco::plan
+}  // namespace stucco
