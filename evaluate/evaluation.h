@@ -55,6 +55,7 @@ struct FacadeFigures {
   double misregistration_px = kNotMeasured;
   std::string truth_picture;  // for the page, relative to the output folder; may be empty
   std::string result_picture;
+  std::string error_picture;  // FLIP's map
 };
 
 struct HeldOutFigures {
@@ -62,6 +63,7 @@ struct HeldOutFigures {
   PictureFigures picture;
   std::string truth_picture;
   std::string result_picture;
+  std::string error_picture;
 };
 
 struct PlanFigures {

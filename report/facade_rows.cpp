@@ -10,7 +10,7 @@
 #include <limits>
 #include <map>
 
-#include "report/numbers.h"
+#include "survey/numbers.h"
 
 namespace stucco {
 namespace {

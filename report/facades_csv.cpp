@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "report/escape.h"
 #include "report/report_json.h"
+#include "survey/escape.h"
 
 namespace stucco {
 namespace {

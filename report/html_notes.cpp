@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include "report/escape.h"
 #include "report/internal/html_sections.h"
-#include "report/numbers.h"
+#include "survey/escape.h"
+#include "survey/numbers.h"
 
 namespace stucco::internal {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "report/escape.h"
 #include "report/internal/html_sections.h"
-#include "report/numbers.h"
+#include "survey/escape.h"
+#include "survey/numbers.h"
 
 namespace stucco::internal {
 namespace {

@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "report/escape.h"
+#include "survey/escape.h"
 #include "survey/image.h"
 
 namespace stucco {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/escape.h"
+#include "survey/escape.h"
 
 namespace stucco {
 namespace {
