@@ -4,16 +4,25 @@
 
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_for_each.h>
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 
 namespace stucco {
+namespace {
+
+// More threads than the machine has would only make TBB warn.
+int Usable(int threads) {
+  return std::min(threads, tbb::info::default_concurrency());
+}
+
+}  // namespace
 
 void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& fn) {
-  // More threads than the machine has would only make TBB warn.
-  threads = std::min(threads, tbb::info::default_concurrency());
+  threads = Usable(threads);
   if (threads <= 1 || count <= 1) {
     for (size_t i = 0; i < count; ++i) fn(i);
     return;
@@ -23,6 +32,32 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& f
   arena.execute([&] {
     tbb::parallel_for(
         size_t{0}, count, [&](size_t i) { fn(i); }, tbb::simple_partitioner());
+  });
+}
+
+void ParallelInOrder(std::span<const std::vector<size_t>> before, int threads,
+                     const std::function<void(size_t)>& fn) {
+  threads = Usable(threads);
+  if (threads <= 1 || before.size() <= 1) {
+    for (size_t i = 0; i < before.size(); ++i) fn(i);
+    return;
+  }
+  std::vector<std::vector<size_t>> after(before.size());
+  std::vector<std::atomic<size_t>> missing(before.size());
+  std::vector<size_t> ready;
+  for (size_t i = 0; i < before.size(); ++i) {
+    for (const size_t earlier : before[i]) after[earlier].push_back(i);
+    missing[i] = before[i].size();
+    if (before[i].empty()) ready.push_back(i);
+  }
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for_each(ready, [&](size_t i, tbb::feeder<size_t>& feeder) {
+      fn(i);
+      for (const size_t later : after[i]) {
+        if (--missing[later] == 0) feeder.add(later);
+      }
+    });
   });
 }
 

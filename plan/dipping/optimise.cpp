@@ -36,6 +36,24 @@ struct Quality {
   double covered = 0;  // metres
 };
 
+// A view and where it is from.
+struct Look {
+  const Vector2d& from;
+  const WallView& view;
+};
+
+struct Place {
+  DippingPoint point;
+  std::vector<SeenFacade> visible;  // in all directions
+};
+
+const SeenFacade* Find(const std::vector<SeenFacade>& visible, int facade) {
+  const auto seen =
+      std::lower_bound(visible.begin(), visible.end(), facade,
+                       [](const SeenFacade& a, int number) { return a.facade < number; });
+  return seen != visible.end() && seen->facade == facade ? &*seen : nullptr;
+}
+
 class Optimiser {
  public:
   Optimiser(const Level& level, const DippingSetting& setting, std::vector<double>& turns,
@@ -44,10 +62,13 @@ class Optimiser {
         setting_(setting),
         turns_(turns),
         points_(points),
+        states_(points.size()),
         changed_at_(setting.site.facades.size(), 0),
-        facade_looked_at_(setting.site.facades.size(), 0),
-        point_looked_at_(points.size(), 0) {
+        looked_at_(setting.site.facades.size(), 0) {
     CollectUsers();
+    ParallelFor(points.size(), setting.threads, [&](size_t i) {
+      states_[i].visible = SeenFrom(level, setting, points[i].position);
+    });
   }
 
   OptimiseReport Run() {
@@ -74,20 +95,43 @@ class Optimiser {
     }
   }
 
-  // Of a facade when point number `changed` (-1: none) were `instead`.
-  Quality QualityOf(int facade, int changed, const DippingPoint* instead) const {
+  // Of a facade whose k-th user looks as look(k) says.
+  template <typename LookOf>
+  Quality QualityOf(int facade, const LookOf& look) const {
     std::vector<SeenPart> parts;
     Intervals seen;
     const Facade& wall = setting_.site.facades[facade];
-    for (const User& user : users_[facade]) {
-      const DippingPoint& point = user.point == changed ? *instead : points_[user.point];
-      const WallView& view = point.views[user.view];
-      parts.push_back(PartOf(wall, point.position, view));
-      seen.insert(seen.end(), view.seen.begin(), view.seen.end());
+    for (size_t k = 0; k < users_[facade].size(); ++k) {
+      const Look one = look(k);
+      parts.push_back(PartOf(wall, one.from, one.view));
+      seen.insert(seen.end(), one.view.seen.begin(), one.view.seen.end());
     }
     const double covered = Length(Union(std::move(seen)));
     const double share = covered / wall.length_m();
     return {QualityOfFacade(parts, share, setting_.d_min_m, setting_.d_max_m).sum(), covered};
+  }
+
+  Quality QualityOf(int facade) const {
+    return QualityOf(facade, [&](size_t k) {
+      const User& user = users_[facade][k];
+      return Look{points_[user.point].position, points_[user.point].views[user.view]};
+    });
+  }
+
+  // If point number `index` were `instead`.
+  Quality QualityWith(int facade, int index, const DippingPoint& instead) const {
+    return QualityOf(facade, [&](size_t k) {
+      const User& user = users_[facade][k];
+      const DippingPoint& point = user.point == index ? instead : points_[user.point];
+      return Look{point.position, point.views[user.view]};
+    });
+  }
+
+  // If these were its views, in the order of users_.
+  Quality QualityWith(int facade, const std::vector<WallView>& views) const {
+    return QualityOf(facade, [&](size_t k) {
+      return Look{points_[users_[facade][k].point].position, views[k]};
+    });
   }
 
   double CostOf(const DippingPoint& point) const {
@@ -105,15 +149,12 @@ class Optimiser {
   }
 
   // The same views from another place; nothing when one of them would see nothing there.
-  std::optional<DippingPoint> Moved(const DippingPoint& point, const Vector2d& position) const {
+  std::optional<Place> Moved(const DippingPoint& point, const Vector2d& position) const {
     if (!MayDip(level_, setting_, position)) return std::nullopt;
-    const std::vector<SeenFacade> visible = SeenFrom(level_, setting_, position);
-    DippingPoint moved{position, point.views};
-    for (WallView& view : moved.views) {
-      const auto seen =
-          std::lower_bound(visible.begin(), visible.end(), view.facade,
-                           [](const SeenFacade& a, int facade) { return a.facade < facade; });
-      if (seen == visible.end() || seen->facade != view.facade) return std::nullopt;
+    Place moved{{position, point.views}, SeenFrom(level_, setting_, position)};
+    for (WallView& view : moved.point.views) {
+      const SeenFacade* seen = Find(moved.visible, view.facade);
+      if (seen == nullptr) return std::nullopt;
       view.seen = InField(seen->seen,
                           FieldWindow(FacadeOf(view), position, view.turn_rad, setting_.hfov_rad));
       if (view.seen.empty()) return std::nullopt;
@@ -122,24 +163,24 @@ class Optimiser {
   }
 
   // The best neighbouring position that dominates the present one.
-  std::optional<DippingPoint> BetterPlace(int index) const {
+  std::optional<Place> BetterPlace(int index) const {
     const DippingPoint& point = points_[index];
     const std::vector<int> facades = FacadesOf(point);
     std::vector<Quality> before;
-    for (const int facade : facades) before.push_back(QualityOf(facade, -1, nullptr));
+    for (const int facade : facades) before.push_back(QualityOf(facade));
     const double cost = CostOf(point);
     double best_gain = kLeastGain;
-    std::optional<DippingPoint> best;
+    std::optional<Place> best;
     for (const double step : kStepsM) {
       for (int k = 0; k < kDirections; ++k) {
         const double angle = 2 * M_PI * k / kDirections;
         const Vector2d to = point.position + step * Vector2d(std::cos(angle), std::sin(angle));
-        std::optional<DippingPoint> moved = Moved(point, to);
+        std::optional<Place> moved = Moved(point, to);
         if (!moved) continue;
-        double gain = cost - CostOf(*moved);
+        double gain = cost - CostOf(moved->point);
         bool dominates = gain >= -kNoLoss;
         for (size_t i = 0; dominates && i < facades.size(); ++i) {
-          const Quality after = QualityOf(facades[i], index, &*moved);
+          const Quality after = QualityWith(facades[i], index, moved->point);
           dominates = after.value >= before[i].value - kNoLoss &&
                       after.covered >= before[i].covered - kNoLoss;
           gain += after.value - before[i].value;
@@ -153,9 +194,9 @@ class Optimiser {
     return best;
   }
 
-  // Points in groups within which no two have a facade in common.
-  std::vector<std::vector<int>> IndependentGroups() const {
-    std::vector<std::vector<int>> groups;
+  // Points by colour, such that no two of a colour have a facade in common.
+  std::vector<std::vector<int>> Colours() const {
+    std::vector<std::vector<int>> points;
     std::vector<std::set<int>> colours_of_facade(users_.size());
     for (size_t i = 0; i < points_.size(); ++i) {
       const std::vector<int> facades = FacadesOf(points_[i]);
@@ -165,39 +206,62 @@ class Optimiser {
         ++colour;
       }
       for (const int facade : facades) colours_of_facade[facade].insert(colour);
-      if (static_cast<size_t>(colour) >= groups.size()) groups.emplace_back();
-      groups[colour].push_back(static_cast<int>(i));
+      if (static_cast<size_t>(colour) >= points.size()) points.emplace_back();
+      points[colour].push_back(static_cast<int>(i));
     }
-    return groups;
+    return points;
   }
 
   // Whether anything that the point's place depends on changed since it was last looked at.
-  bool IsStale(const DippingPoint& point, int looked_at) const {
-    return std::any_of(point.views.begin(), point.views.end(),
-                       [&](const WallView& view) { return changed_at_[view.facade] >= looked_at; });
+  bool IsStale(int index) const {
+    const std::vector<WallView>& views = points_[index].views;
+    return std::any_of(views.begin(), views.end(), [&](const WallView& view) {
+      return changed_at_[view.facade] >= states_[index].looked_at;
+    });
   }
-  void MarkChanged(const DippingPoint& point) {
-    for (const WallView& view : point.views) changed_at_[view.facade] = step_;
+  void MarkChanged(const DippingPoint& point, int step) {
+    for (const WallView& view : point.views) changed_at_[view.facade] = step;
   }
 
+  bool AdjustPoint(int index, int step) {
+    if (!IsStale(index)) return false;
+    states_[index].looked_at = step + 1;
+    std::optional<Place> better = BetterPlace(index);
+    if (!better) return false;
+    points_[index] = std::move(better->point);
+    // There may be a still better place beyond.
+    states_[index] = {std::move(better->visible), step};
+    MarkChanged(points_[index], step);
+    return true;
+  }
+
+  // A point waits only for those of lower colours that it has a facade with, as they alone
+  // influence it: colours run far into each other, and yet the result is that of one by one.
   int AdjustPoints() {
-    int moved = 0;
-    for (std::vector<int>& group : IndependentGroups()) {
+    const std::vector<std::vector<int>> colours = Colours();
+    struct Visit {
+      int point = 0;
+      int step = 0;
+    };
+    std::vector<Visit> visits;
+    std::vector<std::vector<size_t>> before;
+    std::vector<std::optional<size_t>> last(users_.size());  // by facade
+    for (const std::vector<int>& points : colours) {
       ++step_;
-      std::erase_if(group, [&](int i) { return !IsStale(points_[i], point_looked_at_[i]); });
-      std::vector<std::optional<DippingPoint>> better(group.size());
-      ParallelFor(group.size(), setting_.threads,
-                  [&](size_t i) { better[i] = BetterPlace(group[i]); });
-      for (size_t i = 0; i < group.size(); ++i) {
-        point_looked_at_[group[i]] = step_ + 1;
-        if (!better[i]) continue;
-        point_looked_at_[group[i]] = step_;  // there may be a still better place beyond
-        points_[group[i]] = std::move(*better[i]);
-        MarkChanged(points_[group[i]]);
-        ++moved;
+      for (const int point : points) {
+        before.emplace_back();
+        for (const int facade : FacadesOf(points_[point])) {
+          if (last[facade]) before.back().push_back(*last[facade]);
+          last[facade] = visits.size();
+        }
+        visits.push_back({point, step_});
       }
     }
-    return moved;
+    std::vector<char> moved(visits.size(), 0);
+    ParallelInOrder(before, setting_.threads, [&](size_t i) {
+      moved[i] = AdjustPoint(visits[i].point, visits[i].step) ? 1 : 0;
+    });
+    return static_cast<int>(std::count(moved.begin(), moved.end(), 1));
   }
 
   // The facade's views in another direction, in the order of users_.
@@ -207,10 +271,8 @@ class Optimiser {
       WallView view = points_[user.point].views[user.view];
       if (!view.own_turn) {
         const Vector2d& position = points_[user.point].position;
-        const std::vector<SeenFacade> visible = SeenFrom(level_, setting_, position);
-        const auto seen = std::find_if(visible.begin(), visible.end(),
-                                       [&](const SeenFacade& f) { return f.facade == facade; });
-        if (seen == visible.end()) return std::nullopt;
+        const SeenFacade* seen = Find(states_[user.point].visible, facade);
+        if (seen == nullptr) return std::nullopt;
         view.turn_rad = turn;
         view.seen =
             InField(seen->seen, FieldWindow(FacadeOf(view), position, turn, setting_.hfov_rad));
@@ -221,19 +283,6 @@ class Optimiser {
     return views;
   }
 
-  Quality QualityWith(int facade, const std::vector<WallView>& views) const {
-    const Facade& wall = setting_.site.facades[facade];
-    std::vector<SeenPart> parts;
-    Intervals seen;
-    for (size_t i = 0; i < views.size(); ++i) {
-      parts.push_back(PartOf(wall, points_[users_[facade][i].point].position, views[i]));
-      seen.insert(seen.end(), views[i].seen.begin(), views[i].seen.end());
-    }
-    const double covered = Length(Union(std::move(seen)));
-    const double share = covered / wall.length_m();
-    return {QualityOfFacade(parts, share, setting_.d_min_m, setting_.d_max_m).sum(), covered};
-  }
-
   struct BetterTurn {
     double turn = 0;
     std::vector<WallView> views;
@@ -241,7 +290,7 @@ class Optimiser {
 
   std::optional<BetterTurn> FindBetterTurn(int facade) const {
     if (users_[facade].empty()) return std::nullopt;
-    const Quality before = QualityOf(facade, -1, nullptr);
+    const Quality before = QualityOf(facade);
     double best_gain = kLeastGain;
     std::optional<BetterTurn> best;
     for (int step = -kTurnSteps; step <= kTurnSteps; ++step) {
@@ -265,14 +314,14 @@ class Optimiser {
     std::vector<std::optional<BetterTurn>> better(level_.facades.size());
     ParallelFor(level_.facades.size(), setting_.threads, [&](size_t i) {
       const int facade = level_.facades[i];
-      if (changed_at_[facade] >= facade_looked_at_[facade]) better[i] = FindBetterTurn(facade);
+      if (changed_at_[facade] >= looked_at_[facade]) better[i] = FindBetterTurn(facade);
     });
     int turned = 0;
     for (size_t i = 0; i < better.size(); ++i) {
       const int facade = level_.facades[i];
-      facade_looked_at_[facade] = step_ + 1;
+      looked_at_[facade] = step_ + 1;
       if (!better[i]) continue;
-      facade_looked_at_[facade] = step_;
+      looked_at_[facade] = step_;
       changed_at_[facade] = step_;
       turns_[facade] = better[i]->turn;
       for (size_t k = 0; k < users_[facade].size(); ++k) {
@@ -294,7 +343,7 @@ class Optimiser {
     for (size_t i = 0; i < removed.size(); ++i) {
       for (const int k : removed[i]) {
         const User& user = users_[level_.facades[i]][k];
-        MarkChanged(points_[user.point]);  // its cost changes too
+        MarkChanged(points_[user.point], step_);  // its cost changes too
         points_[user.point].views[user.view].seen.clear();
         ++count;
       }
@@ -312,11 +361,14 @@ class Optimiser {
     size_t kept = 0;
     for (size_t i = 0; i < points_.size(); ++i) {
       if (points_[i].views.empty()) continue;
-      if (kept != i) points_[kept] = std::move(points_[i]);
-      point_looked_at_[kept++] = point_looked_at_[i];
+      if (kept != i) {
+        points_[kept] = std::move(points_[i]);
+        states_[kept] = std::move(states_[i]);
+      }
+      ++kept;
     }
     points_.resize(kept);
-    point_looked_at_.resize(kept);
+    states_.resize(kept);
   }
 
   std::vector<int> RedundantViews(int facade) const {
@@ -354,10 +406,14 @@ class Optimiser {
   std::vector<DippingPoint>& points_;
   std::vector<std::vector<User>> users_;  // by facade
   // Steps are numbered, so that only what has changed is looked at again.
+  struct PointState {
+    std::vector<SeenFacade> visible;  // as in Place
+    int looked_at = 0;                // its place
+  };
   int step_ = 0;
-  std::vector<int> changed_at_;        // by facade
-  std::vector<int> facade_looked_at_;  // by facade: its direction
-  std::vector<int> point_looked_at_;   // by point: its place
+  std::vector<PointState> states_;  // by point
+  std::vector<int> changed_at_;     // by facade
+  std::vector<int> looked_at_;      // by facade: its direction
 };
 
 }  // namespace

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <random>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace stucco {
@@ -63,6 +66,63 @@ TEST(ParallelFor, Nests) {
   });
   for (size_t i = 0; i < slots.size(); ++i) {
     for (size_t j = 0; j < slots[i].size(); ++j) EXPECT_EQ(slots[i][j], static_cast<int>(i * j));
+  }
+}
+
+// Each index waits for up to three random earlier ones.
+std::vector<std::vector<size_t>> RandomOrder(size_t count) {
+  std::mt19937 random(1);
+  std::vector<std::vector<size_t>> before(count);
+  for (size_t i = 1; i < count; ++i) {
+    for (size_t k = random() % 4; k > 0; --k) before[i].push_back(random() % i);
+  }
+  return before;
+}
+
+TEST(ParallelInOrder, CallsEachIndexOnceAfterThoseItWaitsFor) {
+  for (const size_t count : {size_t{0}, size_t{1}, size_t{2}, size_t{2000}}) {
+    const std::vector<std::vector<size_t>> before = RandomOrder(count);
+    for (const int threads : {-1, 1, 2, 7}) {
+      std::vector<std::atomic<int>> ended(count);
+      std::atomic<int> early = 0;
+      ParallelInOrder(before, threads, [&](size_t i) {
+        for (const size_t earlier : before[i]) early += ended[earlier] != 1;
+        ++ended[i];
+      });
+      EXPECT_EQ(early, 0) << threads;
+      for (size_t i = 0; i < count; ++i) EXPECT_EQ(ended[i], 1) << threads << " " << i;
+    }
+  }
+}
+
+TEST(ParallelInOrder, RunsWhatDoesNotWaitAtTheSameTime) {
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor";
+  // Two chains; the calls of a pair wait for each other.
+  std::vector<std::vector<size_t>> before(20);
+  for (size_t i = 2; i < before.size(); ++i) before[i].push_back(i - 2);
+  std::vector<std::atomic<bool>> begun(before.size());
+  std::atomic<int> met = 0;
+  ParallelInOrder(before, 2, [&](size_t i) {
+    begun[i] = true;
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (!begun[i ^ 1] && std::chrono::steady_clock::now() < limit) std::this_thread::yield();
+    met += begun[i ^ 1] ? 1 : 0;
+  });
+  EXPECT_EQ(met, 20);
+}
+
+TEST(ParallelInOrder, RethrowsAndCallsNothingThatWaitsForTheFailed) {
+  std::vector<std::vector<size_t>> before(100);
+  for (size_t i = 1; i < before.size(); ++i) before[i].push_back(i - 1);
+  for (const int threads : {1, 4}) {
+    std::atomic<int> calls = 0;
+    EXPECT_THROW(ParallelInOrder(before, threads,
+                                 [&](size_t i) {
+                                   ++calls;
+                                   if (i == 17) throw std::runtime_error("seventeen");
+                                 }),
+                 std::runtime_error);
+    EXPECT_EQ(calls, 18);
   }
 }
 
