@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "survey/rasterize.h"
+
 namespace stucco {
 namespace {
 
@@ -24,16 +26,6 @@ Eigen::Vector3d HorizontalAxis(const Eigen::Vector3d& normal, const Eigen::Vecto
     if (in_plane.norm() > 0.7) return in_plane.normalized();
   }
   return normal.unitOrthogonal();
-}
-
-// Columns where the row's centre line crosses the ring's edges.
-void AddCrossings(const std::vector<Eigen::Vector2d>& ring, double y, std::vector<double>& out) {
-  for (size_t i = 0; i < ring.size(); ++i) {
-    const Eigen::Vector2d& a = ring[i];
-    const Eigen::Vector2d& b = ring[(i + 1) % ring.size()];
-    if ((a.y() <= y) == (b.y() <= y)) continue;
-    out.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
-  }
 }
 
 std::vector<Eigen::Vector2d> OnGrid(const std::vector<Eigen::Vector3d>& ring,
@@ -81,24 +73,8 @@ TexelGrid Coarsened(const TexelGrid& grid, int step) {
 std::vector<uint8_t> RasterizeFacet(const Facet& facet, const TexelGrid& grid) {
   std::vector<std::vector<Eigen::Vector2d>> rings = {OnGrid(facet.outer, grid)};
   for (const auto& hole : facet.holes) rings.push_back(OnGrid(hole, grid));
-  std::vector<uint8_t> mask(grid.size(), 0);
-  bool any = false;
-  std::vector<double> crossings;
-  for (int row = 0; row < grid.height; ++row) {
-    crossings.clear();
-    for (const auto& ring : rings) AddCrossings(ring, row + 0.5, crossings);
-    std::sort(crossings.begin(), crossings.end());
-    for (size_t i = 0; i + 1 < crossings.size(); i += 2) {
-      const int first = std::max(0, static_cast<int>(std::ceil(crossings[i] - 0.5)));
-      const int last =
-          std::min(grid.width - 1, static_cast<int>(std::ceil(crossings[i + 1] - 0.5)) - 1);
-      for (int column = first; column <= last; ++column) {
-        mask[static_cast<size_t>(row) * grid.width + column] = 1;
-        any = true;
-      }
-    }
-  }
-  if (!any) {
+  std::vector<uint8_t> mask = RasterizeRings(rings, grid.width, grid.height);
+  if (std::find(mask.begin(), mask.end(), 1) == mask.end()) {
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
     for (const Eigen::Vector2d& vertex : rings.front()) mean += vertex;
     mean /= static_cast<double>(rings.front().size());
