@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 the Stucco authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake -DOUT=file.cpp -DSTYLES=a.css,b.css -DSCRIPTS=a.js,b.js -P embed.cmake
-# Writes a source file with the texts of the page (report/internal/web_assets.h). The licence lines
-# stay in the files and not in every report.
+# cmake -DOUT=file.cpp -DSTYLES=a.css,b.css -DSCRIPTS=a.js,b.js -DHEADER=report/internal/web_assets.h
+#   -DNAMESPACE=stucco::internal -P embed.cmake
+# Writes a source file with the texts of a page, for the header that declares PageStyle() and
+# PageScript(). The licence lines stay in the files and not in every page.
 function(joined_text variable files)
   string(REPLACE "," ";" files "${files}")
   set(all "")
@@ -14,7 +15,7 @@ function(joined_text variable files)
   string(FIND "${all}" ")web\"" delimiter)
   string(FIND "${all}" "</script" end_of_script)
   if(NOT delimiter EQUAL -1 OR NOT end_of_script EQUAL -1)
-    message(FATAL_ERROR "a file of report/web would end its own literal or <script>")
+    message(FATAL_ERROR "a file of the page would end its own literal or <script>")
   endif()
   set(${variable} "${all}" PARENT_SCOPE)
 endfunction()
@@ -22,7 +23,7 @@ endfunction()
 joined_text(style "${STYLES}")
 joined_text(script "${SCRIPTS}")
 file(WRITE "${OUT}" "// Made from report/web by report/web/embed.cmake.\n"
-  "#include \"report/internal/web_assets.h\"\n\nnamespace stucco::internal {\n\n"
+  "#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\n\n"
   "std::string_view PageStyle() {\n  return R\"web(${style})web\";\n}\n\n"
   "std::string_view PageScript() {\n  return R\"web(${script})web\";\n}\n\n"
-  "}  // namespace stucco::internal\n")
+  "}  // namespace ${NAMESPACE}\n")

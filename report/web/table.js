@@ -1,12 +1,11 @@
 /* SPDX-FileCopyrightText: 2026 the Stucco authors
    SPDX-License-Identifier: GPL-3.0-or-later */
 "use strict";
-// The facade table: filters by verdict, surface and text; sorts by any column.
+// The facade table: filters by verdict, surface and text.
 (() => {
   const table = document.getElementById("facade-table");
   if (!table) return;
-  const body = table.tBodies[0];
-  const rows = Array.from(body.rows);
+  const rows = Array.from(table.tBodies[0].rows);
   const tiles = Array.from(document.querySelectorAll(".tile"));
   const search = document.getElementById("search");
   const surfaces = document.getElementById("class-filter");
@@ -51,31 +50,5 @@
     if (surfaces) surfaces.value = "";
     filter();
   });
-
-  // What a cell sorts by: its number, else its text; a number that is not known comes last.
-  function keyOf(row, column) {
-    const cell = row.cells[column];
-    if (!("sort" in cell.dataset)) return cell.textContent.trim();
-    return cell.dataset.sort === "" ? null : Number(cell.dataset.sort);
-  }
-
-  const collator = new Intl.Collator("en", {numeric: true});
-  function compare(a, b, sign) {
-    if (a === null || b === null) return (a === null) - (b === null);
-    return sign * (typeof a === "number" ? a - b : collator.compare(a, b));
-  }
-
-  function sortBy(header) {
-    const ascending = header.getAttribute("aria-sort") !== "ascending";
-    for (const other of table.tHead.rows[0].cells) other.removeAttribute("aria-sort");
-    header.setAttribute("aria-sort", ascending ? "ascending" : "descending");
-    const keyed = rows.map((row) => ({row, key: keyOf(row, header.cellIndex)}));
-    keyed.sort((a, b) => compare(a.key, b.key, ascending ? 1 : -1));
-    body.append(...keyed.map((entry) => entry.row));
-  }
-
-  for (const button of table.querySelectorAll(".sort")) {
-    button.addEventListener("click", () => sortBy(button.closest("th")));
-  }
   filter();
 })();

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "evaluate/page/internal/sections.h"
+#include "survey/escape.h"
+#include "survey/numbers.h"
+
+namespace stucco::evaluate::internal {
+namespace {
+
+std::string Metres(double metres) {
+  return Length(metres, /*metric=*/true);
+}
+
+std::string Degrees(double degrees) {
+  return std::isfinite(degrees) ? fmt::format("{:.3f}°", degrees) : "-";
+}
+
+std::string Group(const char* title, const std::string& figures) {
+  return fmt::format("<h3>{}</h3><dl class=\"measures\">{}</dl>", title, figures);
+}
+
+std::string Poses(const PoseFigures& poses) {
+  if (poses.total == 0) return "";
+  return Group(
+      "Camera poses",
+      FigureHtml("photos with a pose", fmt::format("{} of {}", poses.posed, poses.total)) +
+          FigureHtml("position, mean", Metres(poses.position_mean_m), "after the best similarity") +
+          FigureHtml("position, largest", Metres(poses.position_max_m)) +
+          FigureHtml("direction, mean", Degrees(poses.rotation_mean_deg)) +
+          FigureHtml("direction, largest", Degrees(poses.rotation_max_deg)) +
+          FigureHtml("georeferenced, mean", Metres(poses.georeferenced_mean_m),
+                     "in the frames as they are"));
+}
+
+bool IsMeasured(const SurfaceFigures& figures) {
+  return std::isfinite(figures.error95_m) || std::isfinite(figures.completeness);
+}
+
+std::string SurfaceRow(const char* name, const SurfaceFigures& figures) {
+  if (!IsMeasured(figures)) return "";
+  return fmt::format(
+      "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>", name,
+      Metres(figures.error95_m), Percent(figures.completeness));
+}
+
+std::string Surfaces(const Evaluation& evaluation) {
+  const std::string rows = SurfaceRow("Dense cloud", evaluation.dense) +
+                           SurfaceRow("Mesh", evaluation.mesh) +
+                           SurfaceRow("Proxy", evaluation.proxy.all) +
+                           SurfaceRow("Proxy: walls", evaluation.proxy.wall) +
+                           SurfaceRow("Proxy: roofs", evaluation.proxy.roof) +
+                           SurfaceRow("Proxy: ground", evaluation.proxy.ground);
+  if (rows.empty()) return "";
+  return fmt::format(
+      "<h3>Surfaces</h3><div class=\"scroll\"><table class=\"plain\"><thead><tr><td></td>"
+      "<th scope=\"col\" class=\"num\">error<br><span class=\"quiet\">95 % lie nearer</span></th>"
+      "<th scope=\"col\" class=\"num\">completeness<br><span class=\"quiet\">within {}</span></th>"
+      "</tr></thead><tbody>{}</tbody></table></div>",
+      Metres(evaluation.tolerance_m), rows);
+}
+
+std::string Solids(const ProxyFigures& proxy) {
+  if (proxy.buildings == 0) return "";
+  const auto of_all = [&](int count) { return fmt::format("{} of {}", count, proxy.buildings); };
+  return Group("Buildings",
+               FigureHtml("closed", of_all(proxy.watertight)) +
+                   FigureHtml("manifold", of_all(proxy.manifold)) +
+                   FigureHtml("cutting themselves", of_all(proxy.self_intersecting)) +
+                   FigureHtml("facets", fmt::format("{}", proxy.facets),
+                              fmt::format("the truth has {}", proxy.truth_facets)) +
+                   FigureHtml("facades with the right id", Percent(proxy.facade_id_rate),
+                              "of the truth's wall area"));
+}
+
+bool HasAny(const PictureFigures& figures) {
+  return std::isfinite(figures.psnr) || std::isfinite(figures.flip);
+}
+
+std::string Textures(const Evaluation& evaluation) {
+  std::string html;
+  if (HasAny(evaluation.texture_mean)) {
+    html += Group("Facade textures, mean by painted area",
+                  PictureFiguresHtml(evaluation.texture_mean) +
+                      FigureHtml("shift", Decimal(evaluation.misregistration_px, 2) + " px",
+                                 "median of facades"));
+  }
+  if (HasAny(evaluation.views_mean)) {
+    html += Group("Photos held out, mean", PictureFiguresHtml(evaluation.views_mean));
+  }
+  return html;
+}
+
+std::string Planned(const PlanFigures& plan) {
+  return Group("Flight plan",
+               FigureHtml("method", plan.method) +
+                   FigureHtml("photos", fmt::format("{}", plan.photos)) +
+                   FigureHtml("hovers", fmt::format("{}", plan.hovers)) +
+                   FigureHtml("path", Metres(plan.length_m)) +
+                   FigureHtml("time", Decimal(plan.time_min, 1) + " min") +
+                   FigureHtml("battery", Decimal(plan.battery_percent, 0) + " %") +
+                   FigureHtml("Q_s, Q_d, Q_u, Q_c",
+                              fmt::format("{} {} {} {}", Decimal(plan.q_s, 2), Decimal(plan.q_d, 2),
+                                          Decimal(plan.q_u, 2), Decimal(plan.q_c, 2))));
+}
+
+}  // namespace
+
+std::string FigureHtml(std::string_view name, const std::string& value, std::string_view note) {
+  const std::string below =
+      note.empty() ? "" : fmt::format("<span class=\"note\">{}</span>", EscapeHtml(note));
+  return fmt::format("<div class=\"figure\"><dt>{}</dt><dd>{}{}</dd></div>", EscapeHtml(name),
+                     IsolatedHtml(value), below);
+}
+
+std::string PictureFiguresHtml(const PictureFigures& figures) {
+  return FigureHtml("SSIM", Decimal(figures.ssim, 3)) +
+         FigureHtml("MS-SSIM", Decimal(figures.ms_ssim, 3)) +
+         FigureHtml("PSNR", std::isfinite(figures.psnr) ? Decimal(figures.psnr, 1) + " dB" : "-") +
+         FigureHtml("GMSD", Decimal(figures.gmsd, 3)) +
+         FigureHtml("FLIP", Decimal(figures.flip, 3)) +
+         (std::isfinite(figures.lpips) ? FigureHtml("LPIPS", Decimal(figures.lpips, 3)) : "");
+}
+
+std::string HeadlineSection(const Evaluation& evaluation) {
+  return fmt::format(
+             "<section aria-labelledby=\"headline\"><h2 id=\"headline\">Against the truth"
+             "</h2><p class=\"quiet\">Survey {} measured against the scene {}.</p>",
+             IsolatedHtml(evaluation.survey), IsolatedHtml(evaluation.scene)) +
+         Poses(evaluation.poses) + Surfaces(evaluation) + Solids(evaluation.proxy) +
+         Textures(evaluation) + (evaluation.has_plan ? Planned(evaluation.plan) : "") +
+         "</section>";
+}
+
+}  // namespace stucco::evaluate::internal
