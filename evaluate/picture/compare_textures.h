@@ -24,15 +24,22 @@ struct TextureComparison {
   simulate::Light light;            // of the middle of the flight
   std::vector<bool> occluders;      // elements of the scene that are no part of a facade
   Similarity truth_from_world;
+  double truth_texel_m = 0.01;        // of the truth's pictures: nothing is compared finer
   std::filesystem::path output;       // pictures/ is made in it
   std::filesystem::path lpips_model;  // empty: none
   int threads = 0;
 };
 
-// Figures of every wall of the truth, matched to the result's facet on the same plane.
+// Figures of every wall of the truth, matched to the result's facets on the same plane: the truth
+// is drawn at right angles on their texel grids and both are compared where they overlap and the
+// result was painted from photos. One gain per channel for the whole survey brings the truth's
+// light to the result's, for exposure and white balance cannot be known; what differs from facade
+// to facade is error. Throws Error (kBadInput) where a picture of the result is missing or damaged.
 std::vector<FacadeFigures> CompareFacades(const TextureComparison& comparison);
 
-// Renders texture/model.glb where the held-out photos of the flight were taken, with their lens.
+// Renders texture/model.glb where the held-out photos of the flight were taken, with their lens,
+// and compares where the model is and no occluder stands before it. Empty where no photo was held
+// out. Throws Error (kBadInput) where the model or a photo cannot be read.
 std::vector<HeldOutFigures> CompareViews(const TextureComparison& comparison,
                                          const simulate::Flight& flight,
                                          const std::filesystem::path& flight_folder);
