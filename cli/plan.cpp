@@ -50,8 +50,7 @@ void PrintSummary(const PlanSummary& summary, const CommonOptions& common) {
 
 // --gsd and --gsd-m for gsd_m; the values end up in `set`.
 void AddPlanOptions(CLI::App& verb, std::vector<std::string>& set) {
-  const OptionTable table = PlanOptionTable();
-  for (const Option& option : table.options()) {
+  ForPlanOptions([&](const Option& option) {
     std::string dashed = option.name;
     std::replace(dashed.begin(), dashed.end(), '_', '-');
     std::string names = "--" + dashed;
@@ -66,7 +65,7 @@ void AddPlanOptions(CLI::App& verb, std::vector<std::string>& set) {
                         ValueAsToml(option)))
         ->type_name("VALUE")
         ->group("What is planned");
-  }
+  });
 }
 
 }  // namespace

@@ -88,11 +88,11 @@ PlanSummary Summarise(const plan::PlanResult& result, const plan::Site& site) {
 
 }  // namespace
 
-OptionTable PlanOptionTable() {
-  static plan::PlanOptions defaults;
+void ForPlanOptions(const std::function<void(const Option&)>& fn) {
+  plan::PlanOptions defaults;
   OptionTable table(kPlanFolder);
   plan::Describe(table, defaults);
-  return table;
+  for (const Option& option : table.options()) fn(option);
 }
 
 PlanSummary PlanSurvey(const fs::path& survey, const PlanRequest& request, const StageTable& table,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,7 @@ struct PlanSummary {
 PlanSummary PlanSurvey(const std::filesystem::path& survey, const PlanRequest& request,
                        const StageTable& table, Console& console);
 
-// The options of planning at their defaults, for help texts.
-OptionTable PlanOptionTable();
+// Calls fn for each option of planning, at its default: for help texts.
+void ForPlanOptions(const std::function<void(const Option&)>& fn);
 
 }  // namespace stucco

@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "texture/visibility.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 
-#include "survey/error.h"
 #include "survey/triangulate.h"
 
 namespace stucco {
@@ -21,20 +19,7 @@ constexpr int kFewestBeyond = 3;
 constexpr double kSplatsPerCell = 1.5;
 constexpr int kNarrowest = 100;
 
-}  // namespace
-
-struct OcclusionScene::State {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // taken off, as rays are in float
-
-  ~State() {
-    if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
-  }
-};
-
-OcclusionScene::OcclusionScene(const Proxy& proxy) : state_(std::make_unique<State>()) {
+Occluders OccludersOf(const Proxy& proxy) {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<uint32_t, 3>> triangles;
   for (const Building& building : proxy.buildings) {
@@ -47,58 +32,15 @@ OcclusionScene::OcclusionScene(const Proxy& proxy) : state_(std::make_unique<Sta
       }
     }
   }
-  for (const Eigen::Vector3d& vertex : vertices) state_->center += vertex;
-  if (!vertices.empty()) state_->center /= static_cast<double>(vertices.size());
-
-  state_->device = rtcNewDevice("threads=1");
-  if (!state_->device) {
-    throw Error(ErrorKind::kStageFailed, "Embree could not be started on this processor");
-  }
-  state_->scene = rtcNewScene(state_->device);
-  rtcSetSceneFlags(state_->scene, RTC_SCENE_FLAG_ROBUST);
-  if (!triangles.empty()) {
-    RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* xyz = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                            RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                            vertices.size()));
-    for (size_t i = 0; i < vertices.size(); ++i) {
-      const Eigen::Vector3f local = (vertices[i] - state_->center).cast<float>();
-      std::copy_n(local.data(), 3, xyz + 3 * i);
-    }
-    auto* corners = static_cast<uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(uint32_t), triangles.size()));
-    for (size_t i = 0; i < triangles.size(); ++i) {
-      std::copy_n(triangles[i].data(), 3, corners + 3 * i);
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(state_->scene, geometry);
-    rtcReleaseGeometry(geometry);
-  }
-  rtcCommitScene(state_->scene);
+  return {vertices, triangles};
 }
 
-OcclusionScene::~OcclusionScene() = default;
-OcclusionScene::OcclusionScene(OcclusionScene&&) noexcept = default;
-OcclusionScene& OcclusionScene::operator=(OcclusionScene&&) noexcept = default;
+}  // namespace
+
+OcclusionScene::OcclusionScene(const Proxy& proxy) : occluders_(OccludersOf(proxy)) {}
 
 bool OcclusionScene::Blocked(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
-  const Eigen::Vector3f start = (from - state_->center).cast<float>();
-  const Eigen::Vector3f way = (to - from).cast<float>();
-  RTCRay ray{};
-  ray.org_x = start.x();
-  ray.org_y = start.y();
-  ray.org_z = start.z();
-  ray.dir_x = way.x();
-  ray.dir_y = way.y();
-  ray.dir_z = way.z();
-  ray.tnear = 0;
-  ray.tfar = 1;
-  ray.mask = std::numeric_limits<unsigned>::max();
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(state_->scene, &context, &ray);
-  return ray.tfar < 0;
+  return occluders_.Block(from, to - from, 1);
 }
 
 NearestPoints SplatNearest(const TexturePhoto& photo, std::span<const Eigen::Vector3d> points,

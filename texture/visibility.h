@@ -4,29 +4,25 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "survey/occluders.h"
 #include "survey/proxy.h"
 #include "texture/photo.h"
 
 namespace stucco {
 
-// All facets of a proxy as triangles for ray casting (Embree).
+// All facets of a proxy, in the way of lines of sight.
 class OcclusionScene {
  public:
   explicit OcclusionScene(const Proxy& proxy);
-  ~OcclusionScene();
-  OcclusionScene(OcclusionScene&&) noexcept;
-  OcclusionScene& operator=(OcclusionScene&&) noexcept;
 
   // Whether any facet crosses the segment between the two world points. Thread-safe.
   bool Blocked(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  Occluders occluders_;
 };
 
 // The cloud points nearest to one photo, splatted into a small raster over the photo's picture:

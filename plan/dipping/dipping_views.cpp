@@ -12,37 +12,16 @@
 #include "plan/dipping/select.h"
 
 namespace stucco::plan {
-namespace {
-
-void NoteUnobservable(const Level& level, const DippingSetting& setting,
-                      const std::vector<Candidate>& candidates, DippingReport& report) {
-  std::vector<Intervals> seen(setting.site.facades.size());
-  for (const Candidate& candidate : candidates) {
-    for (const SeenFacade& part : candidate.seen) {
-      seen[part.facade].insert(seen[part.facade].end(), part.seen.begin(), part.seen.end());
-    }
-  }
-  for (const int facade : level.facades) {
-    const Interval whole{0, setting.site.facades[facade].length_m()};
-    report.unobservable_m[facade] = Gaps(Union(std::move(seen[facade])), whole);
-  }
-}
-
-}  // namespace
-
 DippingReport PlanDippingViews(const DippingSetting& setting, Progress& progress) {
   DippingReport report;
-  report.unobservable_m.resize(setting.site.facades.size());
   std::vector<Level> levels = SplitIntoLevels(setting.site);
   progress.Begin("dipping views", levels.size());
   for (Level& level : levels) {
     std::vector<Candidate> candidates = FindCandidates(level, setting);
-    NoteUnobservable(level, setting, candidates, report);
     LimitReach(setting, level, candidates);
     std::vector<double> turns = InitialTurns(level, setting, candidates);
     std::vector<DippingPoint> points = SelectPoints(setting, ViewsOf(setting, candidates, turns));
     report.candidates += static_cast<int>(candidates.size());
-    report.initial_points += static_cast<int>(points.size());
     const auto start = std::chrono::steady_clock::now();
     report.rounds += OptimiseViews(level, setting, turns, points).rounds;
     report.optimise_s +=

@@ -13,12 +13,9 @@ namespace stucco::plan {
 struct DippingReport {
   std::vector<Hover> hovers;
   int candidates = 0;
-  int initial_points = 0;  // before the optimisation
   int points = 0;
   int rounds = 0;
   double optimise_s = 0;  // wall time of the optimisation
-  // By facade, along it from a: what no allowed position sees within d_max and 75 degrees.
-  std::vector<std::vector<Interval>> unobservable_m;
 };
 
 // Paper, section 4: views from between the buildings at every wall that can be seen from there.

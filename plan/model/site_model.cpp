@@ -2,16 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plan/model/site_model.h"
 
-#include <embree3/rtcore.h>
-
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
-#include "survey/error.h"
 #include "survey/triangulate.h"
 
 namespace stucco::plan {
@@ -102,78 +97,20 @@ Mesh MeshOf(const Site& site) {
   return mesh;
 }
 
+Occluders OccludersOf(const Site& site) {
+  const Mesh mesh = MeshOf(site);
+  return {mesh.vertices, mesh.triangles};
+}
+
 }  // namespace
 
-struct SiteModel::State {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // taken off, as rays are in float
-
-  ~State() {
-    if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
-  }
-  void Attach(const Mesh& mesh) const;
-};
-
-void SiteModel::State::Attach(const Mesh& mesh) const {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* xyz = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                          RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                          mesh.vertices.size()));
-  for (size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Eigen::Vector3f local = (mesh.vertices[i] - center).cast<float>();
-    std::copy_n(local.data(), 3, xyz + 3 * i);
-  }
-  auto* corners = static_cast<uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(uint32_t), mesh.triangles.size()));
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    std::copy_n(mesh.triangles[i].data(), 3, corners + 3 * i);
-  }
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-}
-
-SiteModel::SiteModel(const Site& site) : state_(std::make_unique<State>()) {
-  const Mesh mesh = MeshOf(site);
-  for (const Eigen::Vector3d& vertex : mesh.vertices) state_->center += vertex;
-  if (!mesh.vertices.empty()) state_->center /= static_cast<double>(mesh.vertices.size());
-  state_->device = rtcNewDevice("threads=1");
-  if (!state_->device) {
-    throw Error(ErrorKind::kStageFailed, "Embree could not be started on this processor");
-  }
-  state_->scene = rtcNewScene(state_->device);
-  rtcSetSceneFlags(state_->scene, RTC_SCENE_FLAG_ROBUST);
-  if (!mesh.triangles.empty()) state_->Attach(mesh);
-  rtcCommitScene(state_->scene);
-}
-
-SiteModel::~SiteModel() = default;
-SiteModel::SiteModel(SiteModel&&) noexcept = default;
-SiteModel& SiteModel::operator=(SiteModel&&) noexcept = default;
+SiteModel::SiteModel(const Site& site) : occluders_(OccludersOf(site)) {}
 
 bool SiteModel::Sees(const Eigen::Vector3d& camera, const Eigen::Vector3d& point) const {
   const Eigen::Vector3d way = point - camera;
   const double distance = way.norm();
   if (!(distance > kEndsBefore_m)) return true;
-  const Eigen::Vector3f start = (camera - state_->center).cast<float>();
-  const Eigen::Vector3f direction = (way / distance).cast<float>();
-  RTCRay ray{};
-  ray.org_x = start.x();
-  ray.org_y = start.y();
-  ray.org_z = start.z();
-  ray.dir_x = direction.x();
-  ray.dir_y = direction.y();
-  ray.dir_z = direction.z();
-  ray.tnear = 0;
-  ray.tfar = static_cast<float>(distance - kEndsBefore_m);
-  ray.mask = std::numeric_limits<unsigned>::max();
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(state_->scene, &context, &ray);
-  return !(ray.tfar < 0);
+  return !occluders_.Block(camera, way / distance, distance - kEndsBefore_m);
 }
 
 }  // namespace stucco::plan

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 
 #include "plan/site.h"
+#include "survey/occluders.h"
 
 namespace stucco::plan {
 
@@ -15,17 +15,13 @@ namespace stucco::plan {
 class SiteModel {
  public:
   explicit SiteModel(const Site& site);
-  ~SiteModel();
-  SiteModel(SiteModel&&) noexcept;
-  SiteModel& operator=(SiteModel&&) noexcept;
 
   // Nothing of the site stands between the camera and the point. The point may lie on a surface,
   // but not nearer than a centimetre to an edge of one that looks the other way.
   bool Sees(const Eigen::Vector3d& camera, const Eigen::Vector3d& point) const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  Occluders occluders_;
 };
 
 }  // namespace stucco::plan

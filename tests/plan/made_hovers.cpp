@@ -80,4 +80,18 @@ std::vector<Hover> DippingHovers(const Obstacles& obstacles) {
   return hovers;
 }
 
+std::vector<Intervals> NotMeant(const Site& site, const std::vector<Hover>& hovers) {
+  std::vector<Intervals> meant(site.facades.size());
+  for (const Hover& hover : hovers) {
+    for (const Shot& shot : hover.shots) {
+      for (const Target& target : shot.targets) meant[target.facade].push_back(target.along_m);
+    }
+  }
+  std::vector<Intervals> gaps;
+  for (size_t i = 0; i < meant.size(); ++i) {
+    gaps.push_back(Gaps(Union(std::move(meant[i])), {0, site.facades[i].length_m()}));
+  }
+  return gaps;
+}
+
 }  // namespace stucco::plan

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "plan/hover.h"
+#include "plan/quality/intervals.h"
+#include "plan/site.h"
 #include "plan/space/obstacles.h"
 
 namespace stucco::plan {
@@ -19,5 +21,8 @@ std::vector<Hover> LatticeHovers(int count);
 // Level photos of each facade from 1 m outside d_min, every 8 m along it and every 9 m down from
 // the safe altitude, where they are free.
 std::vector<Hover> DippingHovers(const Obstacles& obstacles);
+
+// Of each facade, the stretches that no photo is meant for.
+std::vector<Intervals> NotMeant(const Site& site, const std::vector<Hover>& hovers);
 
 }  // namespace stucco::plan

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/occluders.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "survey/error.h"
+
+namespace stucco {
+
+struct Occluders::State {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // taken off, as rays are in float
+
+  State() = default;
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+  void Attach(std::span<const Eigen::Vector3d> vertices,
+              std::span<const std::array<uint32_t, 3>> triangles) const;
+};
+
+void Occluders::State::Attach(std::span<const Eigen::Vector3d> vertices,
+                              std::span<const std::array<uint32_t, 3>> triangles) const {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* xyz = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices.size()));
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    const Eigen::Vector3f local = (vertices[i] - center).cast<float>();
+    std::copy_n(local.data(), 3, xyz + 3 * i);
+  }
+  auto* corners = static_cast<uint32_t*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(uint32_t), triangles.size()));
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    std::copy_n(triangles[i].data(), 3, corners + 3 * i);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+}
+
+Occluders::Occluders(std::span<const Eigen::Vector3d> vertices,
+                     std::span<const std::array<uint32_t, 3>> triangles)
+    : state_(std::make_unique<State>()) {
+  for (const Eigen::Vector3d& vertex : vertices) state_->center += vertex;
+  if (!vertices.empty()) state_->center /= static_cast<double>(vertices.size());
+  state_->device = rtcNewDevice("threads=1");
+  if (!state_->device) {
+    throw Error(ErrorKind::kStageFailed, "Embree could not be started on this processor");
+  }
+  state_->scene = rtcNewScene(state_->device);
+  rtcSetSceneFlags(state_->scene, RTC_SCENE_FLAG_ROBUST);
+  if (!triangles.empty()) state_->Attach(vertices, triangles);
+  rtcCommitScene(state_->scene);
+}
+
+Occluders::~Occluders() = default;
+Occluders::Occluders(Occluders&&) noexcept = default;
+Occluders& Occluders::operator=(Occluders&&) noexcept = default;
+
+bool Occluders::Block(const Eigen::Vector3d& from, const Eigen::Vector3d& way, double reach) const {
+  const Eigen::Vector3f start = (from - state_->center).cast<float>();
+  const Eigen::Vector3f direction = way.cast<float>();
+  RTCRay ray{};
+  ray.org_x = start.x();
+  ray.org_y = start.y();
+  ray.org_z = start.z();
+  ray.dir_x = direction.x();
+  ray.dir_y = direction.y();
+  ray.dir_z = direction.z();
+  ray.tnear = 0;
+  ray.tfar = static_cast<float>(reach);
+  ray.mask = std::numeric_limits<unsigned>::max();
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(state_->scene, &context, &ray);
+  return ray.tfar < 0;
+}
+
+}  // namespace stucco
