@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include "simulate/paint/internal/wall_look.h"
+
+namespace stucco::simulate::internal {
+namespace {
+
+// The house opposite at `x`: how high it stands over the horizon, and its tone.
+float RoofOpposite(float x, uint32_t seed) {
+  const int house = Floor(x / 7);
+  return 1.0f + 6.0f * Uniform(house, 0, seed) + 0.2f * Noise(x, 0.5f, {2, 2, 0.5f, seed}, 0.05f);
+}
+
+struct Grid {
+  float width_m = 1.4f;
+  std::vector<float> lines_m;  // of transoms, from the top downwards, the wall's edges included
+};
+
+// Two panes a storey: a tall one to look through and a low one in front of the slab.
+Grid GridOf(const WallLook& look) {
+  Grid grid;
+  grid.width_m = 1.1f + 0.7f * Trait(look, 1);
+  grid.lines_m.push_back(0);
+  std::vector<double> floors = look.design->floors_m;
+  if (floors.empty()) {
+    for (double y = 3.4; y < look.height_m; y += 3.4) floors.push_back(y);
+  }
+  for (const double floor : floors) {
+    const float y = static_cast<float>(floor);
+    if (y - 0.9f > grid.lines_m.back()) grid.lines_m.push_back(y - 0.9f);
+    if (y > grid.lines_m.back()) grid.lines_m.push_back(y);
+  }
+  grid.lines_m.push_back(look.height_m + 1);
+  return grid;
+}
+
+}  // namespace
+
+Colour Mirrored(float x, float y, float horizon_y, uint32_t seed) {
+  const float up = horizon_y - y;
+  const float roof = RoofOpposite(x, seed);
+  const float cloud = Smooth(-0.6f, 1.4f, Noise(x, 1.6f * y, {9, 4, 0.55f, seed + 1}, 0.08f));
+  const Colour sky = Mix(FromSrgb(118, 152, 196), FromSrgb(214, 220, 226), cloud) *
+                     (0.75f + 0.25f * Smooth(0, 25, up));
+  if (up > roof + 0.3f) return sky;
+  const int house = Floor(x / 7);
+  const Colour wall = FromSrgb(120, 108, 96) * (0.5f + Uniform(house, 1, seed));
+  const float openings = Smooth(0.1f, 0.3f, std::sin(x * 3.1f) * std::sin(y * 2.1f));
+  const Colour facade =
+      wall * (1 - 0.6f * openings) * Tone(0.2f * GradientNoise(x * 0.8f, y * 0.8f, seed + 2));
+  return Mix(facade, sky, Smooth(roof - 0.3f, roof + 0.3f, up));
+}
+
+void PaintCurtainWall(Tile& tile, const WallLook& look) {
+  const float texel = tile.texel_m;
+  const Grid grid = GridOf(look);
+  const std::vector<Pane>& rooms = Facades().windows;
+  const Colour tint = Pick(look.palette, 0, 0, 0);
+  const Colour glass = tint * (1 / std::max(0.05f, Luminance(tint)));
+  const float opacity = 0.3f + 0.4f * Trait(look, 2);  // how much the coating mirrors
+  const Colour metal = Trait(look, 3) < 0.5f ? Grey(0.45f) : Grey(0.05f);
+  const float bar = 0.025f + 0.02f * Trait(look, 4);
+  for (int row = 0; row < tile.height; ++row) {
+    const float y = tile.Y(row);
+    const auto above = std::upper_bound(grid.lines_m.begin(), grid.lines_m.end(), y) - 1;
+    const int level = static_cast<int>(above - grid.lines_m.begin());
+    const float top = *above;
+    const float bottom = *(above + 1);
+    const bool spandrel = bottom - top < 1.0f;
+    for (int column = 0; column < tile.width; ++column) {
+      const float x = tile.X(column);
+      const int pane = Floor(x / grid.width_m);
+      const float left = static_cast<float>(pane) * grid.width_m;
+      const auto draw = [&](int k) { return Uniform(pane, level, look.wall + 50 + k); };
+      // No two panes stand quite alike: each mirrors another piece of the sky.
+      const float dx = 3 * (draw(0) - 0.5f) + (0.5f + draw(6)) * (x - left - grid.width_m / 2);
+      const float dy = 2 * (draw(1) - 0.5f);
+      const Colour mirrored =
+          Mirrored(x + dx, y + dy, look.height_m * 0.8f, look.building + 9) * glass;
+      const float u = (x - left) / grid.width_m;
+      const float v = (y - top) / (bottom - top);
+      Colour inside = spandrel ? glass * 0.06f
+                               : At(rooms[Hash(pane, level, look.wall) % rooms.size()], u, v) *
+                                     (0.25f + 0.5f * draw(2));
+      const float blind = draw(3) < 0.35f && !spandrel ? 0.2f + 0.8f * draw(4) : 0.0f;
+      if (v < blind) {
+        const float slat = y * 28 - static_cast<float>(Floor(y * 28));
+        inside = Grey(0.42f + 0.2f * draw(5)) *
+                 Mix(0.85f, 0.55f + 0.45f * Smooth(0, 0.6f, slat), BandShare(0.036f, texel));
+      }
+      const float edge =
+          std::min(std::min(x - left, left + grid.width_m - x), std::min(y - top, bottom - y));
+      const float white = Normal(tile.x0 + column, tile.y0 + row, look.wall + 3);
+      const Colour face = Mix(inside, mirrored, opacity) * Tone(0.012f * white);
+      const float gasket = Edge(bar + 0.012f - edge, texel);
+      Colour result = Mix(face, Grey(0.02f), gasket);
+      result = Mix(result, metal * Tone(0.03f * white + 0.1f * (draw(7) - 0.5f)),
+                   Edge(bar - edge, texel));
+      tile.At(column, row) = result;
+    }
+  }
+}
+
+}  // namespace stucco::simulate::internal

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include "simulate/paint/internal/covering_look.h"
+
+namespace stucco::simulate::internal {
+namespace {
+
+float Grain(const Tile& tile, int column, int row, uint32_t seed) {
+  return Normal(tile.x0 + column, tile.y0 + row, seed) * std::min(1.0f, 0.01f / tile.texel_m);
+}
+
+// Where the ground was opened and closed again: at most one patch in a square of 5 m.
+struct Cut {
+  float inside = -1;  // signed distance from its edge
+  float tone = 0;
+};
+
+Cut CutAt(float x, float y, uint32_t seed) {
+  constexpr float kCell_m = 5;
+  const int cx = Floor(x / kCell_m);
+  const int cy = Floor(y / kCell_m);
+  const uint32_t h = Hash(cx, cy, seed);
+  if (h % 3 != 0) return {};
+  const float left = kCell_m * (static_cast<float>(cx) + 0.4f * ToUnit(h * 0x9e3779b1u));
+  const float top = kCell_m * (static_cast<float>(cy) + 0.4f * ToUnit(h * 0x85ebca77u));
+  const float wide = 0.6f + 2.2f * ToUnit(h * 0xc2b2ae3du);
+  const float high = 0.6f + 2.2f * ToUnit(h * 0x2c1b3c6du);
+  return {std::min(std::min(x - left, left + wide - x), std::min(y - top, top + high - y)),
+          0.5f * (ToUnit(h) - 0.6f)};
+}
+
+// A cast-iron lid: at most one in a square of 9 m. Negative outside.
+float Lid(float x, float y, uint32_t seed, float& pattern) {
+  constexpr float kCell_m = 9;
+  const int cx = Floor(x / kCell_m);
+  const int cy = Floor(y / kCell_m);
+  const uint32_t h = Hash(cx, cy, seed);
+  if ((h & 1) != 0) return -1;
+  const float dx = x - kCell_m * (static_cast<float>(cx) + 0.1f + 0.8f * ToUnit(h * 0x9e3779b1u));
+  const float dy = y - kCell_m * (static_cast<float>(cy) + 0.1f + 0.8f * ToUnit(h * 0x85ebca77u));
+  pattern = std::sin(dx * 90) * std::sin(dy * 90);
+  return 0.32f - std::sqrt(dx * dx + dy * dy);
+}
+
+}  // namespace
+
+void PaintAsphalt(Tile& tile, const CoveringLook& look) {
+  const float texel = tile.texel_m;
+  const Colour base = Mix(FromSrgb(84, 84, 86), FromSrgb(128, 126, 122), Trait(look, 1));
+  const Field stain(tile, StepFor(0.25f, texel), [&](float x, float y) {
+    return Noise(x, y, {6.0f, 5, 0.6f, look.seed + 5}, texel);
+  });
+  const Field worn(tile, StepFor(0.6f, texel), [&](float x, float y) {
+    return Noise(x, y, {8.0f, 3, 0.6f, look.seed + 6}, texel);
+  });
+  for (int row = 0; row < tile.height; ++row) {
+    const float y = tile.Y(row);
+    for (int column = 0; column < tile.width; ++column) {
+      const float x = tile.X(column);
+      const float g = Grain(tile, column, row, look.seed + 3);
+      // Light chippings show here and there.
+      const float chip = g > 1.6f ? 0.25f : 0.0f;
+      float tone = 0.11f * g + chip + 0.09f * stain(column, row);
+      const Cut cut = CutAt(x, y, look.seed + 7);
+      tone += cut.tone * Edge(cut.inside, texel);
+      const float open = Smooth(0.3f, 1.2f, worn(column, row));
+      if (open > 0) {
+        const float level = Noise(x, y, {1.7f, 5, 0.6f, look.seed + 9}, texel);
+        tone -= 0.8f * Edge(0.006f * open - std::abs(level) / 2.2f, texel);
+      }
+      Colour colour = base * Tone(tone);
+      // Joints of patches are sealed with tar.
+      colour = Mix(colour, Grey(0.012f), 0.8f * Edge(0.025f - std::abs(cut.inside), texel));
+      const float oil = GradientNoise(x * 0.9f, y * 0.9f, look.seed + 10);
+      colour = colour * (1 - 0.4f * Smooth(1.7f, 2.3f, oil));
+      const float gum = Uniform(Floor(x / 0.09f), Floor(y / 0.09f), look.seed + 11);
+      colour = colour * (gum > 0.995f ? 1.5f : 1.0f);
+      float pattern = 0;
+      const float lid = Lid(x, y, look.seed + 12, pattern);
+      colour = Mix(colour, Grey(0.055f) * Tone(0.6f * pattern + 0.1f * g), Edge(lid, texel));
+      colour = colour * (1 - 0.6f * Edge(0.012f - std::abs(lid), texel));
+      tile.At(column, row) = colour;
+    }
+  }
+}
+
+void PaintPaving(Tile& tile, const CoveringLook& look) {
+  const float texel = tile.texel_m;
+  const float kind = Trait(look, 1);
+  const float stone_x = kind < 0.4f ? 0.30f : kind < 0.7f ? 0.20f : 0.11f;
+  const float stone_y = kind < 0.4f ? 0.30f : kind < 0.7f ? 0.10f : 0.11f;
+  const Colour base = kind < 0.4f   ? FromSrgb(158, 154, 146)
+                      : kind < 0.7f ? FromSrgb(150, 108, 92)
+                                    : FromSrgb(128, 124, 118);
+  const float spread = kind < 0.4f ? 0.06f : 0.13f;
+  const Field stain(tile, StepFor(0.25f, texel), [&](float x, float y) {
+    return Noise(x, y, {4.0f, 5, 0.6f, look.seed + 5}, texel);
+  });
+  for (int row = 0; row < tile.height; ++row) {
+    const float y = tile.Y(row);
+    for (int column = 0; column < tile.width; ++column) {
+      const float x = tile.X(column);
+      const int course = Floor(y / stone_y);
+      const float shifted = x + ((course & 1) != 0 ? stone_x / 2 : 0.0f);
+      const int rank = Floor(shifted / stone_x);
+      const float u = shifted - static_cast<float>(rank) * stone_x;
+      const float v = y - static_cast<float>(course) * stone_y;
+      const float g = Grain(tile, column, row, look.seed + 3);
+      const float wobble = 0.0025f * GradientNoise(x * 25, y * 25, look.seed + 4);
+      const float inside =
+          std::min(std::min(u, stone_x - u), std::min(v, stone_y - v)) - 0.005f + wobble;
+      const float tone =
+          spread * Normal(rank, course, look.seed + 1) + 0.07f * g + 0.08f * stain(column, row);
+      const float hue = 0.06f * Normal(rank, course, look.seed + 2);
+      const Colour stone = base * Colour{1 + hue, 1, 1 - hue} * Tone(tone);
+      const float green = Smooth(0.4f, 1.6f, stain(column, row));
+      const Colour joint = Mix(base * 0.3f, Colour{0.06f, 0.09f, 0.03f}, green) * Tone(0.3f * g);
+      Colour colour = Mix(joint, stone, Edge(inside, texel));
+      const float gum = Uniform(Floor(x / 0.05f), Floor(y / 0.05f), look.seed + 8);
+      if (gum > 0.998f) colour = colour * 0.6f;
+      float pattern = 0;
+      const float lid = Lid(x, y, look.seed + 12, pattern);
+      colour = Mix(colour, Grey(0.06f) * Tone(0.6f * pattern + 0.1f * g), Edge(lid, texel));
+      tile.At(column, row) = colour;
+    }
+  }
+}
+
+void PaintGrass(Tile& tile, const CoveringLook& look) {
+  const float texel = tile.texel_m;
+  const Colour lush = Mix(FromSrgb(74, 96, 44), FromSrgb(96, 112, 56), Trait(look, 1));
+  const Colour dry = FromSrgb(148, 138, 88);
+  const Field meadow(tile, StepFor(0.2f, texel), [&](float x, float y) {
+    return Noise(x, y, {5.0f, 6, 0.65f, look.seed + 5}, texel);
+  });
+  for (int row = 0; row < tile.height; ++row) {
+    const float y = tile.Y(row);
+    for (int column = 0; column < tile.width; ++column) {
+      const float x = tile.X(column);
+      const float m = meadow(column, row);
+      const float tuft = GradientNoise(x * 8, y * 8, look.seed + 2) * BandShare(0.12f, texel);
+      const float blade =
+          0.7f * GradientNoise(x * 30, y * 24, look.seed + 4) * BandShare(0.035f, texel) +
+          Grain(tile, column, row, look.seed + 3);
+      const float parched = Smooth(-0.3f, 2.0f, m + 0.5f * tuft);
+      Colour colour =
+          Mix(lush, dry, 0.75f * parched) * Tone(0.26f * blade + 0.16f * tuft - 0.12f * m);
+      const float bare = Smooth(1.9f, 2.6f, -m + 0.4f * tuft);
+      colour = Mix(colour, FromSrgb(116, 98, 76) * Tone(0.15f * blade), bare);
+      const float flower = Uniform(tile.x0 + column, tile.y0 + row, look.seed + 9);
+      if (flower > 0.9993f) colour = Grey(0.6f);
+      tile.At(column, row) = colour;
+    }
+  }
+}
+
+void PaintSoil(Tile& tile, const CoveringLook& look) {
+  const float texel = tile.texel_m;
+  const Colour base = Mix(FromSrgb(112, 92, 70), FromSrgb(140, 122, 98), Trait(look, 1));
+  const Field lie(tile, StepFor(0.15f, texel), [&](float x, float y) {
+    return Noise(x, y, {3.0f, 5, 0.65f, look.seed + 5}, texel);
+  });
+  for (int row = 0; row < tile.height; ++row) {
+    const float y = tile.Y(row);
+    for (int column = 0; column < tile.width; ++column) {
+      const float x = tile.X(column);
+      const float clod = GradientNoise(x * 13, y * 13, look.seed + 2) * BandShare(0.077f, texel);
+      const float g = Grain(tile, column, row, look.seed + 3);
+      const float stone = GradientNoise(x * 22, y * 22, look.seed + 4) * BandShare(0.045f, texel);
+      Colour colour = base * Tone(0.14f * clod + 0.13f * g + 0.15f * lie(column, row));
+      colour = Mix(colour, Grey(0.3f) * Tone(0.1f * g), Smooth(1.9f, 2.2f, stone));
+      const float weed = lie(column, row) + 0.5f * clod;
+      colour = Mix(colour, Colour{0.08f, 0.12f, 0.04f} * Tone(0.3f * g),
+                   0.7f * Smooth(1.5f, 2.1f, weed));
+      tile.At(column, row) = colour;
+    }
+  }
+}
+
+}  // namespace stucco::simulate::internal

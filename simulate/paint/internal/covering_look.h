@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "simulate/paint/internal/library.h"
+#include "simulate/paint/internal/tile.h"
+#include "simulate/paint/wall_design.h"
+
+namespace stucco::simulate::internal {
+
+struct CoveringLook {
+  const CoveringDesign* design = nullptr;
+  uint32_t seed = 0;
+  float width_m = 0;
+  float height_m = 0;
+};
+
+inline float Trait(const CoveringLook& look, int which) {
+  return Uniform(which, 78, look.seed);
+}
+
+void PaintTiles(Tile& tile, const CoveringLook& look);
+void PaintMembrane(Tile& tile, const CoveringLook& look);
+void PaintGravel(Tile& tile, const CoveringLook& look);
+void PaintMetal(Tile& tile, const CoveringLook& look);
+
+void PaintAsphalt(Tile& tile, const CoveringLook& look);
+void PaintPaving(Tile& tile, const CoveringLook& look);
+void PaintGrass(Tile& tile, const CoveringLook& look);
+void PaintSoil(Tile& tile, const CoveringLook& look);
+
+}  // namespace stucco::simulate::internal

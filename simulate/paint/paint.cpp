@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/paint/paint.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "simulate/paint/internal/covering_look.h"
+#include "simulate/paint/internal/openings.h"
+#include "survey/error.h"
+
+namespace stucco::simulate {
+namespace {
+
+using internal::Box;
+using internal::CoveringLook;
+using internal::Tile;
+using internal::WallLook;
+
+constexpr int kTile = 128;  // texels a side: 200 kB of linear light
+
+int Texels(double size_m, double metres_per_texel) {
+  constexpr double kMost = 65535;  // of a side of a JPEG, and well within an int
+  const double texels = std::ceil(size_m / metres_per_texel - 1e-9);
+  if (!(metres_per_texel > 0) || !(size_m > 0) || !(texels <= kMost)) {
+    throw Error(
+        ErrorKind::kBadInput,
+        fmt::format("a surface of {} m cannot be painted at {} m per texel: a picture has 1 "
+                    "to {} texels a side",
+                    size_m, metres_per_texel, kMost),
+        "choose larger texels");
+  }
+  return std::max(1, static_cast<int>(texels));
+}
+
+void Store(Tile& tile, Image& image) {
+  for (int row = 0; row < tile.height; ++row) {
+    uint8_t* to = image.Pixel(tile.x0, tile.y0 + row);
+    for (int column = 0; column < tile.width; ++column, to += 3) {
+      const internal::Colour& colour = tile.At(column, row);
+      to[0] = internal::FastSrgbCode(colour.r);
+      to[1] = internal::FastSrgbCode(colour.g);
+      to[2] = internal::FastSrgbCode(colour.b);
+    }
+  }
+}
+
+template <class PaintTile>
+Image InTiles(int width, int height, double metres_per_texel, PaintTile paint) {
+  Image image{width, height, 3, {}};
+  image.data.resize(static_cast<size_t>(width) * height * 3);
+  for (int y = 0; y < height; y += kTile) {
+    for (int x = 0; x < width; x += kTile) {
+      Tile tile{x,
+                y,
+                std::min(kTile, width - x),
+                std::min(kTile, height - y),
+                static_cast<float>(metres_per_texel),
+                {}};
+      tile.colours.resize(static_cast<size_t>(tile.width) * tile.height);
+      paint(tile);
+      Store(tile, image);
+    }
+  }
+  return image;
+}
+
+void PaintGround(Tile& tile, const WallLook& look) {
+  switch (look.design->cladding) {
+    case Cladding::kBrick:
+      return internal::PaintBrick(tile, look);
+    case Cladding::kPlaster:
+      return internal::PaintPlaster(tile, look);
+    case Cladding::kStone:
+      return internal::PaintStone(tile, look);
+    case Cladding::kConcrete:
+      return internal::PaintConcrete(tile, look);
+    case Cladding::kPanels:
+      return internal::PaintPanels(tile, look);
+    case Cladding::kGlass:
+      return internal::PaintCurtainWall(tile, look);
+  }
+}
+
+void PaintSurface(Tile& tile, const CoveringLook& look) {
+  switch (look.design->covering) {
+    case Covering::kTiles:
+      return internal::PaintTiles(tile, look);
+    case Covering::kMembrane:
+      return internal::PaintMembrane(tile, look);
+    case Covering::kGravel:
+      return internal::PaintGravel(tile, look);
+    case Covering::kMetal:
+      return internal::PaintMetal(tile, look);
+    case Covering::kAsphalt:
+      return internal::PaintAsphalt(tile, look);
+    case Covering::kPaving:
+      return internal::PaintPaving(tile, look);
+    case Covering::kGrass:
+      return internal::PaintGrass(tile, look);
+    case Covering::kSoil:
+      return internal::PaintSoil(tile, look);
+  }
+}
+
+// Plinths and cornices lie under what else is on the wall, balconies over it.
+int Layer(PartKind kind) {
+  if (kind == PartKind::kPlinth || kind == PartKind::kCornice) return 0;
+  return kind == PartKind::kBalcony ? 2 : 1;
+}
+
+}  // namespace
+
+Image PaintWall(const WallDesign& design, double metres_per_texel) {
+  const int width = Texels(design.width_m, metres_per_texel);
+  const int height = Texels(design.height_m, metres_per_texel);
+  const WallLook look = internal::LookOf(design);
+  return InTiles(width, height, metres_per_texel, [&](Tile& tile) {
+    PaintGround(tile, look);
+    if (design.cladding != Cladding::kGlass) internal::Weather(tile, look);
+    for (int layer = 0; layer < 3; ++layer) {
+      for (const WallPart& part : design.parts) {
+        if (Layer(part.kind) == layer) internal::PaintPart(tile, look, part);
+      }
+      if (layer == 0) internal::PaintFittings(tile, look);
+    }
+  });
+}
+
+Image PaintCovering(const CoveringDesign& design, double metres_per_texel) {
+  const int width = Texels(design.width_m, metres_per_texel);
+  const int height = Texels(design.height_m, metres_per_texel);
+  const CoveringLook look{&design, internal::Hash(design.seed, 19),
+                          static_cast<float>(design.width_m), static_cast<float>(design.height_m)};
+  return InTiles(width, height, metres_per_texel, [&](Tile& tile) { PaintSurface(tile, look); });
+}
+
+Image PaintTrim(const WallDesign& design, double width_m, double height_m,
+                double metres_per_texel) {
+  const int width = Texels(width_m, metres_per_texel);
+  const int height = Texels(height_m, metres_per_texel);
+  const WallLook look = internal::LookOf(design);
+  const bool bare = !look.surrounds && design.cladding != Cladding::kGlass;
+  return InTiles(width, height, metres_per_texel, [&](Tile& tile) {
+    if (bare) {
+      PaintGround(tile, look);
+    } else {
+      internal::Fill(tile, tile.Extent(), look.surround);
+    }
+    internal::Shade(tile, tile.Extent(), [&](float x, float y) {
+      return internal::Tone(0.06f *
+                            internal::Noise(x, y, {0.6f, 7, 0.7f, look.wall + 73}, tile.texel_m));
+    });
+  });
+}
+
+}  // namespace stucco::simulate

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/paint/internal/wall_look.h"
+
+namespace stucco::simulate::internal {
+namespace {
+
+std::string_view KindOf(Cladding cladding) {
+  switch (cladding) {
+    case Cladding::kBrick:
+      return "brick";
+    case Cladding::kPlaster:
+      return "plaster";
+    case Cladding::kStone:
+      return "stone";
+    case Cladding::kConcrete:
+      return "concrete";
+    case Cladding::kPanels:
+      return "panels";
+    case Cladding::kGlass:
+      return "glass";
+  }
+  return "plaster";
+}
+
+Colour FrameColour(float choice) {
+  if (choice < 0.55f) return FromSrgb(226, 224, 216);
+  if (choice < 0.7f) return FromSrgb(92, 60, 40);
+  if (choice < 0.85f) return FromSrgb(62, 66, 70);
+  return FromSrgb(66, 88, 76);
+}
+
+Colour ShutterColour(float choice) {
+  if (choice < 0.3f) return FromSrgb(54, 84, 66);
+  if (choice < 0.55f) return FromSrgb(96, 62, 44);
+  if (choice < 0.8f) return FromSrgb(88, 104, 122);
+  return FromSrgb(190, 186, 172);
+}
+
+}  // namespace
+
+WallLook LookOf(const WallDesign& design) {
+  WallLook look;
+  look.design = &design;
+  look.picture = &PictureOf(KindOf(design.cladding), design.palette);
+  const bool varied = design.cladding == Cladding::kBrick;
+  look.palette = Calmed(look.picture->palette, varied ? 0.30f : 0.16f);
+  look.building = Hash(design.seed, 17);
+  look.wall = Hash(look.building, static_cast<uint32_t>(design.wall), 29);
+  look.width_m = static_cast<float>(design.width_m);
+  look.height_m = static_cast<float>(design.height_m);
+  look.surround = Mix(FromSrgb(150, 140, 124), FromSrgb(222, 216, 202), Trait(look, 31)) *
+                  Tone(0.1f * (Trait(look, 32) - 0.5f));
+  look.frame = FrameColour(Trait(look, 33));
+  look.shutter = ShutterColour(Trait(look, 34));
+  look.soot = Trait(look, 35) * Trait(look, 36);
+  look.shutters = design.cladding == Cladding::kPlaster && Trait(look, 37) < 0.3f;
+  look.surrounds = design.cladding != Cladding::kGlass && design.cladding != Cladding::kPanels &&
+                   Trait(look, 38) < 0.65f;
+  look.window_style = static_cast<int>(Trait(look, 39) * 5);
+  return look;
+}
+
+}  // namespace stucco::simulate::internal
