@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/render/internal/shade.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stucco::simulate::internal {
+namespace {
+
+constexpr float kGroundAlbedo = 0.18f;  // of land beyond the scene: fields, woods, roads
+// A clean double pane reflects about 8 % at right angles (four faces of 4 %, half of it absorbed
+// and passed between them).
+constexpr float kPaneReflectance = 0.08f;
+constexpr float kLeastGloss = 0.05f;
+
+// How the sky's brightness changes with the height over the horizon (z of the direction). Both have
+// a cosine-weighted mean of 1 over the hemisphere, so that Light::sky is what open ground gets.
+float ClearSky(float z) {
+  const float low = 1 - z;
+  return 0.91f + 1.35f * low * low * low * low;
+}
+float OvercastSky(float z) {  // Moon and Spencer, "Illumination from a non-uniform sky" (1942)
+  return (1 + 2 * z) * 3 / 7;
+}
+
+bool IsOvercast(const Light& light) {
+  return light.sun.maxCoeff() <= 0;
+}
+
+Eigen::Array3f SkyRadiance(const Light& light, const Eigen::Vector3f& direction) {
+  const float z = std::clamp(direction.z(), 0.0f, 1.0f);
+  const Eigen::Array3f sky = light.sky.array();
+  if (IsOvercast(light)) return sky * OvercastSky(z);
+  // Near the horizon the long way through air makes it white; a glow lies round the sun.
+  const float white = (1 - z) * (1 - z) * (1 - z);
+  const Eigen::Array3f colour = sky + 0.7f * white * (sky.mean() - sky);
+  const float to_sun = std::max(0.0f, direction.dot(light.to_sun.cast<float>()));
+  const float glow = 0.35f * std::pow(to_sun, 24.0f);
+  return colour * ClearSky(z) + glow * light.sun.array() * light.sky.mean();
+}
+
+// The ray's footprint on the plane of a triangle: where the rays of the neighbouring pixels meet
+// it, to first order (Igehy 1999), scaled to the part of the pixel that shows the triangle.
+Footprint FootprintOf(const ViewRay& ray, const Place& place, const Surface& surface,
+                      const Eigen::Vector2f& uv) {
+  const Eigen::Vector3f& n = surface.normal;
+  const float facing = n.dot(ray.ray.direction);
+  const float inverse = std::abs(facing) > 1e-12f ? 1 / facing : 0;
+  const auto slide = [&](const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) {
+    const Eigen::Vector3f move = origin + place.at * direction;
+    const Eigen::Vector3f on_plane =
+        place.pixel_side * (move - ray.ray.direction * (n.dot(move) * inverse));
+    return Eigen::Vector2f(surface.u_slope.dot(on_plane), surface.v_slope.dot(on_plane));
+  };
+  return {uv, slide(ray.origin_right, ray.direction_right),
+          slide(ray.origin_down, ray.direction_down)};
+}
+
+Eigen::Vector3f Reflected(const Eigen::Vector3f& direction, const Eigen::Vector3f& normal) {
+  return direction - 2 * direction.dot(normal) * normal;
+}
+
+}  // namespace
+
+Lighting LightingOf(const Light& light, const Eigen::Array3f& mean_albedo) {
+  // What surfaces around a place send to it: some are in the sun, the others get part of the sky.
+  constexpr float kShareInSun = 0.4f;
+  constexpr float kShareOfSky = 0.5f;
+  const float height = std::max(0.0f, static_cast<float>(light.to_sun.z()));
+  return {light, mean_albedo *
+                     (kShareInSun * height * light.sun.array() + kShareOfSky * light.sky.array())};
+}
+
+Eigen::Array3f Background(const Light& light, const Eigen::Vector3f& direction) {
+  if (!light.lit) return Eigen::Array3f::Zero();
+  const Eigen::Array3f sky = SkyRadiance(light, direction);
+  if (direction.z() >= 0) return sky;
+  const float height = std::max(0.0f, static_cast<float>(light.to_sun.z()));
+  const Eigen::Array3f land = kGroundAlbedo * Eigen::Array3f(0.9f, 1.0f, 0.75f) *
+                              (height * light.sun.array() + light.sky.array());
+  // Seen from a few dozen metres up, land near the horizon is kilometres away and as pale as it.
+  const float near = 1 - std::exp(12 * direction.z());
+  return sky + near * (land - sky);
+}
+
+bool Shader::FacesSun(int triangle, const Eigen::Vector3f& direction) const {
+  const Surface& surface = scene->surface(triangle);
+  const Light& light = lighting.light;
+  if (!light.lit || IsOvercast(light)) return false;
+  const Eigen::Vector3f to_sun = light.to_sun.cast<float>();
+  if (to_sun.z() <= 0) return false;
+  if (scene->scene().materials[surface.material].cut_out) return true;
+  const float side = surface.normal.dot(direction) > 0 ? -1.0f : 1.0f;
+  return side * surface.normal.dot(to_sun) > 0;
+}
+
+Ray Shader::ToSun(const Eigen::Vector3f& point, int triangle,
+                  const Eigen::Vector3f& direction) const {
+  // Off the surface, towards the viewer, by more than floats err at this distance from the origin.
+  const Eigen::Vector3f& normal = scene->surface(triangle).normal;
+  const float side = normal.dot(direction) > 0 ? -1.0f : 1.0f;
+  const float lift = 5e-4f + 2e-6f * point.cwiseAbs().maxCoeff();
+  return {point + side * lift * normal, lighting.light.to_sun.cast<float>()};
+}
+
+Eigen::Array3f Shader::Matt(const Footprint& footprint, const Place& place,
+                            const Eigen::Vector3f& direction) const {
+  const Surface& surface = scene->surface(place.triangle);
+  const Material& material = scene->scene().materials[surface.material];
+  Eigen::Array3f albedo = material.colour.array();
+  if (const MipTexture* texture = scene->texture(surface.material)) {
+    albedo *= texture->Sample(footprint).head<3>();
+  }
+  const Light& light = lighting.light;
+  if (!light.lit) return albedo;
+  const float side = surface.normal.dot(direction) > 0 ? -1.0f : 1.0f;
+  float slant = std::max(0.0f, side * surface.normal.dot(light.to_sun.cast<float>()));
+  // Leaves stand in all directions and pass part of the light.
+  if (material.cut_out) slant = 0.35f + 0.35f * slant;
+  const float sky = sky_light->At(place.triangle, place.b1, place.b2);
+  return albedo * (place.in_sun * slant * light.sun.array() + sky * light.sky.array() +
+                   (1 - sky) * lighting.bounce);
+}
+
+Eigen::Array3f Shader::Mirrored(const ViewRay& ray, const Place& place,
+                                const Eigen::Vector3f& normal) const {
+  ViewRay mirrored;
+  mirrored.ray.origin = place.point + 1e-3f * normal;
+  mirrored.ray.direction = Reflected(ray.ray.direction, normal);
+  const auto slide = [&](const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) {
+    const Eigen::Vector3f move = origin + place.at * direction;
+    return Eigen::Vector3f(move -
+                           ray.ray.direction * (normal.dot(move) / normal.dot(ray.ray.direction)));
+  };
+  mirrored.origin_right = slide(ray.origin_right, ray.direction_right);
+  mirrored.origin_down = slide(ray.origin_down, ray.direction_down);
+  mirrored.direction_right = Reflected(ray.direction_right, normal);
+  mirrored.direction_down = Reflected(ray.direction_down, normal);
+  const Hit hit = scene->Nearest(mirrored.ray, *left_out);
+  const Eigen::Vector3f unit = mirrored.ray.direction.normalized();
+  if (hit.triangle < 0) return Background(lighting.light, unit);
+  Place there;
+  there.triangle = hit.triangle;
+  there.point = mirrored.ray.origin + hit.at * mirrored.ray.direction;
+  there.at = hit.at;
+  there.b1 = hit.b1;
+  there.b2 = hit.b2;
+  if (FacesSun(hit.triangle, mirrored.ray.direction)) {
+    RayPack pack;
+    pack[0] = ToSun(there.point, hit.triangle, mirrored.ray.direction);
+    there.in_sun = scene->Blocked(pack, 1, *left_out) ? 0.0f : 1.0f;
+  }
+  const Footprint footprint = FootprintOf(mirrored, there, scene->surface(hit.triangle),
+                                          scene->UvAt(hit.triangle, there.point));
+  return Matt(footprint, there, mirrored.ray.direction);
+}
+
+Eigen::Array3f Shader::Radiance(const ViewRay& ray, const Place& place) const {
+  const Surface& surface = scene->surface(place.triangle);
+  const Footprint footprint =
+      FootprintOf(ray, place, surface, scene->UvAt(place.triangle, place.point));
+  Eigen::Array3f colour = Matt(footprint, place, ray.ray.direction);
+  const Light& light = lighting.light;
+  if (!light.lit) return colour;
+  const Material& material = scene->scene().materials[surface.material];
+  const float length = ray.ray.direction.norm();
+  if (material.gloss > kLeastGloss && surface.normal.squaredNorm() > 0) {
+    const float facing = surface.normal.dot(ray.ray.direction) / length;
+    const Eigen::Vector3f normal = facing > 0 ? Eigen::Vector3f(-surface.normal) : surface.normal;
+    // Schlick, "An inexpensive BRDF model for physically-based rendering" (1994).
+    const float grazing = 1 - std::abs(facing);
+    const float fresnel = kPaneReflectance + (1 - kPaneReflectance) * std::pow(grazing, 5.0f);
+    const float share = material.gloss * material.gloss * fresnel;
+    colour += share * (Mirrored(ray, place, normal) - colour);
+  }
+  if (!(light.haze_m > 0)) return colour;
+  const float through = std::exp(-place.at * length / static_cast<float>(light.haze_m));
+  const Eigen::Vector3f horizon(ray.ray.direction.x(), ray.ray.direction.y(), 0);
+  const Eigen::Array3f air = SkyRadiance(light, horizon.normalized());
+  return air + through * (colour - air);
+}
+
+}  // namespace stucco::simulate::internal
