@@ -15,7 +15,7 @@ namespace {
 
 using testing::LookAt;
 
-constexpr float kFar = 150;
+constexpr float kFar = 60;
 
 Light SkyOnly() {
   Light light;
