@@ -109,7 +109,7 @@ TEST(RenderLight, ShadowEndsWhereTheSunSays) {
   const float just_inside = Down(renderer, 0, 7.98, 1, light).x();
   EXPECT_NEAR(just_beyond - just_inside, 0.6, 5e-3);
   EXPECT_LT(just_inside, 0.15f);
-  EXPECT_NEAR(Down(renderer, 0, -100, 20, light).x(), 0.6, 5e-3);
+  EXPECT_NEAR(Down(renderer, 0, -50, 20, light).x(), 0.6, 0.01);
 }
 
 TEST(RenderLight, SunBehindASurfaceDoesNotLightIt) {
