@@ -23,7 +23,9 @@ struct EvaluateRequest {
 // measured and noted. Throws Error (kBadInput) where the scene or the flight has no truth.
 Evaluation Evaluate(const EvaluateRequest& request);
 
-// The names of design and docs/formats.md; NaN becomes null.
+// evaluation.json (docs/formats.md); what was not measured is null.
+std::string EvaluationJson(const Evaluation& evaluation);
+// evaluation.json and facades.csv.
 void WriteEvaluation(const Evaluation& evaluation, const std::filesystem::path& output);
 
 }  // namespace stucco::evaluate

@@ -22,8 +22,10 @@ struct PoseFigures {
 };
 
 struct SurfaceFigures {
-  double error95_m = kNotMeasured;     // 95 % of the result lies nearer to the truth
-  double completeness = kNotMeasured;  // share of the truth's area with the result nearby
+  double error95_m = kNotMeasured;  // 95 % of the result lies nearer to the truth
+  // Share of the truth's area with the result nearby: of what the photos show, and of everything.
+  double completeness = kNotMeasured;
+  double completeness_all = kNotMeasured;
 };
 
 struct ProxyFigures {
@@ -31,6 +33,7 @@ struct ProxyFigures {
   int watertight = 0;
   int manifold = 0;
   int self_intersecting = 0;
+  int truth_buildings = 0;
   int facets = 0;
   int truth_facets = 0;
   SurfaceFigures all, wall, roof, ground;

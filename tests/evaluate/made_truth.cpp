@@ -2,7 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/evaluate/made_truth.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "survey/triangulate.h"
 
 namespace stucco::evaluate {
 
@@ -60,6 +66,89 @@ Proxy MadeTruth() {
   truth.buildings.push_back(
       {.id = "G0", .watertight = false, .source = "cloud", .facets = {ground}});
   return truth;
+}
+
+namespace {
+
+void AppendElement(const std::string& name, const std::vector<Facet>& facets,
+                   simulate::Scene& scene) {
+  for (const Facet& facet : facets) {
+    const FacetTriangles pieces = TriangulateFacet(facet);
+    const int first = static_cast<int>(scene.positions.size());
+    for (const Vector3d& vertex : pieces.vertices) {
+      scene.positions.push_back(vertex.cast<float>());
+      scene.uv.emplace_back(0.0f, 0.0f);
+    }
+    for (const auto& t : pieces.triangles) {
+      scene.triangles.emplace_back(first + static_cast<int>(t[0]), first + static_cast<int>(t[1]),
+                                   first + static_cast<int>(t[2]));
+      scene.materials_of.push_back(0);
+      scene.elements_of.push_back(static_cast<int>(scene.elements.size()));
+    }
+  }
+  scene.elements.push_back(name);
+}
+
+simulate::FlownPhoto PhotoFrom(const Vector3d& centre, const Vector3d& target,
+                               const std::string& path) {
+  simulate::FlownPhoto photo;
+  photo.path = path;
+  photo.camera.id = CameraId(1);
+  photo.camera.width_px = 1000;
+  photo.camera.height_px = 800;
+  photo.camera.params = {600, 600, 500, 400};
+  const Vector3d z = (target - centre).normalized();
+  const Vector3d x =
+      z.cross(std::abs(z.z()) > 0.99 ? Vector3d::UnitY() : Vector3d::UnitZ()).normalized();
+  Eigen::Matrix3d rows;
+  rows << x.transpose(), z.cross(x).transpose(), z.transpose();
+  photo.cam_from_world.rotation = Eigen::Quaterniond(rows);
+  photo.cam_from_world.translation = -(photo.cam_from_world.rotation * centre);
+  return photo;
+}
+
+}  // namespace
+
+simulate::Scene MadeScene(const Proxy& truth) {
+  simulate::Scene scene;
+  scene.materials.resize(1);
+  for (const Building& building : truth.buildings) {
+    for (const Facet& facet : building.facets) AppendElement(facet.id, {facet}, scene);
+  }
+  AppendElement("occluder/tree-000", MadeBox("tree", {4, -5, 0}, {6, -3, 4}).facets, scene);
+  return scene;
+}
+
+simulate::Flight MadeFlight() {
+  const Vector3d middle(15, 4, 0);
+  simulate::Flight flight;
+  flight.scene = "made";
+  for (int i = 0; i < 12; ++i) {
+    const double angle = i * std::numbers::pi / 6;
+    const Vector3d centre =
+        middle + Vector3d(60 * std::cos(angle), 60 * std::sin(angle), 60 + 0.5 * (i % 3));
+    flight.photos.push_back(PhotoFrom(centre, middle, fmt::format("ring/{:02}.jpg", i)));
+  }
+  flight.photos.push_back(PhotoFrom(middle + Vector3d(0, 0, 80), middle, "down.jpg"));
+  return flight;
+}
+
+Reconstruction MadeReconstruction(const simulate::Flight& flight) {
+  Reconstruction reconstruction;
+  for (const simulate::FlownPhoto& photo : flight.photos) {
+    if (photo.lost || photo.held_out) continue;
+    const PhotoId id(static_cast<uint32_t>(reconstruction.photos.size() + 1));
+    reconstruction.cameras[photo.camera.id] = photo.camera;
+    reconstruction.photos[id] = {id, photo.camera.id, photo.path, photo.cam_from_world, {}};
+  }
+  return reconstruction;
+}
+
+Similarity AnySimilarity() {
+  return {
+      .scale = 0.4,
+      .rotation = Eigen::Quaterniond(Eigen::AngleAxisd(1.1, Vector3d(0.3, -0.5, 0.8).normalized())),
+      .translation = {120, -40, 7}};
 }
 
 }  // namespace stucco::evaluate

@@ -28,13 +28,6 @@ Proxy OneBuilding(std::vector<Facet> facets) {
   return proxy;
 }
 
-Similarity AnySimilarity() {
-  return {
-      .scale = 0.4,
-      .rotation = Eigen::Quaterniond(Eigen::AngleAxisd(1.1, Vector3d(0.3, -0.5, 0.8).normalized())),
-      .translation = {120, -40, 7}};
-}
-
 TEST(Moved, GoesThereAndBack) {
   const Proxy truth = MadeTruth();
   const Proxy moved = Moved(truth, AnySimilarity());

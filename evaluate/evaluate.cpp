@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "evaluate/evaluate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "evaluate/geometry/cloud.h"
+#include "evaluate/geometry/compare_proxy.h"
+#include "evaluate/geometry/moved.h"
+#include "evaluate/geometry/poses.h"
+#include "evaluate/geometry/seen.h"
+#include "evaluate/plan_figures.h"
+#include "evaluate/truth.h"
+#include "simulate/scene/scene_folder.h"
+#include "survey/colmap_io.h"
+#include "survey/error.h"
+#include "survey/survey_folder.h"
+
+namespace stucco::evaluate {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+constexpr char kStatsFile[] = "plan/stats.json";
+constexpr char kMeshFile[] = "dense/mesh.ply";
+constexpr size_t kTruthSamples = 200000;  // a share is then known to 0.1 %
+constexpr uint64_t kSeed = 1;
+
+bool IsOccluder(const std::string& element) {
+  return element.starts_with(simulate::kOccluderPrefix);
+}
+
+// The scene as geometry, made once for every measure that needs it.
+struct SceneShape {
+  Surface relief;           // buildings and ground with all they have standing out
+  SurfaceIndex everything;  // and what stands about
+  TruthPoints wanted;       // of the relief, near buildings
+};
+
+SceneShape ShapeOf(const simulate::Scene& scene, const Truth& truth, int threads) {
+  SceneShape shape{
+      SurfaceOf(scene, [](const std::string& element) { return !IsOccluder(element); }),
+      SurfaceIndex(SurfaceOf(scene, [](const std::string&) { return true; })),
+      {}};
+  const std::vector<SurfacePoint> points = SamplePoints(shape.relief, kTruthSamples, kSeed);
+  std::vector<Vector3d> positions;
+  for (const SurfacePoint& point : points) positions.push_back(point.position);
+  const std::vector<double> away =
+      Distances(positions, SurfaceIndex(BuildingSurface(truth.facets)), threads);
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (away[i] <= kGroundReachM) shape.wanted.points.push_back(points[i]);
+  }
+  shape.wanted.seen =
+      SeenByAny(shape.wanted.points, DeliveredPhotos(truth.flight), shape.everything, threads);
+  return shape;
+}
+
+class Evaluator {
+ public:
+  Evaluator(const EvaluateRequest& request, Truth truth)
+      : request_(request), truth_(std::move(truth)) {
+    evaluation_.survey = NameOf(request.survey);
+    evaluation_.scene = NameOf(request.scene);
+    evaluation_.tolerance_m = request.tolerance_m;
+  }
+
+  Evaluation Run() {
+    MeasurePlan();
+    MeasurePoses();
+    if (truth_from_world_) MeasureResults();
+    return std::move(evaluation_);
+  }
+
+ private:
+  // Results must not depend on where the folders lie.
+  static std::string NameOf(const fs::path& folder) {
+    const fs::path whole = fs::absolute(folder).lexically_normal();
+    return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  }
+  void Note(std::string note) { evaluation_.notes.push_back(std::move(note)); }
+  // Whether the survey has a file; if not, says what is therefore not measured.
+  bool Has(const char* file, const char* measured) {
+    if (fs::exists(request_.survey / file)) return true;
+    Note(fmt::format("{} not measured: there is no {}", measured, file));
+    return false;
+  }
+
+  void MeasurePlan() {
+    if (!Has(kStatsFile, "the plan is")) return;
+    evaluation_.plan = ReadPlanFigures(request_.survey / kStatsFile);
+    evaluation_.has_plan = true;
+  }
+
+  void MeasurePoses() {
+    evaluation_.poses.total = static_cast<int>(DeliveredPhotos(truth_.flight).size());
+    if (!Has(kSparseFolder, "poses, and what lies in their frame, are")) return;
+    const Reconstruction result = ReadColmapModel(request_.survey / kSparseFolder);
+    Georef georef;
+    if (fs::exists(request_.survey / kGeorefFile)) {
+      georef = ReadGeoref(request_.survey / kGeorefFile);
+    }
+    PoseComparison poses = ComparePoses(result, georef, truth_.flight, truth_.info.georef);
+    evaluation_.poses = poses.figures;
+    for (std::string& note : poses.notes) Note(std::move(note));
+    truth_from_world_ = poses.truth_from_world;
+    if (!truth_from_world_) Note("nothing in the frame of the poses is measured either");
+  }
+
+  void MeasureResults() {
+    const bool has_cloud = Has(kCloudFile, "the cloud is");
+    const bool has_mesh = fs::exists(request_.survey / kMeshFile);
+    const bool has_proxy = Has(kFacetsFile, "the model is");
+    if (!has_cloud && !has_mesh && !has_proxy) return;
+    const simulate::Scene scene = simulate::ReadScene(request_.scene);
+    const SceneShape shape = ShapeOf(scene, truth_, request_.threads);
+    if (has_cloud) {
+      evaluation_.dense = CompareCloud(request_.survey / kCloudFile, *truth_from_world_,
+                                       shape.everything, shape.wanted, tolerance(), threads());
+    }
+    if (has_mesh) MeasureMesh(shape);
+    if (has_proxy) MeasureProxy(shape);
+  }
+
+  void MeasureMesh(const SceneShape& shape) {
+    simulate::ModelReading reading;
+    reading.up = simulate::UpAxis::kZ;
+    Surface mesh = SurfaceOf(simulate::ReadScene(request_.survey / kMeshFile, reading),
+                             [](const std::string&) { return true; });
+    for (Vector3d& vertex : mesh.vertices) vertex = *truth_from_world_ * vertex;
+    evaluation_.mesh = CompareSurface(SurfaceIndex(std::move(mesh)), shape.everything, shape.wanted,
+                                      tolerance(), threads());
+  }
+
+  void MeasureProxy(const SceneShape& shape) {
+    const Proxy proxy = ReadProxy(request_.survey / kFacetsFile);
+    const auto photos = DeliveredPhotos(truth_.flight);
+    evaluation_.proxy = CompareProxy(Moved(proxy, *truth_from_world_),
+                                     {truth_.facets, shape.relief, shape.everything, photos},
+                                     tolerance(), threads());
+  }
+
+  double tolerance() const { return request_.tolerance_m; }
+  int threads() const { return request_.threads; }
+
+  const EvaluateRequest& request_;
+  Truth truth_;
+  Evaluation evaluation_;
+  std::optional<Similarity> truth_from_world_;
+};
+
+}  // namespace
+
+Evaluation Evaluate(const EvaluateRequest& request) {
+  if (!(request.tolerance_m > 0) || !std::isfinite(request.tolerance_m)) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("a tolerance of {} m makes no sense", request.tolerance_m));
+  }
+  if (!fs::is_directory(request.survey)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: no such survey", request.survey.string()));
+  }
+  const fs::path& flight = request.flight.empty() ? request.survey : request.flight;
+  return Evaluator(request, ReadTruth(request.scene, flight)).Run();
+}
+
+}  // namespace stucco::evaluate

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+#include "evaluate/evaluation.h"
+#include "evaluate/geometry/surface_index.h"
+#include "simulate/flight/flight_folder.h"
+#include "survey/proxy.h"
+
+namespace stucco::evaluate {
+
+// What a proxy is measured against, all in the frame of the truth.
+struct ProxyTruth {
+  const Proxy& facets;        // the planar truth
+  const Surface& relief;      // the same buildings and ground with all they have standing out
+  const SurfaceIndex& scene;  // everything a camera sees
+  std::span<const simulate::FlownPhoto* const> photos;
+};
+
+// `result` is in the frame of the truth (moved.h). The undersides of buildings, which nothing sees,
+// count for validity alone.
+ProxyFigures CompareProxy(const Proxy& result, const ProxyTruth& truth, double tolerance_m,
+                          int threads);
+
+// Whether a building of a proxy is the ground.
+bool IsGround(const Building& building);
+
+// Ground farther than this from every building of the truth is none of the survey's.
+inline constexpr double kGroundReachM = 15;
+
+// Walls, roofs and overhangs of all buildings.
+Surface BuildingSurface(const Proxy& proxy);
+
+}  // namespace stucco::evaluate

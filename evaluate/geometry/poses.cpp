@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "evaluate/geometry/poses.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "evaluate/geometry/align.h"
+#include "evaluate/geometry/seen.h"
+
+namespace stucco::evaluate {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Pair {
+  std::string path;
+  Pose truth, result;
+};
+
+std::string FileName(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
+// Posed photos by their path, and by their file name where only one has it.
+struct PhotosByName {
+  std::map<std::string, const PosedPhoto*> by_path;
+  std::map<std::string, std::vector<const PosedPhoto*>> by_file;
+
+  explicit PhotosByName(const Reconstruction& reconstruction) {
+    for (const auto& [id, photo] : reconstruction.photos) {
+      by_path[photo.name] = &photo;
+      by_file[FileName(photo.name)].push_back(&photo);
+    }
+  }
+  const PosedPhoto* Find(const std::string& path) const {
+    if (const auto found = by_path.find(path); found != by_path.end()) return found->second;
+    const auto found = by_file.find(FileName(path));
+    return found != by_file.end() && found->second.size() == 1 ? found->second[0] : nullptr;
+  }
+};
+
+double AngleDeg(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
+  return a.angularDistance(b) * 180 / std::numbers::pi;
+}
+
+void Measure(const std::vector<Pair>& pairs, const Similarity& truth_from_world,
+             PoseFigures& figures) {
+  figures.position_mean_m = figures.position_max_m = 0;
+  figures.rotation_mean_deg = figures.rotation_max_deg = 0;
+  const double share = 1.0 / static_cast<double>(pairs.size());
+  for (const Pair& pair : pairs) {
+    const Pose aligned = Transformed(pair.result, truth_from_world);
+    const double distance = (aligned.Center() - pair.truth.Center()).norm();
+    const double angle = AngleDeg(aligned.rotation, pair.truth.rotation);
+    figures.position_mean_m += share * distance;
+    figures.position_max_m = std::max(figures.position_max_m, distance);
+    figures.rotation_mean_deg += share * angle;
+    figures.rotation_max_deg = std::max(figures.rotation_max_deg, angle);
+  }
+}
+
+void MeasureGeoreferenced(const std::vector<Pair>& pairs, const Georef& survey, const Georef& scene,
+                          PoseComparison& comparison) {
+  if (survey.frame != "enu" || scene.frame != "enu") {
+    comparison.notes.push_back(
+        fmt::format("georeferenced positions are not measured: the frame of the {} is \"{}\"",
+                    survey.frame != "enu" ? "survey" : "scene",
+                    survey.frame != "enu" ? survey.frame : scene.frame));
+    return;
+  }
+  double sum = 0;
+  for (const Pair& pair : pairs) {
+    sum += (BetweenFrames(survey, scene, pair.result.Center()) - pair.truth.Center()).norm();
+  }
+  comparison.figures.georeferenced_mean_m = sum / static_cast<double>(pairs.size());
+}
+
+void Align(const std::vector<Pair>& pairs, PoseComparison& comparison) {
+  Eigen::Matrix3Xd source(3, pairs.size()), target(3, pairs.size());
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    source.col(static_cast<Eigen::Index>(i)) = pairs[i].result.Center();
+    target.col(static_cast<Eigen::Index>(i)) = pairs[i].truth.Center();
+  }
+  const std::optional<Alignment> alignment = AlignRobustly(source, target);
+  if (!alignment) {
+    comparison.notes.push_back(fmt::format(
+        "poses are not measured: {} posed photos are not three places off one line", pairs.size()));
+    return;
+  }
+  comparison.truth_from_world = alignment->target_from_source;
+  Measure(pairs, alignment->target_from_source, comparison.figures);
+  std::vector<std::string> wrong;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    if (!alignment->used[i]) wrong.push_back(pairs[i].path);
+  }
+  if (!wrong.empty()) {
+    comparison.notes.push_back(
+        fmt::format("{} of {} poses are grossly wrong, {} first; they count in every figure, but "
+                    "not in the alignment",
+                    wrong.size(), pairs.size(), wrong[0]));
+  }
+}
+
+}  // namespace
+
+Vector3d BetweenFrames(const Georef& from, const Georef& to, const Vector3d& point) {
+  const Vector3d geodetic = GeodeticFromEnu(from, point);
+  return EnuFromGeodetic(to, geodetic[0], geodetic[1], geodetic[2]);
+}
+
+PoseComparison ComparePoses(const Reconstruction& result, const Georef& survey,
+                            const simulate::Flight& truth, const Georef& scene) {
+  const PhotosByName posed(result);
+  std::vector<Pair> pairs;
+  PoseComparison comparison;
+  for (const simulate::FlownPhoto* photo : DeliveredPhotos(truth)) {
+    ++comparison.figures.total;
+    const PosedPhoto* found = posed.Find(photo->path);
+    if (found) pairs.push_back({photo->path, photo->cam_from_world, found->cam_from_world});
+  }
+  comparison.figures.posed = static_cast<int>(pairs.size());
+  if (pairs.size() < result.photos.size()) {
+    comparison.notes.push_back(fmt::format("{} posed photos are none of the flight's",
+                                           result.photos.size() - pairs.size()));
+  }
+  if (pairs.empty()) {
+    comparison.notes.push_back("poses are not measured: no photo of the flight has a pose");
+    return comparison;
+  }
+  Align(pairs, comparison);
+  MeasureGeoreferenced(pairs, survey, scene, comparison);
+  return comparison;
+}
+
+}  // namespace stucco::evaluate

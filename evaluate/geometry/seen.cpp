@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "evaluate/geometry/seen.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <optional>
+
+#include "survey/parallel.h"
+
+namespace stucco::evaluate {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kLeastCosine = 0.17364817766693033;  // of 80 degrees: beyond, a wall is a line
+constexpr double kLiftM = 0.01;  // off the surface, so that it does not hide itself
+constexpr size_t kBlock = 256;   // points for one task
+
+struct Station {
+  const simulate::FlownPhoto* photo;
+  Vector3d centre;
+};
+
+bool Sees(const Station& station, const SurfacePoint& point, const SurfaceIndex& scene) {
+  const Vector3d towards = station.centre - point.position;
+  if (!(point.normal.dot(towards) >= kLeastCosine * towards.norm())) return false;
+  const Camera& camera = station.photo->camera;
+  const Vector3d in_camera = station.photo->cam_from_world * point.position;
+  const std::optional<Eigen::Vector2d> pixel = camera.Project(in_camera);
+  if (!pixel || !camera.Contains(*pixel)) return false;
+  // Far outside the picture a distortion polynomial can turn back into it.
+  if (!camera.IsInvertibleAt(in_camera.hnormalized())) return false;
+  return !scene.Blocked(point.position + kLiftM * point.normal, station.centre);
+}
+
+}  // namespace
+
+std::vector<const simulate::FlownPhoto*> DeliveredPhotos(const simulate::Flight& flight) {
+  std::vector<const simulate::FlownPhoto*> delivered;
+  for (const simulate::FlownPhoto& photo : flight.photos) {
+    if (!photo.lost && !photo.held_out) delivered.push_back(&photo);
+  }
+  return delivered;
+}
+
+std::vector<char> SeenByAny(std::span<const SurfacePoint> points,
+                            std::span<const simulate::FlownPhoto* const> photos,
+                            const SurfaceIndex& scene, int threads) {
+  std::vector<Station> stations;
+  for (const simulate::FlownPhoto* photo : photos) {
+    stations.push_back({photo, photo->cam_from_world.Center()});
+  }
+  std::vector<char> seen(points.size(), 0);
+  ParallelFor((points.size() + kBlock - 1) / kBlock, threads, [&](size_t block) {
+    size_t last = 0;  // the photo that saw the point before mostly sees this one, too
+    const size_t end = std::min(points.size(), (block + 1) * kBlock);
+    for (size_t i = block * kBlock; i < end; ++i) {
+      for (size_t k = 0; k < stations.size() && !seen[i]; ++k) {
+        const size_t station = (last + k) % stations.size();
+        if (!Sees(stations[station], points[i], scene)) continue;
+        seen[i] = 1;
+        last = station;
+      }
+    }
+  });
+  return seen;
+}
+
+}  // namespace stucco::evaluate

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "simulate/scene/scene.h"
+#include "survey/proxy.h"
+
+namespace stucco::evaluate {
+
+// Triangles in the frame of the truth.
+struct Surface {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<int> groups;  // of triangles: what is to be counted apart, for the caller to choose
+};
+
+void Append(const Facet& facet, int group, Surface& surface);
+void Append(const Surface& more, Surface& surface);
+// The parts of a scene that `keep` wants by name; the group is the number of the element.
+Surface SurfaceOf(const simulate::Scene& scene,
+                  const std::function<bool(const std::string& element)>& keep);
+
+double Area(const Surface& surface);
+
+struct SurfacePoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit
+  int group = 0;
+};
+
+// `count` points spread evenly by area: the surface is cut into as many parts of the same area, in
+// the order of its triangles, and each has one point at random. None where there is no area.
+std::vector<SurfacePoint> SamplePoints(const Surface& surface, size_t count, uint64_t seed);
+
+}  // namespace stucco::evaluate

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "evaluate/geometry/surface.h"
+
+namespace stucco::evaluate {
+
+// Distances to a surface and lines of sight past it, through Embree's tree. Thread-safe.
+class SurfaceIndex {
+ public:
+  explicit SurfaceIndex(Surface surface);
+  ~SurfaceIndex();
+  SurfaceIndex(SurfaceIndex&&) noexcept;
+  SurfaceIndex& operator=(SurfaceIndex&&) noexcept;
+
+  const Surface& surface() const;
+  // To the nearest point of any triangle, in double precision; infinite where there are none.
+  double Distance(const Eigen::Vector3d& point) const;
+  // Whether the straight line between two points meets a triangle. Coordinates are rounded to
+  // floats: leave a few millimetres to the surfaces on which the points lie.
+  bool Blocked(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+std::vector<double> Distances(std::span<const Eigen::Vector3d> points, const SurfaceIndex& index,
+                              int threads);
+
+}  // namespace stucco::evaluate

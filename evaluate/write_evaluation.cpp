@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "evaluate/evaluate.h"
+#include "survey/escape.h"
+#include "survey/files.h"
+#include "survey/internal/json.h"
+#include "survey/internal/output_file.h"
+
+namespace stucco::evaluate {
+namespace {
+
+using internal::Json;
+
+// JSON has no word for what was not measured but null.
+Json Number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+// The measures of a picture; `suffix` is "_mean" where they are means over several.
+void AddPicture(const PictureFigures& figures, const std::string& suffix, Json& json) {
+  json["ssim" + suffix] = Number(figures.ssim);
+  json["ms_ssim" + suffix] = Number(figures.ms_ssim);
+  json["psnr" + suffix] = Number(figures.psnr);
+  json["gmsd" + suffix] = Number(figures.gmsd);
+  json["flip" + suffix] = Number(figures.flip);
+  json["lpips" + suffix] = Number(figures.lpips);
+}
+
+void AddSurface(const SurfaceFigures& figures, const std::string& prefix, Json& json) {
+  json[prefix + "error95_m"] = Number(figures.error95_m);
+  json[prefix + "completeness"] = Number(figures.completeness);
+  json[prefix + "completeness_all"] = Number(figures.completeness_all);
+}
+
+Json PosesJson(const PoseFigures& poses) {
+  return {{"posed", poses.posed},
+          {"total", poses.total},
+          {"position_mean_m", Number(poses.position_mean_m)},
+          {"position_max_m", Number(poses.position_max_m)},
+          {"rotation_mean_deg", Number(poses.rotation_mean_deg)},
+          {"rotation_max_deg", Number(poses.rotation_max_deg)},
+          {"georeferenced_mean_m", Number(poses.georeferenced_mean_m)}};
+}
+
+Json SurfaceJson(const SurfaceFigures& figures) {
+  Json json = Json::object();
+  AddSurface(figures, "", json);
+  return json;
+}
+
+Json ProxyJson(const ProxyFigures& proxy) {
+  Json json = {{"buildings", proxy.buildings},
+               {"truth_buildings", proxy.truth_buildings},
+               {"watertight", proxy.watertight},
+               {"manifold", proxy.manifold},
+               {"self_intersecting", proxy.self_intersecting},
+               {"facets", proxy.facets},
+               {"truth_facets", proxy.truth_facets}};
+  AddSurface(proxy.all, "", json);
+  AddSurface(proxy.wall, "wall_", json);
+  AddSurface(proxy.roof, "roof_", json);
+  AddSurface(proxy.ground, "ground_", json);
+  json["facade_id_rate"] = Number(proxy.facade_id_rate);
+  return json;
+}
+
+Json FacadeJson(const FacadeFigures& facade) {
+  Json json = {{"id", facade.id},
+               {"facet", facade.facet},
+               {"area_m2", facade.area_m2},
+               {"painted", facade.painted}};
+  AddPicture(facade.picture, "", json);
+  json["misregistration_px"] = Number(facade.misregistration_px);
+  json["truth_picture"] = facade.truth_picture;
+  json["result_picture"] = facade.result_picture;
+  return json;
+}
+
+Json TextureJson(const Evaluation& evaluation) {
+  Json json = Json::object();
+  AddPicture(evaluation.texture_mean, "_mean", json);
+  json["misregistration_px"] = Number(evaluation.misregistration_px);
+  json["facades"] = Json::array();
+  for (const FacadeFigures& facade : evaluation.facades) {
+    json["facades"].push_back(FacadeJson(facade));
+  }
+  return json;
+}
+
+Json ViewsJson(const Evaluation& evaluation) {
+  Json json = Json::object();
+  AddPicture(evaluation.views_mean, "_mean", json);
+  json["photos"] = Json::array();
+  for (const HeldOutFigures& view : evaluation.views) {
+    Json photo = {{"photo", view.photo}};
+    AddPicture(view.picture, "", photo);
+    photo["truth_picture"] = view.truth_picture;
+    photo["result_picture"] = view.result_picture;
+    json["photos"].push_back(photo);
+  }
+  return json;
+}
+
+Json PlanJson(const PlanFigures& plan) {
+  return {{"method", plan.method},
+          {"photos", plan.photos},
+          {"hovers", plan.hovers},
+          {"length_m", Number(plan.length_m)},
+          {"time_min", Number(plan.time_min)},
+          {"battery_percent", Number(plan.battery_percent)},
+          {"q_s", Number(plan.q_s)},
+          {"q_d", Number(plan.q_d)},
+          {"q_u", Number(plan.q_u)},
+          {"q_c", Number(plan.q_c)}};
+}
+
+std::string Cell(double value) {
+  return std::isfinite(value) ? fmt::format("{:.6g}", value) : "";
+}
+
+std::string FacadesCsv(const Evaluation& evaluation) {
+  std::string csv =
+      "id,facet,area_m2,painted,ssim,ms_ssim,psnr,gmsd,flip,lpips,misregistration_px\r\n";
+  for (const FacadeFigures& facade : evaluation.facades) {
+    const PictureFigures& picture = facade.picture;
+    csv += CsvField(facade.id) + "," + CsvField(facade.facet);
+    for (const double value :
+         {facade.area_m2, facade.painted, picture.ssim, picture.ms_ssim, picture.psnr, picture.gmsd,
+          picture.flip, picture.lpips, facade.misregistration_px}) {
+      csv += "," + Cell(value);
+    }
+    csv += "\r\n";
+  }
+  return csv;
+}
+
+}  // namespace
+
+std::string EvaluationJson(const Evaluation& evaluation) {
+  Json json = {{"version", internal::kJsonVersion},
+               {"survey", evaluation.survey},
+               {"scene", evaluation.scene},
+               {"tolerance_m", evaluation.tolerance_m},
+               {"poses", PosesJson(evaluation.poses)},
+               {"dense", SurfaceJson(evaluation.dense)},
+               {"mesh", SurfaceJson(evaluation.mesh)},
+               {"proxy", ProxyJson(evaluation.proxy)},
+               {"texture", TextureJson(evaluation)},
+               {"views", ViewsJson(evaluation)}};
+  json["plan"] = evaluation.has_plan ? PlanJson(evaluation.plan) : Json(nullptr);
+  json["notes"] = evaluation.notes;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+void WriteEvaluation(const Evaluation& evaluation, const std::filesystem::path& output) {
+  internal::CreateFolder(output);
+  WriteFileAtomically(output / "evaluation.json", EvaluationJson(evaluation) + "\n");
+  WriteFileAtomically(output / "facades.csv", FacadesCsv(evaluation));
+}
+
+}  // namespace stucco::evaluate

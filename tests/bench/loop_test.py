@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: 2026 the Stucco authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tests of the loop scripts in bench/, with a stand-in for the program."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).parents[2]
+sys.path[:0] = [str(ROOT / "bench")]
+import loop  # noqa: E402
+import methods_flown  # noqa: E402
+import stage_scaling  # noqa: E402
+import surveys  # noqa: E402
+
+EVALUATION = {
+    "version": 1, "plan": {"method": "cocapture", "photos": 46, "hovers": 20, "length_m": 1234.5,
+                           "time_min": 7.25, "battery_percent": 30},
+    "poses": {"posed": 45, "total": 46, "position_mean_m": 0.0123, "position_max_m": 0.03,
+              "rotation_mean_deg": 0.01, "rotation_max_deg": 0.02, "georeferenced_mean_m": 1.5},
+    "dense": {"error95_m": 0.21, "completeness": 0.955, "completeness_all": 0.9},
+    "mesh": {"error95_m": None, "completeness": None, "completeness_all": None},
+    "proxy": {"buildings": 3, "truth_buildings": 3, "watertight": 2, "manifold": 3,
+              "self_intersecting": 0, "facets": 40, "truth_facets": 38, "error95_m": 0.3,
+              "completeness": 0.8, "completeness_all": 0.75, "wall_error95_m": 0.25,
+              "facade_id_rate": 0.9},
+    "texture": {**{name + "_mean": 0.5 for name in ("ssim", "ms_ssim", "gmsd", "flip")},
+                "psnr_mean": 21.25, "lpips_mean": None, "misregistration_px": 0.75,
+                "facades": [{"id": "B0001/F00"}]},
+    "views": {"ssim_mean": 0.6, "psnr_mean": 19.5, "photos": []}, "notes": []}
+
+# Notes its commands and makes what the real one would make, as far as the scripts look at it.
+STAND_IN = """#!/usr/bin/env python3
+import os, pathlib, sys
+words = sys.argv[1:]
+with open(os.environ["COMMANDS"], "a") as log:
+    log.write(" ".join(words) + "\\n")
+if os.environ.get("FAILS") == words[0]:
+    sys.exit("something is wrong")
+out = pathlib.Path(words[words.index("-o") + 1] if "-o" in words else words[1])
+files = {"plan": {"plan/plan.json": "{}"}, "run": {
+             ".stucco/manifests/dense.json": '{"usage": {"wall_s": 90.5, "cpu_s": 170}}'},
+         "evaluate": {"evaluation/evaluation.json": os.environ["EVALUATION"]},
+         "simulate": {"scene.json": "{}", "terrain.tif": ""} if "city" in words else
+                     {"truth/flight.json": "{}"}, "init": {"survey.toml": ""}}
+for name, text in files[words[0]].items():
+    (out / name).parent.mkdir(parents=True, exist_ok=True)
+    (out / name).write_text(text)
+"""
+
+
+class WithStandIn(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.root = pathlib.Path(scratch.name) / "it's a place"
+        self.root.mkdir()
+        self.program = self.root / "stucco"
+        self.program.write_text(STAND_IN)
+        self.program.chmod(0o755)
+
+    def call(self, script, *words, fails="", code=0):
+        environment = dict(os.environ, COMMANDS=str(self.root / "commands"), FAILS=fails,
+                           EVALUATION=json.dumps(EVALUATION))
+        process = subprocess.run(
+            [sys.executable, "-B", ROOT / "bench" / script, *words, "--stucco", self.program],
+            env=environment, capture_output=True, text=True, check=False)
+        self.assertEqual(process.returncode, code, process.stderr)
+        return process
+
+    def commands(self):
+        return (self.root / "commands").read_text().replace(str(self.root) + "/", "").splitlines()
+
+
+class Loop(WithStandIn):
+    def test_goes_from_a_style_to_a_row(self):
+        out = self.root / "out"
+        table = self.call("loop.py", out, "--seed", "3", "--plan-args", "--altitude 30",
+                          "--fly-args=--rtk true").stdout
+        self.assertEqual(self.commands(), [
+            "simulate city -o out/hamlet-3 --style hamlet --seed 3",
+            "plan out/hamlet-3/map.geojson -o out/hamlet-3-cocapture-0.25 --method cocapture "
+            "--terrain out/hamlet-3/terrain.tif --altitude 30",
+            "simulate out/hamlet-3 out/hamlet-3-cocapture-0.25 -o out/hamlet-3-cocapture-0.25 "
+            "--scale 0.25 --rtk true",
+            "run out/hamlet-3-cocapture-0.25",
+            "evaluate out/hamlet-3-cocapture-0.25 --truth out/hamlet-3"])
+        self.assertIn("| hamlet-3 | cocapture | 46 | 45 / 46 | 12.3 | 1.50 | 0.0100 | 0.210 | "
+                      "95.5 % | 0.300 | 80.0 % | 0.250 | 2 / 3 | 40 / 38 | 90.0 % | 0.500 | 0.500 "
+                      "| 0.75 | 90 |", table)
+        line = json.loads((out / "figures.ndjson").read_text())
+        self.assertEqual(line["name"], "hamlet-3-cocapture-0.25")
+        self.assertEqual(line["stages"]["dense"]["wall_s"], 90.5)
+        self.assertNotIn("facades", line["texture"])
+
+    def test_does_not_repeat_what_is_there(self):
+        self.call("loop.py", self.root / "out")
+        (self.root / "commands").unlink()
+        self.call("loop.py", self.root / "out")
+        self.assertEqual([words.split()[0] for words in self.commands()], ["run", "evaluate"])
+
+    def test_a_run_that_fails_is_measured_as_far_as_it_came(self):
+        process = self.call("loop.py", self.root / "out", fails="run")
+        self.assertIn("run", process.stderr)
+        self.assertIn("| 0.500 | 0.75 | - |", process.stdout)
+
+    def test_says_where_to_look_when_a_step_fails(self):
+        process = self.call("loop.py", self.root / "out", fails="plan", code=1)
+        log = self.root / "out/logs/hamlet-1-cocapture-0.25-plan.log"
+        self.assertIn(str(log), process.stderr)
+        self.assertIn("something is wrong", log.read_text())
+
+    def test_what_was_not_measured_is_a_dash(self):
+        figures = json.loads(json.dumps(EVALUATION))
+        figures["stages"] = {}
+        figures["plan"] = None
+        figures["poses"]["position_mean_m"] = figures["dense"]["completeness"] = None
+        cells = loop.row("a", figures)
+        self.assertEqual(len(cells), len(loop.HEAD))
+        self.assertEqual([cells[1], cells[4], cells[8]], ["-", "-", "-"])
+
+
+class MethodsFlown(WithStandIn):
+    def test_flies_all_methods_in_one_scene(self):
+        table = self.call("methods_flown.py", self.root / "out").stdout
+        self.assertEqual(sum(words.startswith("simulate city") for words in self.commands()), 1)
+        for method in methods_flown.METHODS:
+            self.assertIn(f"| hamlet-1 | {method} | 46 | 20 | 1234 | 7.2 | 0.210 | 90.0 % |", table)
+        self.assertIn("| 0.500 | 0.500 | 21.25 | 0.500 | 0.500 | - | 0.75 | 0.600 | 19.50 |", table)
+        widths = {line.count("|") for line in table.splitlines() if line}
+        self.assertEqual(widths, {13})
+
+    def test_fails_when_a_method_does(self):
+        self.call("methods_flown.py", self.root / "out", fails="evaluate", code=1)
+
+
+class StageScaling(WithStandIn):
+    def test_cuts_a_flight_into_its_beginnings(self):
+        survey = self.root / "flown"
+        photos = [{"path": f"f1/{name}.jpg"} for name in "dcab"]
+        photos += [{"path": "lost.jpg", "lost": True}, {"path": "x.jpg", "held_out": True}]
+        (survey / "truth").mkdir(parents=True)
+        (survey / "truth/flight.json").write_text(json.dumps({"photos": photos}))
+        (survey / "photos/f1").mkdir(parents=True)
+        for name in "abcd":
+            (survey / f"photos/f1/{name}.jpg").write_text(name)
+        table = self.call("stage_scaling.py", survey, self.root / "out", "--photos", "2", "9").stdout
+        self.assertEqual(sorted(p.name for p in (self.root / "out/links-2").rglob("*.jpg")),
+                         ["c.jpg", "d.jpg"])
+        self.assertEqual([words.split()[0] for words in self.commands()],
+                         ["init", "run", "init", "run"])
+        self.assertIn("| 4 | - | - | 90.5 (0.00) | - | - | - | 90.5 (0.00) |", table)
+
+    def test_exponents(self):
+        found = stage_scaling.exponents((10, {"dense": 20, "proxy": 0.2}),
+                                        (20, {"dense": 40, "proxy": 5, "calib": 9}))
+        self.assertEqual(set(found), {"dense"})
+        self.assertAlmostEqual(found["dense"], 1)
+
+
+class Numbers(unittest.TestCase):
+    def test_unknown_ones_are_dashes(self):
+        self.assertEqual([surveys.number(v) for v in (1.234, 2, None, float("nan"))],
+                         ["1.23", "2.00", "-", "-"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "evaluate/evaluate.h"
+#include "survey/files.h"
+
+namespace stucco::evaluate {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(EvaluationJson, KeepsTheNamesThatOthersRelyOn) {
+  const Json json = Json::parse(EvaluationJson({}));
+  EXPECT_EQ(json["version"], 1);
+  for (const char* name : {"/poses/posed",
+                           "/poses/total",
+                           "/poses/position_mean_m",
+                           "/poses/position_max_m",
+                           "/poses/rotation_mean_deg",
+                           "/dense/error95_m",
+                           "/dense/completeness",
+                           "/proxy/buildings",
+                           "/proxy/watertight",
+                           "/proxy/error95_m",
+                           "/proxy/wall_error95_m",
+                           "/proxy/completeness",
+                           "/proxy/facets",
+                           "/proxy/truth_facets",
+                           "/proxy/facade_id_rate",
+                           "/texture/ssim_mean",
+                           "/texture/psnr_mean",
+                           "/texture/flip_mean",
+                           "/texture/misregistration_px",
+                           "/texture/facades",
+                           "/views/ssim_mean",
+                           "/views/psnr_mean",
+                           "/plan",
+                           "/notes"}) {
+    EXPECT_TRUE(json.contains(Json::json_pointer(name))) << name;
+  }
+}
+
+TEST(EvaluationJson, WhatWasNotMeasuredIsNull) {
+  Evaluation evaluation;
+  evaluation.proxy.wall.error95_m = 0.125;
+  const Json json = Json::parse(EvaluationJson(evaluation));
+  EXPECT_EQ(json["proxy"]["wall_error95_m"], 0.125);
+  EXPECT_TRUE(json["proxy"]["error95_m"].is_null());
+  EXPECT_TRUE(json["plan"].is_null());
+}
+
+TEST(WriteEvaluation, WritesAFacadePerLine) {
+  Evaluation evaluation;
+  evaluation.facades.resize(2);
+  evaluation.facades[0].id = "B0001/F00";
+  evaluation.facades[0].area_m2 = 60;
+  evaluation.facades[0].picture.ssim = 0.75;
+  evaluation.facades[1].id = "a \"b\", c";
+  const auto output = std::filesystem::path(::testing::TempDir()) / "stucco_write_evaluation";
+  std::filesystem::remove_all(output);
+  WriteEvaluation(evaluation, output);
+  EXPECT_EQ(ReadFile(output / "facades.csv"),
+            "id,facet,area_m2,painted,ssim,ms_ssim,psnr,gmsd,flip,lpips,misregistration_px\r\n"
+            "B0001/F00,,60,0,0.75,,,,,,\r\n"
+            "\"a \"\"b\"\", c\",,0,0,,,,,,,\r\n");
+  EXPECT_EQ(Json::parse(ReadFile(output / "evaluation.json"))["texture"]["facades"][0]["id"],
+            "B0001/F00");
+}
+
+}  // namespace
+}  // namespace stucco::evaluate
