@@ -2,28 +2,51 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evaluate/plan_figures.h"
 
-#include "survey/internal/json.h"
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "survey/error.h"
+#include "survey/files.h"
 
 namespace stucco::evaluate {
+namespace {
 
-template <typename Archive, internal::Is<PlanFigures> T>
-static void Fields(Archive& archive, T& figures) {
-  archive.Required("method", figures.method);
-  archive.Required("photos", figures.photos);
-  archive.Required("hovers", figures.hovers);
-  archive.Required("length_m", figures.length_m);
-  archive.Required("time_min", figures.time_min);
-  archive.Required("battery_percent", figures.battery_percent);
-  archive.Group("mean_by_length", [&](auto& mean) {
-    mean.Required("q_s", figures.q_s);
-    mean.Required("q_d", figures.q_d);
-    mean.Required("q_u", figures.q_u);
-    mean.Required("q_c", figures.q_c);
-  });
+using Json = nlohmann::json;
+
+constexpr int kStatsVersion = 1;
+
+PlanFigures FiguresFrom(const Json& json) {
+  if (json.at("version").get<int>() != kStatsVersion) {
+    throw Error(ErrorKind::kBadInput, fmt::format("is not of version {}", kStatsVersion));
+  }
+  const Json& mean = json.at("mean_by_length");
+  PlanFigures figures;
+  json.at("method").get_to(figures.method);
+  json.at("photos").get_to(figures.photos);
+  json.at("hovers").get_to(figures.hovers);
+  json.at("length_m").get_to(figures.length_m);
+  json.at("time_min").get_to(figures.time_min);
+  json.at("battery_percent").get_to(figures.battery_percent);
+  mean.at("q_s").get_to(figures.q_s);
+  mean.at("q_d").get_to(figures.q_d);
+  mean.at("q_u").get_to(figures.q_u);
+  mean.at("q_c").get_to(figures.q_c);
+  return figures;
 }
 
+}  // namespace
+
 PlanFigures ReadPlanFigures(const std::filesystem::path& stats) {
-  return internal::ReadJsonFile<PlanFigures>(stats);
+  const std::string text = ReadFile(stats);
+  std::string reason;
+  try {
+    return FiguresFrom(Json::parse(text));
+  } catch (const std::exception& error) {  // ours, or the JSON library's
+    reason = error.what();
+  }
+  throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", stats.string(), reason),
+              "plan again with this program");
 }
 
 }  // namespace stucco::evaluate

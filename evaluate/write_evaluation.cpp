@@ -3,18 +3,21 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <system_error>
 
 #include "evaluate/evaluate.h"
+#include "survey/error.h"
 #include "survey/escape.h"
 #include "survey/files.h"
-#include "survey/internal/json.h"
-#include "survey/internal/output_file.h"
 
 namespace stucco::evaluate {
 namespace {
 
-using internal::Json;
+using Json = nlohmann::ordered_json;  // keeps the order in which fields were written
+
+constexpr int kVersion = 1;
 
 // JSON has no word for what was not measured but null.
 Json Number(double value) {
@@ -142,7 +145,7 @@ std::string FacadesCsv(const Evaluation& evaluation) {
 }  // namespace
 
 std::string EvaluationJson(const Evaluation& evaluation) {
-  Json json = {{"version", internal::kJsonVersion},
+  Json json = {{"version", kVersion},
                {"survey", evaluation.survey},
                {"scene", evaluation.scene},
                {"tolerance_m", evaluation.tolerance_m},
@@ -158,7 +161,13 @@ std::string EvaluationJson(const Evaluation& evaluation) {
 }
 
 void WriteEvaluation(const Evaluation& evaluation, const std::filesystem::path& output) {
-  internal::CreateFolder(output);
+  std::error_code failure;
+  std::filesystem::create_directories(output, failure);
+  if (failure) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: cannot be created: {}", output.string(), failure.message()),
+                "give another folder with --out");
+  }
   WriteFileAtomically(output / "evaluation.json", EvaluationJson(evaluation) + "\n");
   WriteFileAtomically(output / "facades.csv", FacadesCsv(evaluation));
 }
