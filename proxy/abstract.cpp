@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "proxy/export_cityjson.h"
 #include "proxy/export_obj.h"
+#include "proxy/facade_ids.h"
 #include "proxy/facets.h"
 #include "proxy/ground.h"
 #include "proxy/plane_view.h"
@@ -18,6 +20,7 @@
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/parallel.h"
+#include "survey/plan_of_survey.h"
 #include "survey/survey_folder.h"
 
 namespace stucco {
@@ -100,6 +103,27 @@ std::vector<Solid> CloseBuildings(const Scene& scene, const Stations& stations,
   return solids;
 }
 
+// The plan is a prior: one that is of another place changes nothing.
+void NameAfterPlan(const Georef& georef, const StageContext& context, Proxy& proxy) {
+  const std::optional<Plan> plan = PlanOfSurvey(context);
+  if (!plan) return;
+  Progress& progress = *context.progress;
+  if (georef.frame != "enu") {
+    progress.Note("without positions nothing says which facade of the plan a wall is");
+    return;
+  }
+  const FacadeNaming naming = NameFacades(*plan, georef, proxy);
+  if (!naming.shift_m) {
+    progress.Note("the walls are not where the plan has facades, and keep their own ids");
+    return;
+  }
+  progress.Note(fmt::format(
+      "{} of {} walls are parts of {} of the plan's {} facades, which the survey shows {:.1f} m "
+      "east and {:.1f} m north of the plan",
+      naming.named, naming.walls, naming.facades, plan->facades.size(), naming.shift_m->x(),
+      naming.shift_m->y()));
+}
+
 }  // namespace
 
 Proxy AbstractCloud(const PointStream& cloud, const Stations& stations, const Georef& georef,
@@ -175,7 +199,7 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
     findings.notes.push_back(fmt::format("run.memory_limit_gb allows {} points of max_points {}",
                                          affordable.max_points, options.max_points));
   }
-  const Proxy proxy = AbstractCloud(cloud, stations, georef, affordable, context.threads, findings);
+  Proxy proxy = AbstractCloud(cloud, stations, georef, affordable, context.threads, findings);
   for (const auto& note : findings.notes) progress.Note(note);
   for (const auto& warning : findings.warnings) progress.Warn(warning);
   context.ThrowIfCancelled();
@@ -184,6 +208,7 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
     throw Error(ErrorKind::kStageFailed, "the planar model is not sound: " + *problem,
                 "Please report this with the survey; proxy.solids = false may avoid it.");
   }
+  NameAfterPlan(georef, context, proxy);
   WriteProxy(proxy, context.out / "facets.json");
   WriteFile(context.out / "proxy.obj", ObjText(proxy));
   WriteFile(context.out / "proxy.city.json", CityJsonText(proxy));

@@ -54,7 +54,8 @@ Proxy AbstractCloud(const PointCloud& cloud, const Stations& stations, const Geo
 // `max_points`, or what half of the memory holds, but never under 100000.
 int PointsWithin(uint64_t memory_limit_bytes, int max_points);
 
-// dense/cloud.ply, calib/sparse/0 and calib/georef.json -> facets.json, proxy.obj, proxy.city.json.
+// dense/cloud.ply, calib/sparse/0, calib/georef.json and, where there is one, plan/plan.json ->
+// facets.json, proxy.obj, proxy.city.json.
 void RunProxy(const ProxyOptions& options, StageContext& context);
 
 }  // namespace stucco

@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/facade_ids.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "survey/plan_frame.h"
+
+namespace stucco {
+namespace {
+
+// GPS without corrections is off by some metres, and the photos of one survey by the same ones.
+constexpr double kShiftSigma_m = 10;
+constexpr double kMostShift_m = 15;
+constexpr double kShiftStep_m = 0.5;
+// Between a wall and its facade after the shift: maps trace eaves, and proxies flatten bays.
+constexpr double kReach_m = 2;
+constexpr double kLeastCosine = 0.966;  // 15 degrees: a frame from GPS may be turned a little
+constexpr double kLeastOverlap = 0.5;   // of the shorter of wall and facade
+constexpr double kLeastFound = 0.5;     // of the length of all walls, or of all facades
+constexpr double kShortest_m = 0.1;     // as the planner's shortest facade
+
+// A wall beside a facade, in the facade's own directions.
+struct Candidate {
+  int wall = 0;
+  int facade = 0;
+  Eigen::Vector2d along = Eigen::Vector2d::UnitX();  // of the facade, unit
+  double from_m = 0;                                 // the wall's ends along it, from its start
+  double to_m = 0;
+  double length_m = 0;   // of the facade
+  double outside_m = 0;  // of the wall's middle from the facade
+
+  Eigen::Vector2d Outwards() const { return {along.y(), -along.x()}; }
+  double Distance(const Eigen::Vector2d& shift) const { return outside_m - Outwards().dot(shift); }
+  // Metres of the wall beside the facade, fewer the farther they are apart; 0: not a part of it.
+  double Fit(const Eigen::Vector2d& shift) const {
+    const double share = Distance(shift) / kReach_m;
+    const double moved = along.dot(shift);
+    const double overlap = std::min(to_m, length_m + moved) - std::max(from_m, moved);
+    if (!(std::abs(share) < 1) || overlap < kLeastOverlap * std::min(to_m - from_m, length_m)) {
+      return 0;
+    }
+    return std::max(0.0, overlap) * (1 - share * share);
+  }
+};
+
+// The pairs that some shift may bring together, by wall, then facade.
+std::vector<Candidate> FindCandidates(const std::vector<WallLine>& walls,
+                                      const std::vector<WallLine>& facades) {
+  std::vector<Candidate> candidates;
+  for (size_t w = 0; w < walls.size(); ++w) {
+    const Eigen::Vector2d middle = (walls[w].a + walls[w].b) / 2;
+    const Eigen::Vector2d wall_along = (walls[w].b - walls[w].a).normalized();
+    for (size_t f = 0; f < facades.size(); ++f) {
+      const double length = facades[f].length_m();
+      if (!(length >= kShortest_m) || !(walls[w].length_m() >= kShortest_m)) continue;
+      Candidate pair{.wall = static_cast<int>(w), .facade = static_cast<int>(f)};
+      pair.along = (facades[f].b - facades[f].a) / length;
+      pair.length_m = length;
+      if (!(pair.along.dot(wall_along) >= kLeastCosine)) continue;
+      pair.from_m = pair.along.dot(walls[w].a - facades[f].a);
+      pair.to_m = pair.along.dot(walls[w].b - facades[f].a);
+      pair.outside_m = pair.Outwards().dot(middle - facades[f].a);
+      if (!(std::abs(pair.outside_m) <= kMostShift_m + kReach_m)) continue;
+      if (pair.from_m > length + kMostShift_m || pair.to_m < -kMostShift_m) continue;
+      candidates.push_back(pair);
+    }
+  }
+  return candidates;
+}
+
+// The best candidate of each wall, nullptr for none.
+std::vector<const Candidate*> BestOf(const std::vector<Candidate>& candidates, size_t walls,
+                                     const Eigen::Vector2d& shift) {
+  std::vector<const Candidate*> best(walls, nullptr);
+  std::vector<double> fit(walls, 0);
+  for (const Candidate& candidate : candidates) {
+    const double own = candidate.Fit(shift);
+    if (!(own > fit[candidate.wall])) continue;
+    fit[candidate.wall] = own;
+    best[candidate.wall] = &candidate;
+  }
+  return best;
+}
+
+// Metres of wall that find a facade, worth less the less likely GPS is that far off.
+double ScoreOf(const std::vector<Candidate>& candidates, size_t walls,
+               const Eigen::Vector2d& shift) {
+  std::vector<double> fit(walls, 0);
+  for (const Candidate& candidate : candidates) {
+    fit[candidate.wall] = std::max(fit[candidate.wall], candidate.Fit(shift));
+  }
+  double sum = 0;
+  for (const double metres : fit) sum += metres;
+  return sum * std::exp(-shift.squaredNorm() / (2 * kShiftSigma_m * kShiftSigma_m));
+}
+
+// Every shift on a grid: the score has many maxima where streets are regular.
+Eigen::Vector2d BestOnGrid(const std::vector<Candidate>& candidates, size_t walls) {
+  const int steps = static_cast<int>(kMostShift_m / kShiftStep_m);
+  Eigen::Vector2d best = Eigen::Vector2d::Zero();
+  double best_score = ScoreOf(candidates, walls, best);
+  for (int y = -steps; y <= steps; ++y) {
+    for (int x = -steps; x <= steps; ++x) {
+      const Eigen::Vector2d shift = kShiftStep_m * Eigen::Vector2d(x, y);
+      const double score = ScoreOf(candidates, walls, shift);
+      if (!(score > best_score)) continue;
+      best_score = score;
+      best = shift;
+    }
+  }
+  return best;
+}
+
+// Least squares on what the shift matches, in which far walls weigh less (Tukey's biweight). Where
+// all walls are parallel, the shift along them stays as it is.
+Eigen::Vector2d Refined(const std::vector<Candidate>& candidates, size_t walls,
+                        Eigen::Vector2d shift) {
+  constexpr int kRounds = 10;
+  constexpr double kDamping = 1e-3;
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    double total = 0;
+    for (const Candidate* match : BestOf(candidates, walls, shift)) {
+      if (match == nullptr) continue;
+      const double distance = match->Distance(shift);
+      const double share = distance / kReach_m;
+      const double weight = (match->to_m - match->from_m) * std::pow(1 - share * share, 2);
+      const Eigen::Vector2d outwards = match->Outwards();
+      normal += weight * outwards * outwards.transpose();
+      right += weight * distance * outwards;
+      total += weight;
+    }
+    if (!(total > 0)) break;
+    normal += kDamping * total * Eigen::Matrix2d::Identity();
+    shift += normal.inverse() * right;
+  }
+  return shift;
+}
+
+// Whether enough walls find a facade, or enough facades a wall, to believe that the plan is of
+// this place.
+bool IsOfThisPlace(const std::vector<const Candidate*>& matches, const std::vector<WallLine>& walls,
+                   const std::vector<WallLine>& facades) {
+  std::set<int> found;
+  double walls_found = 0;
+  double walls_all = 0;
+  for (size_t w = 0; w < walls.size(); ++w) {
+    walls_all += walls[w].length_m();
+    if (matches[w] == nullptr) continue;
+    walls_found += walls[w].length_m();
+    found.insert(matches[w]->facade);
+  }
+  double facades_found = 0;
+  double facades_all = 0;
+  for (size_t f = 0; f < facades.size(); ++f) {
+    facades_all += facades[f].length_m();
+    if (found.contains(static_cast<int>(f))) facades_found += facades[f].length_m();
+  }
+  return !found.empty() &&
+         (walls_found >= kLeastFound * walls_all || facades_found >= kLeastFound * facades_all);
+}
+
+}  // namespace
+
+WallLine LineOf(const Facet& wall) {
+  const Eigen::Vector2d outwards = wall.normal.head<2>().normalized();
+  const Eigen::Vector2d along(-outwards.y(), outwards.x());
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector3d& vertex : wall.outer) middle += vertex.head<2>();
+  middle /= static_cast<double>(wall.outer.size());
+  double from = 0;
+  double to = 0;
+  for (const Eigen::Vector3d& vertex : wall.outer) {
+    const double at = along.dot(vertex.head<2>() - middle);
+    from = std::min(from, at);
+    to = std::max(to, at);
+  }
+  return {middle + from * along, middle + to * along};
+}
+
+std::optional<Eigen::Vector2d> FindShift(const std::vector<WallLine>& walls,
+                                         const std::vector<WallLine>& facades) {
+  const std::vector<Candidate> candidates = FindCandidates(walls, facades);
+  if (candidates.empty()) return std::nullopt;
+  const Eigen::Vector2d shift =
+      Refined(candidates, walls.size(), BestOnGrid(candidates, walls.size()));
+  if (!IsOfThisPlace(BestOf(candidates, walls.size(), shift), walls, facades)) return std::nullopt;
+  return shift;
+}
+
+std::vector<int> MatchWalls(const std::vector<WallLine>& walls,
+                            const std::vector<WallLine>& facades, const Eigen::Vector2d& shift) {
+  const std::vector<Candidate> candidates = FindCandidates(walls, facades);
+  std::vector<int> facade_of_wall;
+  for (const Candidate* match : BestOf(candidates, walls.size(), shift)) {
+    facade_of_wall.push_back(match == nullptr ? -1 : match->facade);
+  }
+  return facade_of_wall;
+}
+
+FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy) {
+  std::vector<Facet*> facets;
+  std::vector<WallLine> walls;
+  for (Building& building : proxy.buildings) {
+    for (Facet& facet : building.facets) {
+      if (facet.facet_class != FacetClass::kWall) continue;
+      facets.push_back(&facet);
+      walls.push_back(LineOf(facet));
+    }
+  }
+  std::vector<WallLine> facades;
+  for (const PlannedFacade& facade : plan.facades) {
+    facades.push_back({EnuFromPlan(plan.origin, georef, facade.a_m),
+                       EnuFromPlan(plan.origin, georef, facade.b_m)});
+  }
+  FacadeNaming naming{
+      .walls = walls.size(), .named = 0, .facades = 0, .shift_m = FindShift(walls, facades)};
+  if (!naming.shift_m) return naming;
+  const std::vector<int> facade_of_wall = MatchWalls(walls, facades, *naming.shift_m);
+  std::set<int> found;
+  for (size_t w = 0; w < facets.size(); ++w) {
+    if (facade_of_wall[w] < 0) continue;
+    facets[w]->facade = plan.facades[facade_of_wall[w]].id;
+    found.insert(facade_of_wall[w]);
+    ++naming.named;
+  }
+  naming.facades = found.size();
+  return naming;
+}
+
+}  // namespace stucco

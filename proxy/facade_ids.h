@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "survey/georef.h"
+#include "survey/plan.h"
+#include "survey/proxy.h"
+
+namespace stucco {
+
+// A wall seen from above: from a to b, the building on its left.
+struct WallLine {
+  Eigen::Vector2d a = Eigen::Vector2d::Zero();
+  Eigen::Vector2d b = Eigen::Vector2d::Zero();
+  double length_m() const { return (b - a).norm(); }
+};
+
+// The line of a wall, at the middle of its height where it leans.
+WallLine LineOf(const Facet& wall);
+
+// How far the facades have to be moved, east and north, to lie on the walls: the shift on which
+// most metres of wall find a facade that is parallel, faces the same way and runs beside them. GPS
+// puts a whole survey some metres off. Nothing where fewer than half of the walls, or of the
+// facades where those are fewer, find one.
+std::optional<Eigen::Vector2d> FindShift(const std::vector<WallLine>& walls,
+                                         const std::vector<WallLine>& facades);
+
+// For every wall the facade that it is a part of once the facades are moved, -1 for none.
+std::vector<int> MatchWalls(const std::vector<WallLine>& walls,
+                            const std::vector<WallLine>& facades, const Eigen::Vector2d& shift);
+
+// What naming came to.
+struct FacadeNaming {
+  size_t walls = 0;    // of the proxy
+  size_t named = 0;    // of them
+  size_t facades = 0;  // of the plan, with a wall
+  std::optional<Eigen::Vector2d> shift_m;
+};
+
+// Gives walls of the proxy the plan's facade ids (`facade`; `id` stays); the other facets, and the
+// walls of a survey that is not where the plan is, keep their own. Requires an "enu" georef.
+FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy);
+
+}  // namespace stucco

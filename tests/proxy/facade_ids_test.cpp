@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/facade_ids.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <random>
+
+#include "survey/plan_frame.h"
+
+namespace stucco {
+namespace {
+
+using Eigen::Vector2d;
+
+// Counter-clockwise corners -> walls with the building on their left.
+std::vector<WallLine> Walls(const std::vector<Vector2d>& ring) {
+  std::vector<WallLine> lines;
+  for (size_t i = 0; i < ring.size(); ++i) lines.push_back({ring[i], ring[(i + 1) % ring.size()]});
+  return lines;
+}
+
+void Append(std::vector<WallLine> more, std::vector<WallLine>& lines) {
+  lines.insert(lines.end(), more.begin(), more.end());
+}
+
+// Three buildings of a street, turned by 20 degrees, one with a courtyard.
+std::vector<WallLine> Street() {
+  std::vector<WallLine> lines = Walls({{0, 0}, {13, 0}, {13, 9}, {0, 9}});
+  Append(Walls({{20, 2}, {34, 2}, {34, 6}, {29, 6}, {29, 15}, {20, 15}}), lines);
+  Append(Walls({{45, -5}, {75, -5}, {75, 25}, {45, 25}}), lines);
+  Append(Walls({{53, 3}, {53, 17}, {67, 17}, {67, 3}}), lines);
+  const Eigen::Rotation2Dd turn(0.35);
+  for (WallLine& line : lines) line = {turn * line.a, turn * line.b};
+  return lines;
+}
+
+std::vector<WallLine> Moved(std::vector<WallLine> lines, const Vector2d& shift) {
+  for (WallLine& line : lines) line = {line.a + shift, line.b + shift};
+  return lines;
+}
+
+std::vector<int> Numbers(size_t count) {
+  std::vector<int> numbers(count);
+  for (size_t i = 0; i < count; ++i) numbers[i] = static_cast<int>(i);
+  return numbers;
+}
+
+TEST(FacadeIds, FindsAnExactShift) {
+  const std::vector<WallLine> facades = Street();
+  for (const Vector2d& shift : {Vector2d(0, 0), Vector2d(2.3, -4.1), Vector2d(-7, 5.25)}) {
+    const std::vector<WallLine> walls = Moved(facades, shift);
+    const auto found = FindShift(walls, facades);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR((*found - shift).norm(), 0, 1e-6);
+    EXPECT_EQ(MatchWalls(walls, facades, *found), Numbers(facades.size()));
+  }
+}
+
+TEST(FacadeIds, SurvivesNoiseAndWallsThatAreNotThere) {
+  const std::vector<WallLine> facades = Street();
+  std::mt19937 random(7);
+  const auto noise = [&] { return (random() % 2001 - 1000.0) * 4e-4; };  // within 0.4 m
+  std::vector<WallLine> walls = Moved(facades, {3, 4});
+  for (WallLine& wall : walls) {
+    wall.a += Vector2d(noise(), noise());
+    wall.b += Vector2d(noise(), noise());
+  }
+  // Sheds, cars and dormers that no map has, and a wall that nobody saw.
+  Append(Walls({{90, 90}, {94, 90}, {94, 93}, {90, 93}}), walls);
+  Append(Moved(Walls({{0, 0}, {5, 0}, {5, 4}, {0, 4}}), {100, -50}), walls);
+  walls.erase(walls.begin());
+  const auto found = FindShift(walls, facades);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR((*found - Vector2d(3, 4)).norm(), 0, 0.3);
+  std::vector<int> expected = Numbers(facades.size());
+  expected.erase(expected.begin());
+  expected.resize(walls.size(), -1);
+  EXPECT_EQ(MatchWalls(walls, facades, *found), expected);
+}
+
+TEST(FacadeIds, KeepsTheShiftAlongParallelWallsSmall) {
+  const std::vector<WallLine> facades = {{{0, 0}, {20, 0}}, {{22, 0}, {40, 0}}};
+  const auto found = FindShift(Moved(facades, {0, -3}), facades);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->y(), -3, 1e-6);
+  EXPECT_NEAR(found->x(), 0, 0.6);
+}
+
+TEST(FacadeIds, WallsMayShareAFacadeAndFacadesAWall) {
+  const std::vector<WallLine> facades = {{{0, 0}, {20, 0}}, {{20, 0}, {50, 0}}, {{50, 0}, {50, 9}}};
+  // Two halves of the first, with a step of half a metre; one wall over a part of it and the
+  // second.
+  const std::vector<WallLine> walls = {
+      {{0, 0}, {9, 0}}, {{9, 0.5}, {19, 0.5}}, {{16, 0}, {50, 0}}, {{50, 0}, {50, 9}}};
+  EXPECT_EQ(MatchWalls(walls, facades, {0, 0}), (std::vector<int>{0, 0, 1, 2}));
+}
+
+TEST(FacadeIds, TheBackOfAThinWallIsNotItsFront) {
+  const std::vector<WallLine> facades = {{{0, 0}, {20, 0}}};
+  EXPECT_EQ(MatchWalls({{{20, 0.3}, {0, 0.3}}}, facades, {0, 0}), std::vector<int>{-1});
+  // Nor is a wall that stands off it, beside it or across it.
+  EXPECT_EQ(MatchWalls({{{0, 2.5}, {20, 2.5}}}, facades, {0, 0}), std::vector<int>{-1});
+  EXPECT_EQ(MatchWalls({{{14, 0}, {34, 0}}}, facades, {0, 0}), std::vector<int>{-1});
+  EXPECT_EQ(MatchWalls({{{0, -1}, {12, 6}}}, facades, {0, 0}), std::vector<int>{-1});
+}
+
+TEST(FacadeIds, APlanOfAnotherPlaceMatchesNothing) {
+  EXPECT_FALSE(FindShift(Moved(Street(), {400, 0}), Street()));
+  // Here, but of houses that stand otherwise.
+  std::vector<WallLine> turned = Street();
+  const Eigen::Rotation2Dd turn(0.6);
+  for (WallLine& line : turned) line = {turn * line.a, turn * line.b};
+  EXPECT_FALSE(FindShift(turned, Street()));
+  EXPECT_FALSE(FindShift({}, Street()));
+  EXPECT_FALSE(FindShift(Street(), {}));
+  EXPECT_FALSE(FindShift(Street(), {{{1, 1}, {1, 1}}}));
+}
+
+TEST(FacadeIds, ASurveyOfPartOfThePlanMatches) {
+  const std::vector<WallLine> facades = Street();
+  const std::vector<WallLine> walls(facades.begin(), facades.begin() + 4);
+  const auto found = FindShift(Moved(walls, {-2, 1}), facades);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR((*found - Vector2d(-2, 1)).norm(), 0, 1e-6);
+}
+
+// A building of four walls and a roof in the world frame.
+Proxy MadeProxy(const std::vector<WallLine>& lines) {
+  Proxy proxy;
+  proxy.metric = true;
+  Building building;
+  building.id = "B0001";
+  for (size_t i = 0; i < lines.size(); ++i) {
+    Facet wall;
+    wall.id = wall.facade = "B0001/W0" + std::to_string(i);
+    const Vector2d along = (lines[i].b - lines[i].a).normalized();
+    wall.normal = {along.y(), -along.x(), 0};
+    const auto at = [](const Vector2d& p, double z) { return Eigen::Vector3d(p.x(), p.y(), z); };
+    wall.outer = {at(lines[i].a, 0), at(lines[i].b, 0), at(lines[i].b, 6), at(lines[i].a, 6)};
+    wall.offset = wall.normal.dot(wall.outer[0]);
+    building.facets.push_back(wall);
+  }
+  Facet roof;
+  roof.id = roof.facade = "B0001/R0";
+  roof.facet_class = FacetClass::kRoof;
+  building.facets.push_back(roof);
+  proxy.buildings.push_back(building);
+  return proxy;
+}
+
+TEST(FacadeIds, NamesTheWallsOfAProxy) {
+  const std::vector<WallLine> lines = Walls({{-6, -4}, {6, -4}, {6, 4}, {-6, 4}});
+  Georef georef;
+  georef.frame = "enu";
+  georef.origin_latitude_deg = 47.05;
+  georef.origin_longitude_deg = 15.4;
+  georef.origin_height_m = 412;
+  Plan plan;
+  plan.origin = {47.0503, 15.3996, 0};  // another origin than the survey's
+  const Vector2d start =
+      PlanFromGeodetic(plan.origin, {georef.origin_latitude_deg, georef.origin_longitude_deg});
+  for (size_t i = 0; i < lines.size(); ++i) {
+    PlannedFacade facade;
+    facade.id = "B0012/F0" + std::to_string(3 - i);
+    facade.a_m = lines[i].a + start;
+    facade.b_m = lines[i].b + start;
+    plan.facades.push_back(facade);
+  }
+  Proxy proxy = MadeProxy(Moved(lines, {1.5, -2.5}));
+  const FacadeNaming naming = NameFacades(plan, georef, proxy);
+  EXPECT_EQ(naming.walls, 4u);
+  EXPECT_EQ(naming.named, 4u);
+  EXPECT_EQ(naming.facades, 4u);
+  ASSERT_TRUE(naming.shift_m);
+  EXPECT_NEAR((*naming.shift_m - Vector2d(1.5, -2.5)).norm(), 0, 0.01);
+  const std::vector<Facet>& facets = proxy.buildings[0].facets;
+  for (size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(facets[i].id, "B0001/W0" + std::to_string(i));
+    EXPECT_EQ(facets[i].facade, "B0012/F0" + std::to_string(3 - i));
+  }
+  EXPECT_EQ(facets[4].facade, "B0001/R0");
+
+  plan.origin.latitude_deg += 10;
+  Proxy elsewhere = MadeProxy(lines);
+  EXPECT_FALSE(NameFacades(plan, georef, elsewhere).shift_m);
+  EXPECT_EQ(elsewhere.buildings[0].facets[0].facade, "B0001/W00");
+}
+
+TEST(FacadeIds, LinesHaveTheBuildingOnTheirLeft) {
+  const Proxy proxy = MadeProxy({{{1, 2}, {9, 4}}});
+  Facet wall = proxy.buildings[0].facets[0];
+  EXPECT_NEAR((LineOf(wall).a - Vector2d(1, 2)).norm(), 0, 1e-9);
+  EXPECT_NEAR((LineOf(wall).b - Vector2d(9, 4)).norm(), 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace stucco
