@@ -62,8 +62,9 @@ Stage ProxyStage() {
   Stage stage;
   stage.name = "proxy";
   stage.title = "the planar model";
+  stage.version = 2;
   stage.needs = {"calib", "dense"};
-  stage.inputs = {kCloudFile, kSparseFolder, kGeorefFile};
+  stage.inputs = {kCloudFile, kSparseFolder, kGeorefFile, kPlanFile};
   stage.cost = {.cpu_s_per_photo = 0.25, .disk_mb_per_photo = 0.02, .memory_mb = 700};
   stage.bind = [] { return Bind<ProxyOptions>("proxy", Describe, RunProxy); };
   return stage;
@@ -73,8 +74,9 @@ Stage TextureStage() {
   Stage stage;
   stage.name = "texture";
   stage.title = "facade textures and the textured model";
+  stage.version = 2;
   stage.needs = {"ingest", "calib", "dense", "proxy"};
-  stage.inputs = {kFacetsFile, kSparseFolder, kGeorefFile, kCloudFile, kCapturesFile};
+  stage.inputs = {kFacetsFile, kSparseFolder, kGeorefFile, kCloudFile, kCapturesFile, kPlanFile};
   stage.opens_photos = true;
   stage.cost = {.cpu_s_per_photo = 0.4,
                 .cpu_s_per_megapixel = 0.2,
@@ -89,8 +91,9 @@ Stage ReportStage() {
   Stage stage;
   stage.name = "report";
   stage.title = "the quality report";
+  stage.version = 2;
   stage.needs = {"ingest", "calib", "dense", "proxy", "texture"};
-  stage.inputs = {"ingest", "calib", kCloudFile, "proxy", "texture"};
+  stage.inputs = {"ingest", "calib", kCloudFile, "proxy", "texture", kPlanFile};
   stage.reports_failures = true;
   stage.cost = {.cpu_s_per_photo = 0.03, .disk_mb_per_photo = 0.05, .memory_mb = 300};
   stage.bind = [] { return Bind<ReportOptions>("report", Describe, RunReport); };

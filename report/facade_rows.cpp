@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "survey/numbers.h"
 
@@ -178,6 +179,19 @@ std::vector<FacadeRow> ListFacets(const SurveyData& data) {
   return rows;
 }
 
+// A wall that is no part of the plan carries its own id as its facade's, which another planner may
+// have given away too.
+void JoinPlan(const SurveyData& data, std::vector<FacadeRow>& rows) {
+  if (!data.plan) return;
+  std::map<std::string, const PlannedFacade*> facades;
+  for (const PlannedFacade& facade : data.plan->facades) facades[facade.id] = &facade;
+  for (FacadeRow& row : rows) {
+    if (row.facet == nullptr || row.facet->facade == row.facet->id) continue;
+    const auto found = facades.find(row.facet->facade);
+    if (found != facades.end()) row.planned = found->second;
+  }
+}
+
 }  // namespace
 
 std::string Name(Verdict verdict) {
@@ -223,6 +237,7 @@ std::optional<double> MedianGsd(const SurveyData& data) {
 
 std::vector<FacadeRow> MakeFacadeRows(const SurveyData& data, const ReportOptions& options) {
   std::vector<FacadeRow> rows = ListFacets(data);
+  JoinPlan(data, rows);
   if (!data.textures) return rows;
   const double median = MedianGsd(data).value_or(0);
   const Judge judge(options);
@@ -231,6 +246,18 @@ std::vector<FacadeRow> MakeFacadeRows(const SurveyData& data, const ReportOption
     judge.Fill(row);
   }
   return rows;
+}
+
+std::vector<std::string> MissingFacades(const SurveyData& data,
+                                        const std::vector<FacadeRow>& rows) {
+  std::vector<std::string> missing;
+  if (!data.plan) return missing;
+  std::set<const PlannedFacade*> found;
+  for (const FacadeRow& row : rows) found.insert(row.planned);
+  for (const PlannedFacade& facade : data.plan->facades) {
+    if (!found.contains(&facade)) missing.push_back(facade.id);
+  }
+  return missing;
 }
 
 VerdictCounts CountVerdicts(const std::vector<FacadeRow>& rows, bool walls_only) {

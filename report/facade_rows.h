@@ -27,12 +27,15 @@ struct FacadeRow {
   std::string building;
   const Facet* facet = nullptr;            // nullptr: only textured
   const TexturedFacet* texture = nullptr;  // nullptr: not textured
+  const PlannedFacade* planned = nullptr;  // that it is a part of; nullptr: none, or no plan
   bool texture_outdated = false;           // there is a picture, but of an older model
   FacetClass facet_class = FacetClass::kWall;
   double gsd_ratio = 0;  // size of a photo pixel on it over the survey's median; 0: not known
   Verdict verdict = Verdict::kUnknown;
   std::vector<Finding> findings;  // amber and red ones, worst first
 
+  // For people: the plan's id of the facade, which its parts share, else its own.
+  const std::string& Name() const { return planned != nullptr ? planned->id : id; }
   bool IsPainted() const { return texture != nullptr && !texture->image.empty(); }
 };
 
@@ -40,6 +43,9 @@ struct FacadeRow {
 // Verdicts are kUnknown as long as there are no textures. Facets have the pictures of their id;
 // where texturing has not been finished since the proxy, only those that still fit.
 std::vector<FacadeRow> MakeFacadeRows(const SurveyData& data, const ReportOptions& options);
+
+// The plan's facades that no row is a part of, in its order; none without a plan.
+std::vector<std::string> MissingFacades(const SurveyData& data, const std::vector<FacadeRow>& rows);
 
 // "Wall", "Roof", ... for people.
 std::string ClassLabel(FacetClass facet_class);

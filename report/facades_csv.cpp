@@ -12,7 +12,8 @@ namespace {
 
 constexpr char kHeader[] =
     "id,building,facade,class,verdict,findings,unit,area,painted,inpainted,seen,inferred,gsd,"
-    "misregistration_px,sharpness,photos,q_s,q_d,q_u,q_c,plane_rms,epoch";
+    "misregistration_px,sharpness,photos,q_s,q_d,q_u,q_c,plane_rms,epoch,"
+    "planned_q_s,planned_q_d,planned_q_u,planned_q_c";
 
 // Empty where the value is not known.
 std::string Number(bool known, double value) {
@@ -35,6 +36,8 @@ std::string FacadesCsv(const SurveyData& data, const std::vector<FacadeRow>& row
     const bool has_facet = row.facet != nullptr;
     const bool has_texture = row.texture != nullptr;
     const bool painted = row.IsPainted();
+    const bool planned = row.planned != nullptr;
+    const FacadeQuality predicted = planned ? row.planned->predicted : FacadeQuality{};
     const Facet& facet = has_facet ? *row.facet : kNoFacet;
     const TexturedFacet& texture = has_texture ? *row.texture : kNoTexture;
     const std::string fields[] = {
@@ -59,7 +62,11 @@ std::string FacadesCsv(const SurveyData& data, const std::vector<FacadeRow>& row
         Number(painted, texture.q_u),
         Number(painted, texture.q_c),
         Number(has_facet, facet.rms),
-        "original"};
+        "original",
+        Number(planned, predicted.q_s),
+        Number(planned, predicted.q_d),
+        Number(planned, predicted.q_u),
+        Number(planned, predicted.q_c)};
     bool first = true;
     for (const std::string& field : fields) {
       csv += (first ? "" : ",") + CsvField(field);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "report/internal/html_sections.h"
 #include "survey/escape.h"
@@ -38,21 +39,40 @@ std::string Picture(const FacadePictures& pictures, const std::string& id) {
   return html + "</figure>";
 }
 
-std::string QualityBar(const char* name, const char* help, double value) {
-  return fmt::format(
-      "<div class=\"quality\" title=\"{}\"><span>{}</span><span class=\"track\">"
-      "<span style=\"width:{:.1f}%\"></span></span><b>{}</b></div>",
-      help, name, std::isfinite(value) ? 100 * std::clamp(value, 0.0, 1.0) : 0.0,
-      Decimal(value, 2));
+double PercentOfTrack(double value) {
+  return std::isfinite(value) ? 100 * std::clamp(value, 0.0, 1.0) : 0.0;
 }
 
-std::string Qualities(const TexturedFacet& texture) {
-  return "<h4>Achieved quality, 0 to 1</h4>" +
-         QualityBar("Frontal", "q_s: how frontal and how alike the views are", texture.q_s) +
+// With a mark and a number for what the plan predicted, where there is one.
+std::string QualityBar(const char* name, const char* help, double value,
+                       std::optional<double> planned) {
+  std::string mark;
+  std::string number;
+  if (planned) {
+    mark = fmt::format("<i style=\"left:{:.1f}%\"></i>", PercentOfTrack(*planned));
+    number = fmt::format("<span class=\"num quiet\">{}</span>", Decimal(*planned, 2));
+  }
+  return fmt::format(
+      "<div class=\"quality{}\" title=\"{}\"><span>{}</span><span class=\"track\">"
+      "<span style=\"width:{:.1f}%\"></span>{}</span><b>{}</b>{}</div>",
+      planned ? " with-plan" : "", help, name, PercentOfTrack(value), mark, Decimal(value, 2),
+      number);
+}
+
+std::string Qualities(const FacadeRow& row) {
+  const TexturedFacet& achieved = *row.texture;
+  const auto planned = [&](double FacadeQuality::*term) {
+    return row.planned ? std::optional(row.planned->predicted.*term) : std::nullopt;
+  };
+  return fmt::format("<h4>Achieved quality{}, 0 to 1</h4>", row.planned ? " and planned" : "") +
+         QualityBar("Frontal", "q_s: how frontal and how alike the views are", achieved.q_s,
+                    planned(&FacadeQuality::q_s)) +
          QualityBar("Close", "q_d: how near and at how equal a distance the views are",
-                    texture.q_d) +
-         QualityBar("Few photos", "q_u: how little the views overlap", texture.q_u) +
-         QualityBar("Complete", "q_c: how much of the facade they see", texture.q_c);
+                    achieved.q_d, planned(&FacadeQuality::q_d)) +
+         QualityBar("Few photos", "q_u: how little the views overlap", achieved.q_u,
+                    planned(&FacadeQuality::q_u)) +
+         QualityBar("Complete", "q_c: how much of the facade they see", achieved.q_c,
+                    planned(&FacadeQuality::q_c));
 }
 
 std::string Measures(const PageContent& page, const FacadeRow& row) {
@@ -134,14 +154,15 @@ std::string Dialog(const PageContent& page, size_t index) {
   const FacadePictures& pictures = page.pictures[index];
   return fmt::format(
       "<dialog id=\"facade-{0}\" class=\"facade\" aria-labelledby=\"facade-{0}-name\">"
-      "<header><h3 id=\"facade-{0}-name\">{1}</h3>{2}<span class=\"quiet\">{3}</span>"
+      "<header><h3 id=\"facade-{0}-name\">{1}</h3>{2}<span class=\"quiet\">{3}{10}</span>"
       "<nav><button type=\"button\" data-step=\"-1\" aria-label=\"Previous facade\">&#8592;"
       "</button><button type=\"button\" data-step=\"1\" aria-label=\"Next facade\">&#8594;</button>"
       "<button type=\"button\" data-close aria-label=\"Close\">&#10005;</button></nav></header>"
       "<div class=\"facade-body\"><div>{4}{5}</div><div>{6}{7}{8}{9}</div></div></dialog>",
-      index, IsolatedHtml(row.id), VerdictBadge(row.verdict), ClassLabel(row.facet_class),
+      index, IsolatedHtml(row.Name()), VerdictBadge(row.verdict), ClassLabel(row.facet_class),
       Picture(pictures, row.id), Links(row), Findings(row), Measures(page, row),
-      row.IsPainted() ? Qualities(*row.texture) : "", PhotoList(row, pictures));
+      row.IsPainted() ? Qualities(row) : "", PhotoList(row, pictures),
+      row.planned != nullptr ? " " + IsolatedHtml(row.id) : "");
 }
 
 }  // namespace

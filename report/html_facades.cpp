@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "report/internal/html_sections.h"
@@ -38,6 +39,12 @@ std::string VerdictCell(const FacadeRow& row, size_t rank) {
   return html + "</td>";
 }
 
+// "Wall", and which part of the facade it is where the name is the plan's.
+std::string Kind(const FacadeRow& row) {
+  if (row.planned == nullptr) return ClassLabel(row.facet_class);
+  return fmt::format("{} {}", ClassLabel(row.facet_class), IsolatedHtml(row.id));
+}
+
 std::string TableRow(const PageContent& page, size_t index, size_t rank) {
   const FacadeRow& row = page.rows[index];
   const bool has_facet = row.facet != nullptr;
@@ -49,9 +56,9 @@ std::string TableRow(const PageContent& page, size_t index, size_t rank) {
       "<tr data-index=\"{0}\" data-verdict=\"{1}\" data-class=\"{2}\"><td class=\"pic\">"
       "<button type=\"button\" data-open=\"{0}\" tabindex=\"-1\" aria-hidden=\"true\">{3}</button>"
       "</td><th scope=\"row\"><button type=\"button\" class=\"link\" data-open=\"{0}\">{4}</button>"
-      "<span class=\"quiet\">{2}</span></th>",
+      "<span class=\"quiet\">{5}</span></th>",
       index, Name(row.verdict), ClassLabel(row.facet_class), Thumbnail(page, index),
-      IsolatedHtml(row.id));
+      IsolatedHtml(row.Name()), Kind(row));
   html += VerdictCell(row, rank);
   html += NumberCell("Area", has_facet, has_facet ? row.facet->area : 0,
                      has_facet ? Area(row.facet->area, metric) : "");
@@ -109,6 +116,21 @@ std::string ClassFilter(const PageContent& page) {
   return html + "</select></label>";
 }
 
+// Facades that were planned for and are not in the model.
+std::string Missing(const PageContent& page) {
+  constexpr size_t kMost = 12;
+  const std::vector<std::string> missing = MissingFacades(page.data, page.rows);
+  if (missing.empty()) return "";
+  std::string names;
+  for (size_t i = 0; i < std::min(kMost, missing.size()); ++i) {
+    names += (i > 0 ? ", " : "") + IsolatedHtml(missing[i]);
+  }
+  if (missing.size() > kMost) names += fmt::format(" and {} more", missing.size() - kMost);
+  return fmt::format(
+      "<p class=\"quiet\">Of the {} facades of the plan {} not found in the model: {}.</p>",
+      page.data.plan->facades.size(), missing.size() == 1 ? "one was" : "these were", names);
+}
+
 }  // namespace
 
 std::string FacadeTableSection(const PageContent& page) {
@@ -125,7 +147,8 @@ std::string FacadeTableSection(const PageContent& page) {
   for (const size_t index : WorstFirst(page.rows)) html += TableRow(page, index, rank++);
   return html +
          "</tbody></table><p id=\"none-shown\" class=\"quiet\" hidden>No facade matches. "
-         "<button type=\"button\" class=\"link\" id=\"show-all\">Show all</button></p></section>";
+         "<button type=\"button\" class=\"link\" id=\"show-all\">Show all</button></p>" +
+         Missing(page) + "</section>";
 }
 
 }  // namespace stucco::internal

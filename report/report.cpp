@@ -13,6 +13,7 @@
 #include "report/survey_data.h"
 #include "survey/files.h"
 #include "survey/parallel.h"
+#include "survey/plan_of_survey.h"
 
 namespace stucco {
 namespace {
@@ -65,7 +66,8 @@ void Describe(OptionTable& table, ReportOptions& options) {
 }
 
 void RunReport(const ReportOptions& options, StageContext& context) {
-  const SurveyData data = LoadSurvey(context.survey, context.statuses);
+  SurveyData data = LoadSurvey(context.survey, context.statuses);
+  data.plan = PlanOfSurvey(context);
   const std::vector<FacadeRow> rows = MakeFacadeRows(data, options);
   const std::vector<FacadePictures> pictures = MakePictures(rows, options, context);
   for (const FacadePictures& picture : pictures) {

@@ -50,6 +50,11 @@ Json TextsJson(const std::vector<std::string>& texts) {
   return clean;
 }
 
+template <typename Terms>
+Json QualityJson(const Terms& terms) {
+  return {{"q_s", terms.q_s}, {"q_d", terms.q_d}, {"q_u", terms.q_u}, {"q_c", terms.q_c}};
+}
+
 Json FacadeJson(const FacadeRow& row) {
   const Facet* facet = row.facet;
   const TexturedFacet* texture = row.texture;
@@ -60,12 +65,8 @@ Json FacadeJson(const FacadeRow& row) {
                {"class", CityGmlName(row.facet_class)},
                {"verdict", VerdictJson(row.verdict)},
                {"findings", FindingsJson(row)},
-               {"planned", nullptr}};
-  json["achieved"] = painted ? Json{{"q_s", texture->q_s},
-                                    {"q_d", texture->q_d},
-                                    {"q_u", texture->q_u},
-                                    {"q_c", texture->q_c}}
-                             : Json(nullptr);
+               {"planned", row.planned ? QualityJson(row.planned->predicted) : Json(nullptr)},
+               {"achieved", painted ? QualityJson(*texture) : Json(nullptr)}};
   json["gsd_m"] = painted && texture->gsd_m > 0 ? Json(texture->gsd_m) : Json(nullptr);
   json["gsd_ratio"] = row.gsd_ratio > 0 ? Json(row.gsd_ratio) : Json(nullptr);
   json["photos"] = texture != nullptr ? TextsJson(texture->photos) : Json::array();
@@ -113,6 +114,13 @@ Json PhotosJson(const SurveyData& data) {
   }
   json["left_out"] = left_out;
   return json;
+}
+
+Json PlanJson(const SurveyData& data, const std::vector<FacadeRow>& rows) {
+  if (!data.plan) return nullptr;
+  return {{"method", CleanUtf8(data.plan->method)},
+          {"facades", data.plan->facades.size()},
+          {"missing", TextsJson(MissingFacades(data, rows))}};
 }
 
 Json CameraJson(const CalibratedCamera& camera) {
@@ -199,6 +207,7 @@ std::string ReportJson(const SurveyData& data, const std::vector<FacadeRow>& row
                          {"all", CountsJson(CountVerdicts(rows, /*walls_only=*/false))}}},
                        {"limits", LimitsJson(options)},
                        {"median_gsd", median ? Json(*median) : Json(nullptr)},
+                       {"plan", PlanJson(data, rows)},
                        {"photos", PhotosJson(data)},
                        {"calibration", CalibrationJson(data)},
                        {"georef", GeorefJson(data)},

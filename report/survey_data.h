@@ -11,6 +11,7 @@
 #include "survey/calibration.h"
 #include "survey/captures.h"
 #include "survey/georef.h"
+#include "survey/plan.h"
 #include "survey/proxy.h"
 #include "survey/stage.h"
 #include "survey/texture_set.h"
@@ -26,6 +27,7 @@ struct DamagedFile {
 
 // Everything the report is made of, as far as it exists.
 struct SurveyData {
+  std::optional<Plan> plan;
   std::optional<Captures> captures;
   std::optional<Calibration> calibration;
   std::optional<Georef> georef;
@@ -37,7 +39,7 @@ struct SurveyData {
   bool metric = false;                // lengths are metres
 };
 
-// Reads what is there. Never throws for what the folder holds.
+// Reads what is there but for the plan. Never throws for what the folder holds.
 SurveyData LoadSurvey(const std::filesystem::path& survey,
                       const std::vector<StageStatus>& statuses);
 

@@ -23,6 +23,7 @@ static void Fields(Archive& archive, T& facet) {
   archive.Required("u_axis", facet.u_axis);
   archive.Required("v_axis", facet.v_axis);
   archive.Required("photos", facet.photos);
+  archive.Optional("planned_photos", facet.planned_photos);
   archive.Required("painted", facet.painted);
   archive.Required("inpainted", facet.inpainted);
   archive.Required("misregistration_px", facet.misregistration_px);

@@ -28,6 +28,7 @@ struct TexturedFacet {
   Eigen::Vector3d u_axis = Eigen::Vector3d::UnitX();  // unit, to the right
   Eigen::Vector3d v_axis = Eigen::Vector3d::UnitY();  // unit, downwards in the picture
   std::vector<std::string> photos;                    // paths, most painted first
+  std::vector<std::string> planned_photos;            // those of them meant for its facade
   double painted = 0;              // share of the facet's area painted from photos
   double inpainted = 0;            // share filled by inpainting
   double misregistration_px = -1;  // median between overlapping photos, texels; -1: only one photo

@@ -10,6 +10,7 @@
 
 #include "survey/error.h"
 #include "survey/files.h"
+#include "texture/plan_prior.h"
 
 namespace stucco {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 // Raise when the meaning of a unit or the method behind it changes.
-constexpr char kVersion[] = "4";
+constexpr char kVersion[] = "5";
 
 json FromVector(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
@@ -93,6 +94,7 @@ json FacetAsJson(const TexturedFacet& facet) {
           {"u_axis", FromVector(facet.u_axis)},
           {"v_axis", FromVector(facet.v_axis)},
           {"photos", facet.photos},
+          {"planned_photos", facet.planned_photos},
           {"shares", {facet.painted, facet.inpainted}},
           {"misregistration_px", facet.misregistration_px},
           {"gsd_m", facet.gsd_m},
@@ -112,6 +114,7 @@ TexturedFacet FacetFromJson(const json& j) {
   facet.u_axis = ToVector(j.at("u_axis"));
   facet.v_axis = ToVector(j.at("v_axis"));
   facet.photos = j.at("photos").get<std::vector<std::string>>();
+  facet.planned_photos = j.at("planned_photos").get<std::vector<std::string>>();
   facet.painted = j.at("shares").at(0);
   facet.inpainted = j.at("shares").at(1);
   facet.misregistration_px = j.at("misregistration_px");
@@ -129,6 +132,7 @@ TexturedFacet FacetFromJson(const json& j) {
 std::string OptionsText(TextureOptions options) {
   const TextureOptions defaults;
   options.ground = defaults.ground;
+  options.guided = defaults.guided;  // the keys say which photos are planned
   options.glb_max_px = defaults.glb_max_px;
   options.glb_quality = defaults.glb_quality;
   OptionTable table("texture");
@@ -180,32 +184,33 @@ FacetLook UnpackLook(const std::string& bytes) {
   return look;
 }
 
-FacetFiles MakeFacetFiles(const std::string& id, const PaintedFacet& painted,
+FacetFiles MakeFacetFiles(const Facet& facet, const PaintedFacet& painted,
                           std::span<const TexturePhoto> photos,
                           std::span<const Eigen::Vector3d> gains, bool orthophoto) {
   FacetFiles files;
-  TexturedFacet& facet = files.facet;
-  facet.id = id;
+  TexturedFacet& textured = files.facet;
+  textured.id = facet.id;
   if (painted.photos.empty()) return files;
-  facet.width_px = painted.grid.width;
-  facet.height_px = painted.grid.height;
-  facet.metres_per_texel = painted.grid.texel;
-  facet.wanted_metres_per_texel = painted.wanted_texel;
-  facet.origin = painted.grid.origin;
-  facet.u_axis = painted.grid.u_axis;
-  facet.v_axis = painted.grid.v_axis;
-  facet.painted = painted.painted;
-  facet.inpainted = painted.inpainted;
-  facet.misregistration_px = painted.misregistration_px;
-  facet.gsd_m = painted.quality.footprint;
-  facet.sharpness = painted.sharpness;
-  facet.q_s = painted.quality.q_s;
-  facet.q_d = painted.quality.q_d;
-  facet.q_u = painted.quality.q_u;
-  facet.q_c = painted.quality.q_c;
+  textured.width_px = painted.grid.width;
+  textured.height_px = painted.grid.height;
+  textured.metres_per_texel = painted.grid.texel;
+  textured.wanted_metres_per_texel = painted.wanted_texel;
+  textured.origin = painted.grid.origin;
+  textured.u_axis = painted.grid.u_axis;
+  textured.v_axis = painted.grid.v_axis;
+  textured.painted = painted.painted;
+  textured.inpainted = painted.inpainted;
+  textured.misregistration_px = painted.misregistration_px;
+  textured.gsd_m = painted.quality.footprint;
+  textured.sharpness = painted.sharpness;
+  textured.q_s = painted.quality.q_s;
+  textured.q_d = painted.quality.q_d;
+  textured.q_u = painted.quality.q_u;
+  textured.q_c = painted.quality.q_c;
   for (int photo : painted.photos) {
-    facet.photos.push_back(photos[photo].name);
-    facet.gains[photos[photo].name] = gains[photo].mean();
+    textured.photos.push_back(photos[photo].name);
+    if (IsPlannedFor(facet, photos[photo])) textured.planned_photos.push_back(photos[photo].name);
+    textured.gains[photos[photo].name] = gains[photo].mean();
   }
   files.misregistration_before_px = painted.misregistration_before_px;
   files.texture_png = EncodeTexture(painted);
@@ -239,7 +244,9 @@ FacetFiles UnpackFiles(const std::string& bytes) {
 
 std::string LookKey(const Facet& facet, const TextureInput& input, const TextureOptions& options) {
   std::vector<std::string> parts = {kVersion, facet.id, input.geometry_hash, OptionsText(options)};
-  for (const TexturePhoto& photo : input.photos) parts.push_back(PhotoText(photo));
+  for (const TexturePhoto& photo : input.photos) {
+    parts.push_back(PhotoText(photo) + (IsPlannedFor(facet, photo) ? " planned" : ""));
+  }
   return HashParts(parts);
 }
 
@@ -250,7 +257,8 @@ std::string FilesKey(const Facet& facet, const FacetLook& look, const TextureInp
       fmt::format("{} {} {}", look.texel, look.limits.tolerance, look.limits.clearance)};
   for (const Candidate& candidate : look.candidates) {
     const Eigen::Vector3d& gain = gains[candidate.photo];
-    parts.push_back(PhotoText(input.photos[candidate.photo]));
+    const TexturePhoto& photo = input.photos[candidate.photo];
+    parts.push_back(PhotoText(photo) + (IsPlannedFor(facet, photo) ? " planned" : ""));
     parts.push_back(fmt::format("{} {} {}", gain.x(), gain.y(), gain.z()));
   }
   return HashParts(parts);

@@ -29,7 +29,7 @@ struct FacetFiles {
   std::string orthophoto_png;  // with transparent surroundings
 };
 
-FacetFiles MakeFacetFiles(const std::string& id, const PaintedFacet& painted,
+FacetFiles MakeFacetFiles(const Facet& facet, const PaintedFacet& painted,
                           std::span<const TexturePhoto> photos,
                           std::span<const Eigen::Vector3d> gains, bool orthophoto);
 

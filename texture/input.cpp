@@ -12,8 +12,10 @@
 #include "survey/colmap_io.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/plan_of_survey.h"
 #include "survey/ply.h"
 #include "survey/survey_folder.h"
+#include "texture/plan_prior.h"
 
 namespace stucco {
 namespace {
@@ -39,7 +41,7 @@ double MedianSharpness(const std::map<std::string, CapturedPhoto>& captures) {
   return *middle;
 }
 
-std::vector<TexturePhoto> ReadPhotos(const StageContext& context) {
+std::vector<TexturePhoto> ReadPhotos(const StageContext& context, bool guided) {
   const Reconstruction model = ReadColmapModel(context.survey / kSparseFolder);
   const auto captures = ReadCapturesByPath(context.survey / kCapturesFile);
   const double typical = MedianSharpness(captures);
@@ -67,6 +69,9 @@ std::vector<TexturePhoto> ReadPhotos(const StageContext& context) {
   }
   std::sort(photos.begin(), photos.end(),
             [](const TexturePhoto& a, const TexturePhoto& b) { return a.name < b.name; });
+  if (guided) {
+    if (const auto plan = PlanOfSurvey(context)) KnowPlan(*plan, captures, photos);
+  }
   return photos;
 }
 
@@ -84,16 +89,16 @@ std::vector<Eigen::Vector3d> ReadThinned(const std::filesystem::path& cloud) {
 
 }  // namespace
 
-TextureInput ReadTextureInput(const StageContext& context, bool with_cloud) {
+TextureInput ReadTextureInput(const StageContext& context, const TextureOptions& options) {
   TextureInput input;
   const std::filesystem::path facets = context.survey / kFacetsFile;
   input.proxy = ReadProxy(facets);
   std::string cloud_hash;
   const std::filesystem::path cloud = context.survey / kCloudFile;
-  if (with_cloud && std::filesystem::exists(cloud)) {
+  if (options.occluders && std::filesystem::exists(cloud)) {
     input.cloud = ReadThinned(cloud);
     cloud_hash = HashFile(cloud);
-  } else if (with_cloud) {
+  } else if (options.occluders) {
     context.progress->Warn(fmt::format(
         "{} is missing: what stands in front of facades is only known from the photos themselves",
         cloud.string()));
@@ -102,7 +107,7 @@ TextureInput ReadTextureInput(const StageContext& context, bool with_cloud) {
   input.geometry_hash = HashParts(parts);
   const std::filesystem::path georef = context.survey / kGeorefFile;
   if (std::filesystem::exists(georef)) input.georef = ReadGeoref(georef);
-  input.photos = ReadPhotos(context);
+  input.photos = ReadPhotos(context, options.guided);
   if (input.photos.empty()) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: no photo is posed", (context.survey / kSparseFolder).string()),

@@ -10,6 +10,7 @@
 #include "survey/proxy.h"
 #include "survey/stage.h"
 #include "texture/photo.h"
+#include "texture/texture.h"
 
 namespace stucco {
 
@@ -23,8 +24,9 @@ struct TextureInput {
 };
 
 // Reads proxy/facets.json, calib/sparse/0 and, where they are, calib/georef.json,
-// ingest/captures.json and dense/cloud.ply (`with_cloud`). Throws Error (kBadInput) when a posed
-// photo's file is gone: painting without it would look finished and never be done again.
-TextureInput ReadTextureInput(const StageContext& context, bool with_cloud);
+// ingest/captures.json, dense/cloud.ply (option `occluders`) and plan/plan.json (`guided`). Throws
+// Error (kBadInput) when a posed photo's file is gone: painting without it would look finished and
+// never be done again.
+TextureInput ReadTextureInput(const StageContext& context, const TextureOptions& options);
 
 }  // namespace stucco

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "texture/plan_prior.h"
 #include "texture/resample.h"
 
 namespace stucco {
@@ -162,9 +163,13 @@ FacetLook LookAtFacet(const Facet& facet, const PaintScene& scene, const Texture
   }
   look.texel = options.texel_size > 0 ? options.texel_size : FinestTexel(views, raster.texel);
   if (views.empty()) return look;
+  std::vector<int> photos;
+  for (const RasterView& view : views) photos.push_back(view.photo);
+  const std::vector<float> prior = PriorCosts(facet, scene.photos, photos);
   std::vector<std::vector<float>> costs;
-  for (const RasterView& view : views) {
-    costs.push_back(CostsOver(view, raster, look.texel, scene));
+  for (size_t v = 0; v < views.size(); ++v) {
+    costs.push_back(CostsOver(views[v], raster, look.texel, scene));
+    for (float& cost : costs.back()) cost += prior[v];
   }
   look.candidates = RankCandidates(views, inside, costs, options.max_candidates);
   if (options.colour) look.ratios = MeasureRatios(look.candidates, views, raster, scene);

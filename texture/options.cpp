@@ -17,6 +17,9 @@ void Describe(OptionTable& table, TextureOptions& options) {
       "max_candidates", options.max_candidates, 1, 64,
       "Photos that compete for one facet: the best are kept, and beyond their number only those "
       "that show what no other does.");
+  table.Add("guided", options.guided,
+            "Where there is a plan, prefer the photos that it means for a facade among photos of "
+            "about the same worth.");
   table.Add("cell_px", options.cell_px, 4, 256,
             "Side in texels of the cells between which seams may run.");
   table.Add("photo_cost", options.photo_cost, 0, 10,

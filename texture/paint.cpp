@@ -11,6 +11,7 @@
 #include "texture/composite.h"
 #include "texture/fill.h"
 #include "texture/patch_fill.h"
+#include "texture/plan_prior.h"
 #include "texture/select.h"
 
 namespace stucco {
@@ -104,12 +105,16 @@ Selected SelectPhotos(const Facet& facet, const FacetLook& look, const PaintedFa
   out.raster = Coarsened(canvas.grid, out.ownership.step);
   out.ownership.raster_width = out.raster.width;
   out.inside = CountInside(canvas.grid, canvas.mask, out.ownership.step);
+  std::vector<int> photos;
+  for (const Candidate& candidate : look.candidates) photos.push_back(candidate.photo);
+  const std::vector<float> prior = PriorCosts(facet, scene.photos, photos);
   std::vector<RasterPicture> pictures;
   for (const Candidate& candidate : look.candidates) {
     out.views.push_back(MeasureView(scene.photos, candidate.photo, facet, out.raster, out.inside,
                                     scene.obstacles, look.limits));
     pictures.push_back(MakeRasterPicture(out.views.back(), out.raster, canvas.grid.texel,
                                          gains[candidate.photo], scene));
+    for (float& cost : pictures.back().cost) cost += prior[pictures.size() - 1];
     for (size_t i = 0; i < out.raster.size(); ++i) {
       out.views.back().texels[i].sight = pictures.back().sight[i];
     }

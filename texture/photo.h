@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "survey/camera.h"
 #include "survey/pose.h"
@@ -21,6 +22,7 @@ struct TexturePhoto {
   // Rays up to this squared radius (x/z, y/z) are known to be where the lens model is one-to-one,
   // which is costly to find out for each; see KnowLens. 0: not known.
   double safe_radius_squared = 0;
+  std::vector<std::string> facades;  // that the plan means it for; none without a plan
 };
 
 // Finds safe_radius_squared: the farthest corner of the picture, where the lens model allows it.

@@ -132,7 +132,7 @@ std::vector<TexturedFacet> PaintAll(const std::vector<const Facet*>& facets,
     FacetFiles files = UnpackFiles(ComputeUnit(context, "texture_facet", key, [&] {
       const PaintedFacet painted = PaintFacet(*facets[i], looks[i], gains, scene, options);
       return PackFiles(
-          MakeFacetFiles(facets[i]->id, painted, input.photos, gains, options.orthophotos));
+          MakeFacetFiles(*facets[i], painted, input.photos, gains, options.orthophotos));
     }));
     textured[i] = StoreFacet(std::move(files), *facets[i], names[i], input, context.out);
     context.progress->Advance();
@@ -155,10 +155,12 @@ void ReportFindings(const std::vector<TexturedFacet>& facets, Progress& progress
   size_t painted = 0;
   std::set<std::string> photos;
   double uses = 0;
+  size_t planned_uses = 0;
   for (const TexturedFacet& facet : facets) {
     if (facet.image.empty()) continue;
     ++painted;
     uses += static_cast<double>(facet.photos.size());
+    planned_uses += facet.planned_photos.size();
     photos.insert(facet.photos.begin(), facet.photos.end());
   }
   if (painted == 0) {
@@ -169,6 +171,10 @@ void ReportFindings(const std::vector<TexturedFacet>& facets, Progress& progress
   }
   progress.Note(fmt::format("painted {} of {} facets with {} photos, {:.1f} per facet", painted,
                             facets.size(), photos.size(), uses / static_cast<double>(painted)));
+  if (planned_uses > 0) {
+    progress.Note(fmt::format("{} of these {:.0f} uses are of photos planned for the facade",
+                              planned_uses, uses));
+  }
   if (painted < facets.size()) {
     progress.Note(fmt::format("{} facets are seen by no photo and stay without a picture",
                               facets.size() - painted));
@@ -189,7 +195,7 @@ int EncodingThreads(const TextureSet& textures, const StageContext& context) {
 
 void RunTexture(const TextureOptions& options, StageContext& context) {
   // 1. What there is.
-  const TextureInput input = ReadTextureInput(context, options.occluders);
+  const TextureInput input = ReadTextureInput(context, options);
   const std::vector<const Facet*> facets = FacetsToPaint(input.proxy, options.ground);
   for (const char* folder : {"textures", "labels"}) {
     std::filesystem::create_directories(context.out / folder);

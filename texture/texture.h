@@ -13,6 +13,7 @@ struct TextureOptions {
   int max_texture_px = 8192;
   double max_angle_deg = 78;
   int max_candidates = 16;
+  bool guided = true;
   int cell_px = 16;
   double photo_cost = 0.03;
   double seam_cost = 1.0;

@@ -37,6 +37,7 @@ TEST(FacetFiles, SurvivePacking) {
   files.facet.id = "B0001/W01";
   files.facet.width_px = 12;
   files.facet.photos = {"a.jpg", "b/c.jpg"};
+  files.facet.planned_photos = {"b/c.jpg"};
   files.facet.origin = {1.5, 2.25, -3};
   files.facet.gains = {{"a.jpg", 1.25}};
   files.facet.q_u = 0.5;
@@ -45,6 +46,7 @@ TEST(FacetFiles, SurvivePacking) {
   EXPECT_EQ(again.facet.id, files.facet.id);
   EXPECT_EQ(again.facet.width_px, 12);
   EXPECT_EQ(again.facet.photos, files.facet.photos);
+  EXPECT_EQ(again.facet.planned_photos, files.facet.planned_photos);
   EXPECT_EQ(again.facet.origin, files.facet.origin);
   EXPECT_EQ(again.facet.gains, files.facet.gains);
   EXPECT_EQ(again.facet.q_u, 0.5);
@@ -87,8 +89,29 @@ TEST(FilesKey, ChangesWithWhatTheFacetDependsOnOnly) {
   EXPECT_NE(key(), original);
   look.limits = {};
   EXPECT_EQ(key(), original);
+  options.guided = false;  // no photo was planned for it
+  input.photos[0].facades = {"B0009/F01"};
+  EXPECT_EQ(key(), original);
   options.seam_cost = 2;
   EXPECT_NE(key(), original);
+}
+
+TEST(FilesKey, ChangesWithThePlannedPhotosOfTheFacade) {
+  TextureInput input;
+  Facet wall = testing::MakeWall(4, 3);
+  wall.facade = "B0009/F01";
+  input.photos = {testing::LookFrom("a", {2, -5, 1}, {2, 0, 1}, 100, 100, 100)};
+  FacetLook look;
+  look.candidates = {{0, 1, 1}};
+  const std::vector<Eigen::Vector3d> gains(1, Eigen::Vector3d::Ones());
+  const std::string files = FilesKey(wall, look, input, gains, {});
+  const std::string first_look = LookKey(wall, input, {});
+  input.photos[0].facades = {"B0009/F02"};
+  EXPECT_EQ(FilesKey(wall, look, input, gains, {}), files);
+  EXPECT_EQ(LookKey(wall, input, {}), first_look);
+  input.photos[0].facades = {"B0009/F01"};
+  EXPECT_NE(FilesKey(wall, look, input, gains, {}), files);
+  EXPECT_NE(LookKey(wall, input, {}), first_look);
 }
 
 TEST(FileNames, AreSafeAndUnique) {

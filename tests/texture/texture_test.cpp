@@ -10,9 +10,11 @@
 #include <mutex>
 #include <numbers>
 
+#include "survey/captures.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/plan.h"
 #include "survey/point_cloud.h"
 #include "survey/survey_folder.h"
 #include "survey/texture_set.h"
@@ -74,6 +76,37 @@ class Survey {
       turn.rotation = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitY());
       photo.cam_from_world = turn * photo.cam_from_world;
     }
+  }
+
+  // A plan whose only facade is the wall, with one view for the photo of this name, if any.
+  void Plan(const std::string& planned_photo) {
+    Proxy proxy = MakeProxy({MakeWall(4, 3)});
+    proxy.buildings[0].facets[0].facade = "B0012/F03";
+    SetProxy(proxy);
+    PlannedFacade facade;
+    facade.id = "B0012/F03";
+    facade.b_m = {4, 0};
+    facade.z_m = {0, 3};
+    facade.views = {"h0v0"};
+    PlannedView view;
+    view.id = "h0v0";
+    view.targets = {{facade.id, {0, 4}, {0, 3}}};
+    stucco::Plan plan;
+    plan.crs = "+proj=tmerc";
+    plan.facades = {facade};
+    plan.views = {view};
+    fs::create_directories(Folder() / "plan");
+    WritePlan(plan, Folder() / kPlanFile);
+    Captures captures;
+    captures.cameras.resize(1);
+    captures.cameras[0].intrinsics = model_.cameras.begin()->second;
+    captures.photos.resize(1);
+    captures.photos[0].camera = 0;
+    captures.photos[0].path = planned_photo;
+    captures.photos[0].usable = true;
+    captures.photos[0].view = "h0v0";
+    fs::create_directories(Folder() / "ingest");
+    WriteCaptures(captures, Folder() / kCapturesFile);
   }
 
   TextureSet Run(TextureOptions options = {}, const std::string& out = "out", int threads = 1,
@@ -150,6 +183,55 @@ TEST(RunTexture, PaintsTheTruth) {
         "orthophotos/B0001_W01.pgw", "orthophotos/B0001_W01.json"}) {
     EXPECT_TRUE(fs::exists(survey.Out() / file)) << file;
   }
+}
+
+// Nearly as good as each other: a.jpg is a little nearer.
+void AddTwins(Survey& survey) {
+  survey.Add("a.jpg", {2, -4.2, 1.5}, {2, 0, 1.5});
+  survey.Add("b.jpg", {2.1, -4.3, 1.5}, {2.1, 0, 1.5});
+}
+
+using Names = std::vector<std::string>;
+
+TEST(RunTexture, PrefersThePhotoOfThePlanAmongEquals) {
+  Survey survey;
+  AddTwins(survey);
+  EXPECT_EQ(survey.Run().facets[0].photos, Names{"a.jpg"});
+  survey.Plan("b.jpg");
+  const TexturedFacet guided = survey.Run().facets[0];
+  EXPECT_EQ(guided.photos, Names{"b.jpg"});
+  EXPECT_EQ(guided.planned_photos, Names{"b.jpg"});
+  TextureOptions options;
+  options.guided = false;
+  const TexturedFacet unguided = survey.Run(options).facets[0];
+  EXPECT_EQ(unguided.photos, Names{"a.jpg"});
+  EXPECT_TRUE(unguided.planned_photos.empty());
+}
+
+TEST(RunTexture, APlannedPhotoThatIsFarWorseLoses) {
+  Survey survey;
+  survey.Add("a.jpg", {2, -4.2, 1.5}, {2, 0, 1.5});
+  survey.Add("far.jpg", {5.5, -6, 2}, {2, 0, 1.5});
+  survey.Plan("far.jpg");
+  const TexturedFacet facet = survey.Run().facets[0];
+  EXPECT_EQ(facet.photos, Names{"a.jpg"});
+  EXPECT_TRUE(facet.planned_photos.empty());
+}
+
+TEST(RunTexture, APlanWhosePhotoIsMissingOrThatIsDamagedChangesNothing) {
+  Survey survey;
+  AddTwins(survey);
+  const TexturedFacet before = survey.Run().facets[0];
+  const std::string picture = ReadFile(survey.Out() / before.image);
+  survey.Plan("lost.jpg");
+  const TexturedFacet lost = survey.Run().facets[0];
+  EXPECT_EQ(lost.photos, before.photos);
+  EXPECT_EQ(ReadFile(survey.Out() / lost.image), picture);
+  survey.Plan("b.jpg");
+  WriteFile(survey.Folder() / kPlanFile, "{ this is no plan");
+  const TexturedFacet damaged = survey.Run().facets[0];
+  EXPECT_EQ(damaged.photos, before.photos);
+  EXPECT_EQ(ReadFile(survey.Out() / damaged.image), picture);
 }
 
 TEST(RunTexture, JoinsPhotosThatEachSeeAPart) {
