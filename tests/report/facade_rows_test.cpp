@@ -58,6 +58,49 @@ TEST(MakeFacadeRows, GoodWallsAreGreen) {
   }
 }
 
+// The plan has two facades, and the first two walls are parts of one of them.
+SurveyData PlannedWalls() {
+  SurveyData data = GoodWalls();
+  data.plan.emplace();
+  for (const char* id : {"B0007/F00", "B0007/F01"}) {
+    PlannedFacade facade;
+    facade.id = id;
+    facade.predicted = {0.9, 0.8, 0.7, 1};
+    data.plan->facades.push_back(facade);
+  }
+  for (int i : {0, 1}) data.proxy->buildings[0].facets[i].facade = "B0007/F01";
+  return data;
+}
+
+TEST(MakeFacadeRows, PartsOfAPlannedFacadeKnowIt) {
+  const SurveyData data = PlannedWalls();
+  const auto rows = MakeFacadeRows(data, {});
+  ASSERT_EQ(rows.size(), 3U);
+  for (int i : {0, 1}) {
+    ASSERT_NE(rows[i].planned, nullptr);
+    EXPECT_EQ(rows[i].planned->predicted.q_d, 0.8);
+    EXPECT_EQ(rows[i].Name(), "B0007/F01");
+    EXPECT_EQ(rows[i].verdict, Verdict::kGreen);  // predictions are no verdict
+  }
+  EXPECT_EQ(rows[2].planned, nullptr);
+  EXPECT_EQ(rows[2].Name(), "B0001/W03");
+  EXPECT_THAT(MissingFacades(data, rows), testing::ElementsAre("B0007/F00"));
+}
+
+TEST(MakeFacadeRows, AnOwnIdIsNotThePlansEvenWhereItLooksLikeOne) {
+  SurveyData data = PlannedWalls();
+  data.plan->facades[0].id = "B0001/W03";
+  const auto rows = MakeFacadeRows(data, {});
+  EXPECT_EQ(rows[2].planned, nullptr);
+  // A facade id that no plan explains is kept, and nothing is predicted.
+  data.proxy->buildings[0].facets[2].facade = "B0099/F00";
+  EXPECT_EQ(MakeFacadeRows(data, {})[2].planned, nullptr);
+  data.plan.reset();
+  const auto unplanned = MakeFacadeRows(data, {});
+  for (const FacadeRow& row : unplanned) EXPECT_EQ(row.planned, nullptr);
+  EXPECT_THAT(MissingFacades(data, unplanned), IsEmpty());
+}
+
 // Every measure makes a facade amber and red by itself, with a text that says which.
 TEST(MakeFacadeRows, EachMeasureCountsByItself) {
   struct Case {

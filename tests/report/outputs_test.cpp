@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "report/report_json.h"
@@ -75,6 +76,7 @@ TEST_F(Outputs, JsonHasTheFixedNames) {
   EXPECT_EQ(facade["id"], "B0001/W01");
   EXPECT_EQ(facade["verdict"], "green");
   EXPECT_TRUE(facade["planned"].is_null());
+  EXPECT_TRUE(report["plan"].is_null());
   for (const char* name : {"q_s", "q_d", "q_u", "q_c"}) {
     EXPECT_TRUE(facade["achieved"][name].is_number()) << name;
   }
@@ -84,6 +86,38 @@ TEST_F(Outputs, JsonHasTheFixedNames) {
   EXPECT_THAT(facade["photos"], SizeIs(3));
   EXPECT_TRUE(facade["heldout_ssim"].is_null());
   EXPECT_EQ(facade["epoch"], "original");
+}
+
+TEST_F(Outputs, ThePlanStandsBesideWhatWasAchieved) {
+  MadeSurvey made = MakeSurvey();
+  made.proxy.buildings[0].facets[0].facade = "B0007/F01";
+  WriteSurvey(made, folder_.path());
+  data_ = LoadSurvey(folder_.path(), {});
+  data_.plan.emplace();
+  data_.plan->method = "cocapture";
+  data_.plan->facades.resize(2);
+  data_.plan->facades[0].id = "B0007/F00";
+  data_.plan->facades[1].id = "B0007/F01";
+  data_.plan->facades[1].predicted = {0.9, 0.8, 0.7, 0.95};
+  rows_ = MakeFacadeRows(data_, {});
+  const Json report = Report();
+  const Json& facade = report["facades"][0];
+  EXPECT_EQ(facade["id"], "B0001/W01");
+  EXPECT_EQ(facade["facade"], "B0007/F01");
+  EXPECT_EQ(facade["planned"], (Json{{"q_s", 0.9}, {"q_d", 0.8}, {"q_u", 0.7}, {"q_c", 0.95}}));
+  EXPECT_TRUE(facade["achieved"]["q_c"].is_number());
+  EXPECT_TRUE(report["facades"][1]["planned"].is_null());
+  EXPECT_EQ(report["plan"]["facades"], 2);
+  EXPECT_EQ(report["plan"]["method"], "cocapture");
+  EXPECT_EQ(report["plan"]["missing"], Json::array({"B0007/F00"}));
+  const auto lines = ParseCsv(FacadesCsv(data_, rows_));
+  const auto column = [&](const char* name) {
+    return std::ranges::find(lines[0], name) - lines[0].begin();
+  };
+  ASSERT_LT(column("planned_q_c"), static_cast<long>(lines[0].size()));
+  EXPECT_EQ(lines[1][column("planned_q_s")], "0.9");
+  EXPECT_EQ(lines[1][column("planned_q_c")], "0.95");
+  EXPECT_EQ(lines[2][column("planned_q_s")], "");
 }
 
 TEST_F(Outputs, JsonSaysWhatIsNotKnown) {

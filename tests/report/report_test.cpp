@@ -9,6 +9,7 @@
 
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/plan.h"
 #include "survey/survey_folder.h"
 #include "tests/report/made_survey.h"
 
@@ -89,6 +90,44 @@ TEST_F(Report, TablesAndDialogsAreClosed) {
     const auto opened = std::distance(std::sregex_iterator(page.begin(), page.end(), opening), {});
     EXPECT_EQ(static_cast<size_t>(opened), CountOf(page, std::string("</") + tag + ">")) << tag;
   }
+}
+
+TEST_F(Report, NamesFacadesAsThePlanDoes) {
+  MadeSurvey made = MakeSurvey();
+  made.proxy.buildings[0].facets[0].facade = "B0007/F01";
+  WriteSurvey(made, folder_.path());
+  Run();
+  EXPECT_FALSE(Has(Content(Page()), "B0007"));
+  EXPECT_FALSE(Has(Page(), "with-plan\" title"));
+  Plan plan;
+  plan.crs = "+proj=tmerc";
+  for (const char* id : {"B0007/F00", "B0007/F01"}) {
+    PlannedFacade facade;
+    facade.id = id;
+    facade.b_m = {8, 0};
+    facade.predicted = {0.91, 0.82, 0.73, 0.94};
+    plan.facades.push_back(facade);
+  }
+  std::filesystem::create_directories(folder_.path() / "plan");
+  WritePlan(plan, folder_.path() / kPlanFile);
+  Run();
+  const std::string page = Content(Page());
+  EXPECT_EQ(CountOf(page, "<bdi>B0007/F01</bdi>"), 2U);  // in the table and over its page
+  EXPECT_EQ(CountOf(page, "Achieved quality and planned"), 1U);
+  EXPECT_TRUE(Has(page, "0.73"));
+  EXPECT_TRUE(Has(page, "one was not found in the model: <bdi>B0007/F00</bdi>"));
+  EXPECT_EQ(Json()["facades"][0]["planned"]["q_u"], 0.73);
+}
+
+TEST_F(Report, APlanThatCannotBeReadChangesNothing) {
+  WriteSurvey(MakeSurvey(), folder_.path());
+  Run();
+  const std::string page = Page();
+  std::filesystem::create_directories(folder_.path() / "plan");
+  WriteFile(folder_.path() / kPlanFile, "{}");
+  Run();
+  EXPECT_EQ(Page(), page);
+  EXPECT_TRUE(Json()["plan"].is_null());
 }
 
 TEST_F(Report, AnEmptySurveyGetsOneToo) {
