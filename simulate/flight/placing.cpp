@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/flight/placing.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "survey/error.h"
+#include "survey/plan_frame.h"
+
+namespace stucco::simulate {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr char kModelHint[] =
+    "use the plan that was made for this scene; for a model from elsewhere, --unit and --up say "
+    "what its numbers mean";
+
+bool StartsWith(const SceneShape& scene, int element, std::string_view prefix) {
+  return element >= 0 && element < static_cast<int>(scene.elements.size()) &&
+         scene.elements[element].starts_with(prefix);
+}
+
+// "G0", "G1": the ground of a scene of ours.
+bool IsGround(const SceneShape& scene, int element) {
+  return StartsWith(scene, element, "G") && scene.elements[element].size() > 1 &&
+         std::isdigit(static_cast<unsigned char>(scene.elements[element][1]));
+}
+
+bool IsOccluder(const SceneShape& scene, int element) {
+  return StartsWith(scene, element, kOccluderPrefix);
+}
+
+// All that a vertical line meets from `from` on; a long way, as scenes have many leaves.
+std::vector<RayHit> HitsAlong(const SceneShape& scene, Eigen::Vector3d from,
+                              const Eigen::Vector3d& direction) {
+  constexpr int kMost = 200;
+  constexpr double kStep_m = 1e-3;  // beyond what was hit
+  std::vector<RayHit> hits;
+  for (int i = 0; i < kMost; ++i) {
+    const auto hit = scene.cast(from, direction);
+    if (!hit) break;
+    hits.push_back(*hit);
+    from = hit->point + kStep_m * direction;
+  }
+  return hits;
+}
+
+// The ground below a place: what is called so, else the lowest surface.
+std::optional<double> GroundAt(const SceneShape& scene, const Eigen::Vector2d& place) {
+  const Eigen::Vector3d above(place.x(), place.y(), scene.box.max().z() + 1);
+  std::optional<double> lowest;
+  for (const RayHit& hit : HitsAlong(scene, above, -Eigen::Vector3d::UnitZ())) {
+    if (IsOccluder(scene, hit.element)) continue;
+    if (IsGround(scene, hit.element)) return hit.point.z();
+    lowest = hit.point.z();
+  }
+  return lowest;
+}
+
+Eigen::Vector3d WorldAtHeight(const PlacedPlan& placed, const Eigen::Vector2d& position,
+                              double height_m) {
+  const Geodetic at = GeodeticFromPlan(placed.origin, position);
+  return EnuFromGeodetic(placed.world, at.latitude_deg, at.longitude_deg, height_m);
+}
+
+Eigen::AlignedBox2d BoxOf(const PlacedPlan& placed, const PlannedFootprint& footprint) {
+  Eigen::AlignedBox2d box;
+  for (const auto& ring : footprint.rings_m) {
+    for (const Eigen::Vector2d& corner : ring) {
+      box.extend(WorldAtHeight(placed, corner, placed.world.origin_height_m).head<2>().eval());
+    }
+  }
+  return box;
+}
+
+std::string SizeText(const Eigen::AlignedBox2d& box) {
+  return fmt::format("{:.4g} x {:.4g} m", box.sizes().x(), box.sizes().y());
+}
+
+// The plan's footprints must stand on the scene, and the scene must be of their size.
+void RequireSamePlace(const Plan& plan, const PlacedPlan& placed, const SceneShape& scene) {
+  const Eigen::AlignedBox2d ground(scene.box.min().head<2>().eval(),
+                                   scene.box.max().head<2>().eval());
+  Eigen::AlignedBox2d all;
+  size_t met = 0;
+  for (const PlannedFootprint& footprint : plan.footprints) {
+    const Eigen::AlignedBox2d box = BoxOf(placed, footprint);
+    all.extend(box);
+    if (ground.intersects(box)) ++met;
+  }
+  if (plan.footprints.empty()) return;
+  constexpr double kTimes = 20;
+  const double ratio = ground.diagonal().norm() / std::max(all.diagonal().norm(), 1.0);
+  if (!(ratio > 1 / kTimes)) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("the scene covers {} and the plan's buildings {}: its unit is not the "
+                            "metre, or the plan is for another place",
+                            SizeText(ground), SizeText(all)),
+                kModelHint);
+  }
+  if (2 * met >= plan.footprints.size()) return;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("the plan is for another place: {} of its {} buildings are where the "
+                          "scene is; their middle is {:.0f} m from the scene's",
+                          met, plan.footprints.size(), (all.center() - ground.center()).norm()),
+              kModelHint);
+}
+
+}  // namespace
+
+SceneShape ShapeOf(const Renderer& renderer) {
+  SceneShape shape;
+  for (const Eigen::Vector3f& position : renderer.scene().positions) {
+    shape.box.extend(position.cast<double>().eval());
+  }
+  shape.elements = renderer.scene().elements;
+  shape.cast = [&renderer](const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
+    return renderer.Cast(from, direction);
+  };
+  return shape;
+}
+
+PlacedPlan PlacePlan(const Plan& plan, const SceneInfo& info, const SceneShape& scene) {
+  PlacedPlan placed;
+  placed.origin = plan.origin;
+  placed.height_m = plan.origin.height_m;
+  placed.world = info.georef;
+  if (info.georef.frame != "enu") {
+    placed.world = Georef{};
+    placed.world.frame = "enu";
+    placed.world.origin_latitude_deg = plan.origin.latitude_deg;
+    placed.world.origin_longitude_deg = plan.origin.longitude_deg;
+    placed.world.origin_height_m = plan.origin.height_m;
+    placed.world.metric = true;
+  }
+  RequireSamePlace(plan, placed, scene);
+  if (plan.origin.height_m != 0) return placed;
+  // Of a plan without terrain only the heights above the ground are known.
+  for (const Eigen::Vector2d& place : {Eigen::Vector2d(0, 0), plan.home_m.head<2>().eval()}) {
+    const Eigen::Vector3d in_world = WorldAtHeight(placed, place, placed.world.origin_height_m);
+    if (const auto ground = GroundAt(scene, in_world.head<2>())) {
+      // The way back through geodetic coordinates takes the earth's curvature along.
+      placed.height_m = GeodeticFromEnu(placed.world, {in_world.x(), in_world.y(), *ground}).z();
+      return placed;
+    }
+  }
+  throw Error(ErrorKind::kBadInput,
+              "the scene has no ground at the plan's origin nor at its home, so that the plan's "
+              "heights mean nothing",
+              kModelHint);
+}
+
+Eigen::Vector3d WorldFromPlan(const PlacedPlan& placed, const Eigen::Vector3d& position_m) {
+  return WorldAtHeight(placed, position_m.head<2>(), placed.height_m + position_m.z());
+}
+
+Eigen::Matrix3d PlanAxesAt(const PlacedPlan& placed, const Eigen::Vector3d& position_m) {
+  constexpr double kStep_m = 1;
+  Eigen::Matrix3d axes;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d step = kStep_m * Eigen::Vector3d::Unit(i);
+    axes.col(i) =
+        WorldFromPlan(placed, position_m + step) - WorldFromPlan(placed, position_m - step);
+  }
+  // The nearest rotation.
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+Pose CameraPose(const PlacedPlan& placed, const Eigen::Vector3d& position_m,
+                const GimbalAngles& angles) {
+  const double yaw = angles.yaw_deg * kPi / 180;
+  const double pitch = angles.pitch_deg * kPi / 180;
+  const double roll = angles.roll_deg * kPi / 180;
+  const Eigen::Vector3d forward(std::sin(yaw) * std::cos(pitch), std::cos(yaw) * std::cos(pitch),
+                                std::sin(pitch));
+  const Eigen::Vector3d level_right(std::cos(yaw), -std::sin(yaw), 0);
+  const Eigen::Vector3d level_down = forward.cross(level_right);
+  Eigen::Matrix3d cam_from_plan;
+  cam_from_plan.row(0) = std::cos(roll) * level_right + std::sin(roll) * level_down;
+  cam_from_plan.row(1) = -std::sin(roll) * level_right + std::cos(roll) * level_down;
+  cam_from_plan.row(2) = forward;
+  Pose pose;
+  pose.rotation = Eigen::Quaterniond(cam_from_plan * PlanAxesAt(placed, position_m).transpose());
+  pose.rotation.normalize();
+  pose.translation = -(pose.rotation * WorldFromPlan(placed, position_m));
+  return pose;
+}
+
+std::optional<std::string> WhyBlocked(const SceneShape& scene, const Eigen::Vector3d& place) {
+  const auto overhead = HitsAlong(scene, place, Eigen::Vector3d::UnitZ());
+  const auto solid = std::find_if(overhead.begin(), overhead.end(), [&](const RayHit& hit) {
+    return !IsOccluder(scene, hit.element);
+  });
+  if (solid == overhead.end()) return std::nullopt;
+  if (IsGround(scene, solid->element)) return "is below the ground";
+  // Under a roof; inside when there are walls on nearly all sides as well. (Counting the surfaces
+  // above would fail on models that are not closed.)
+  constexpr int kSides = 16;
+  constexpr int kOpen = 3;
+  constexpr double kFar_m = 100;
+  int closed = 0;
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = 2 * kPi * (i + 0.37) / kSides;
+    const auto hit = scene.cast(place, {std::cos(angle), std::sin(angle), 0});
+    if (hit && hit->distance < kFar_m && !IsOccluder(scene, hit->element)) ++closed;
+  }
+  const bool has_floor = scene.cast(place, -Eigen::Vector3d::UnitZ()).has_value();
+  if (closed > kSides - kOpen) {
+    const bool is_named = solid->element >= 0 &&
+                          solid->element < static_cast<int>(scene.elements.size()) &&
+                          !scene.elements[solid->element].empty();
+    return is_named ? fmt::format("stands inside {}", scene.elements[solid->element])
+                    : std::string("stands inside a building");
+  }
+  if (!has_floor) return "is below the ground";
+  return std::nullopt;
+}
+
+}  // namespace stucco::simulate

@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/flight/schedule.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "plan/path/energy.h"
+#include "simulate/flight/daylight.h"
+#include "simulate/internal/random.h"
+#include "survey/error.h"
+
+namespace stucco::simulate {
+namespace {
+
+using internal::Random;
+using internal::SeedOf;
+
+constexpr uint64_t kHoverSeed = 0x4077;
+constexpr uint64_t kViewSeed = 0x71E3;
+constexpr uint64_t kChoiceSeed = 0xC401;
+constexpr uint64_t kHeldOutSeed = 0x8E1D;
+
+constexpr double kBetweenPhotos_s = 2.5;  // at one stop: turn the gimbal, settle, shoot
+constexpr double kTwice_s = 0.7;          // between a photo and its double
+constexpr double kNewBattery_s = 240;
+
+Eigen::Vector3d NormalVector(Random& random) {
+  const double x = random.Normal();
+  const double y = random.Normal();
+  return {x, y, random.Normal()};
+}
+
+std::vector<int> ViewsInOrder(const Plan& plan) {
+  std::vector<int> order(plan.views.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return plan.views[a].order < plan.views[b].order;
+  });
+  return order;
+}
+
+// Exactly round(share * count) of `count`, the same ones at the same seed.
+std::vector<bool> Chosen(size_t count, double share, uint64_t seed) {
+  std::vector<size_t> order(count);
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return SeedOf(seed, a) < SeedOf(seed, b);
+  });
+  std::vector<bool> chosen(count, false);
+  const auto wanted = static_cast<size_t>(std::lround(share * static_cast<double>(count)));
+  for (size_t i = 0; i < std::min(wanted, count); ++i) chosen[order[i]] = true;
+  return chosen;
+}
+
+// Time from one view to the next along the way that was planned.
+double SecondsBetween(const Plan& plan, const PlannedView* from, const PlannedView& to) {
+  const auto effort_s = [](double length_m, int hovers) {
+    return 60 * plan::EstimateEffort(length_m, hovers, 1).time_min;
+  };
+  const double home_m = (to.position_m - plan.home_m).norm();
+  if (from == nullptr) return 0;
+  if (from->flight != to.flight) {
+    const double back_m = (from->position_m - plan.home_m).norm();
+    return effort_s(back_m + home_m, 1) + kNewBattery_s;
+  }
+  if (from->hover == to.hover) return kBetweenPhotos_s;
+  return effort_s((to.position_m - from->position_m).norm(), 1);
+}
+
+// Walks through the days: photos are taken between the hour of the start and the lowest sun.
+class Clock {
+ public:
+  Clock(const FlightOptions& options, double latitude_deg)
+      : latitude_deg_(latitude_deg), start_hour_(options.start_hour), day_(options.day_of_year) {
+    if (SunElevation_deg(latitude_deg, day_, start_hour_) >= kLowestSun_deg) return;
+    throw Error(ErrorKind::kUsage,
+                fmt::format("start_hour {:g}: on day {} the sun is lower than {:g} degrees there",
+                            start_hour_, day_, kLowestSun_deg),
+                "choose an hour around noon, or another day_of_year");
+  }
+
+  void Advance(double seconds) {
+    today_s_ += seconds;
+    total_s_ += seconds;
+    if (SunElevation_deg(latitude_deg_, day_, Hour()) >= kLowestSun_deg) return;
+    total_s_ += 24 * 3600 - today_s_;
+    today_s_ = 0;
+    day_ = day_ % 365 + 1;
+  }
+  double Hour() const { return start_hour_ + today_s_ / 3600; }
+
+  void Stamp(Shot& shot) const {
+    shot.day = day_;
+    shot.hour = Hour();
+    shot.time_s = total_s_;
+  }
+
+ private:
+  double latitude_deg_;
+  double start_hour_;
+  int day_;
+  double today_s_ = 0;
+  double total_s_ = 0;
+};
+
+GimbalAngles WithNoise(const PlannedView& view, double sigma_deg, Random& random) {
+  GimbalAngles angles;
+  angles.yaw_deg = view.yaw_deg + sigma_deg * random.Normal();
+  // Gimbals stop at straight down.
+  angles.pitch_deg = std::max(-90.0, view.pitch_deg + sigma_deg * random.Normal());
+  constexpr double kRollShare = 0.3;  // the horizon is what gimbals hold best
+  angles.roll_deg = kRollShare * sigma_deg * random.Normal();
+  return angles;
+}
+
+Shot RealShot(const Plan& plan, int index, const FlightOptions& options) {
+  const PlannedView& view = plan.views[index];
+  const auto seed = static_cast<uint64_t>(options.seed);
+  Random at_hover(SeedOf(SeedOf(seed, kHoverSeed), static_cast<uint64_t>(view.hover)));
+  Random of_view(SeedOf(SeedOf(seed, kViewSeed), static_cast<uint64_t>(index)));
+  constexpr double kDriftShare = 0.1;
+  Shot shot;
+  shot.view = index;
+  shot.position_m = view.position_m + options.position_sigma_m *
+                                          (NormalVector(at_hover) * std::sqrt(1 - kDriftShare * kDriftShare) +
+                                           NormalVector(of_view) * kDriftShare);
+  shot.angles = WithNoise(view, options.gimbal_sigma_deg, of_view);
+  return shot;
+}
+
+struct CalendarTime {
+  int month = 0, day = 0, hour = 0, minute = 0, second = 0, millisecond = 0;
+};
+
+CalendarTime TimeOf(const Shot& shot) {
+  constexpr int kDaysInMonth[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  CalendarTime time;
+  int day = (shot.day - 1) % 365;
+  while (day >= kDaysInMonth[time.month]) day -= kDaysInMonth[time.month++];
+  time.month += 1;
+  time.day = day + 1;
+  const auto milliseconds = std::llround(shot.hour * 3600e3);
+  time.millisecond = static_cast<int>(milliseconds % 1000);
+  time.second = static_cast<int>(milliseconds / 1000 % 60);
+  time.minute = static_cast<int>(milliseconds / 60000 % 60);
+  time.hour = static_cast<int>(milliseconds / 3600000);
+  return time;
+}
+
+}  // namespace
+
+std::vector<Shot> ScheduleShots(const Plan& plan, const FlightOptions& options) {
+  if (plan.views.empty()) {
+    throw Error(ErrorKind::kBadInput, "the plan has no views to fly to", "plan the survey again");
+  }
+  const uint64_t choices = SeedOf(static_cast<uint64_t>(options.seed), kChoiceSeed);
+  const auto lost = Chosen(plan.views.size(), options.lost_share, SeedOf(choices, 1));
+  const auto twice = Chosen(plan.views.size(), options.duplicate_share, SeedOf(choices, 2));
+  Clock clock(options, plan.origin.latitude_deg);
+  std::vector<Shot> shots;
+  const PlannedView* before = nullptr;
+  for (const int index : ViewsInOrder(plan)) {
+    clock.Advance(SecondsBetween(plan, before, plan.views[index]));
+    before = &plan.views[index];
+    Shot shot = RealShot(plan, index, options);
+    clock.Stamp(shot);
+    shot.number = static_cast<int>(shots.size()) + 1;
+    shot.lost = lost[index];
+    shots.push_back(shot);
+    if (!twice[index]) continue;
+    clock.Advance(kTwice_s);
+    clock.Stamp(shot);
+    shot.number += 1;
+    shot.duplicate_of = static_cast<int>(shots.size()) - 1;
+    shot.lost = false;
+    shots.push_back(shot);
+  }
+  return shots;
+}
+
+Shot HeldOutShot(const Plan& plan, const std::vector<Shot>& shots, const FlightOptions& options,
+                 int number, int attempt) {
+  const uint64_t seed = SeedOf(SeedOf(static_cast<uint64_t>(options.seed), kHeldOutSeed),
+                               static_cast<uint64_t>(number));
+  Random random(SeedOf(seed, static_cast<uint64_t>(attempt)));
+  // Spread over the flight.
+  const size_t near = std::min(
+      shots.size() - 1,
+      static_cast<size_t>((number - 1 + random.Uniform()) * static_cast<double>(shots.size()) /
+                          std::max(1, options.held_out)));
+  const PlannedView& view = plan.views[shots[near].view];
+  Shot shot = shots[near];
+  shot.view = -1;
+  shot.lost = false;
+  shot.duplicate_of = -1;
+  shot.number = number;
+  const double turn_rad = random.Uniform(0, 2 * 3.14159265358979323846);
+  const double move_m = random.Uniform(1, 3);
+  shot.position_m = view.position_m +
+                    Eigen::Vector3d(move_m * std::cos(turn_rad), move_m * std::sin(turn_rad),
+                                    random.Uniform(-1, 1));
+  shot.angles.yaw_deg = view.yaw_deg + random.Uniform(-10, 10);
+  shot.angles.pitch_deg = std::clamp(view.pitch_deg + random.Uniform(-10, 10), -90.0, 20.0);
+  shot.angles.roll_deg = 0;
+  return shot;
+}
+
+std::string FileTime(const Shot& shot) {
+  const CalendarTime t = TimeOf(shot);
+  return fmt::format("2026{:02d}{:02d}{:02d}{:02d}{:02d}", t.month, t.day, t.hour, t.minute,
+                     t.second);
+}
+
+std::string ExifTime(const Shot& shot) {
+  const CalendarTime t = TimeOf(shot);
+  return fmt::format("2026:{:02d}:{:02d} {:02d}:{:02d}:{:02d}", t.month, t.day, t.hour, t.minute,
+                     t.second);
+}
+
+int Milliseconds(const Shot& shot) { return TimeOf(shot).millisecond; }
+
+std::string PhotoName(const Shot& shot, const std::string& view) {
+  return fmt::format("DJI_{}_{:04d}_D_{}.JPG", FileTime(shot), shot.number, view);
+}
+
+}  // namespace stucco::simulate
