@@ -172,8 +172,7 @@ void BlurByTurning(const Camera& camera, const Eigen::Vector3d& turn_rad, int th
       const bool is_short = way.norm() < kShort_px;
       for (int y = first; y < end; ++y) {
         for (int x = left; x < right; ++x) {
-          const Eigen::Array3f mean =
-              is_short ? ShortMean(in, x, y, way) : LongMean(in, x, y, way);
+          const Eigen::Array3f mean = is_short ? ShortMean(in, x, y, way) : LongMean(in, x, y, way);
           Eigen::Map<Eigen::Array3f>(&picture.rgb[IndexOf(picture, x, y)]) = mean;
         }
       }

@@ -10,6 +10,7 @@
 
 #include "simulate/render/light.h"
 #include "survey/camera.h"
+#include "survey/georef.h"
 #include "survey/pose.h"
 
 namespace stucco::simulate {
@@ -17,7 +18,7 @@ namespace stucco::simulate {
 // The truth of a simulated flight, beside its photos in SURVEY/truth:
 //   flight.json          this struct
 //   sparse/{cameras,images,points3D}.txt  the same cameras and poses for COLMAP's readers
-//   depth/<photo>.dmap   on request
+//   depth/<photo>.dmap   on request; in the photo's own pixels, distortion and all
 //   held_out/<photo>     photos that the survey does not have, listed in flight.json
 inline constexpr char kTruthFolder[] = "truth";
 inline constexpr char kFlightFile[] = "truth/flight.json";
@@ -28,6 +29,7 @@ struct FlownPhoto {
   Camera camera;        // exact, with its distortion
   Pose cam_from_world;  // exact; the world is the scene's frame
   Light light;          // at its time
+  double time_s = 0;    // since the first photo
   double exposure = 1;  // radiance times this is what the sensor counts, 1 = white
   Eigen::Vector3d white_balance = Eigen::Vector3d::Ones();  // times this, by channel
   bool held_out = false;
@@ -38,10 +40,13 @@ struct FlownPhoto {
 struct Flight {
   std::string scene;  // as given
   uint64_t seed = 0;
+  std::string made_from;           // hash of scene, plan and options: equal ones make equal photos
+  Georef georef;                   // of the world: frame "enu"
   std::vector<FlownPhoto> photos;  // in order of capture, held-out ones last
 };
 
-// Throws Error (kBadInput).
+// Reading throws Error (kBadInput). Writing also writes the COLMAP model: all photos that there
+// are, named as below the photo folder, without held-out ones.
 Flight ReadFlight(const std::filesystem::path& survey);
 void WriteFlight(const Flight& flight, const std::filesystem::path& survey);
 

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "simulate/flight/options.h"
 #include "simulate/scene/scene_folder.h"
@@ -22,14 +24,18 @@ struct FlySummary {
   int photos = 0;
   int lost = 0;
   int held_out = 0;
-  double megapixels = 0;
+  int rendered = 0;       // the others were there from an earlier call
+  double megapixels = 0;  // of the rendered ones
   double render_s = 0;
+  std::vector<std::string> notes;  // what to know about the result
 };
 
 // Flies a plan through a scene: photos with the metadata that a drone writes into SURVEY/photos,
-// the truth beside them. `progress` hears (done, total) after each photo. What an interrupted
-// flight has finished is kept: the same call goes on. Throws Error (kBadInput): the plan is for
-// another place, a camera stands inside a building, ...
+// the truth beside them. `progress` hears (done, total) after each photo, one call at a time; what
+// it throws ends the flight. What an interrupted flight has finished is kept: the same call goes
+// on; a call with other options, plan or scene replaces the photos of the flight before, and nobody
+// else's. Throws Error (kBadInput): the plan is for another place, cameras stand inside buildings,
+// the photo folder has photos of a real flight ...
 FlySummary Fly(const FlyRequest& request, const FlightOptions& options,
                const std::function<void(size_t, size_t)>& progress);
 

@@ -69,10 +69,10 @@ Camera MakeLens(const PlannedCamera& planned, const FlightOptions& options) {
   const double p2 = options.distortion * kTangential * random.Uniform(-1, 1);
   camera.params = {focal_x, focal_y, centre_x, centre_y, k1, k2, p1, p2};
   if (!HasARayForEveryPixel(camera)) {
-    throw Error(ErrorKind::kUsage,
-                fmt::format("distortion {:g}: this lens would show some places twice",
-                            options.distortion),
-                "choose a smaller value");
+    throw Error(
+        ErrorKind::kUsage,
+        fmt::format("distortion {:g}: this lens would show some places twice", options.distortion),
+        "choose a smaller value");
   }
   return camera;
 }

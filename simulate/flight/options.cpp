@@ -17,6 +17,9 @@ void Describe(OptionTable& table, FlightOptions& options) {
             "Length of the recorded positions' common shift, in metres.");
   table.Add("gps_sigma_m", options.gps_sigma_m, 0.0, 50.0,
             "Noise of each recorded position, in metres.");
+  table.Add("geoid_m", options.geoid_m, -110.0, 90.0,
+            "Height of the sea level above the ellipsoid at the place, in metres: what heights "
+            "recorded without RTK are lower by.");
   table.Add("gimbal_noise_deg", options.gimbal_noise_deg, 0.0, 20.0,
             "Noise of the recorded gimbal angles, in degrees.");
   table.Add("distortion", options.distortion, 0.0, 3.0, "Times the distortion of a real lens.");

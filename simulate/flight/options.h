@@ -17,6 +17,7 @@ struct FlightOptions {
   bool rtk = false;
   double gps_bias_m = 1.5;  // one vector for a flight
   double gps_sigma_m = 0.5;
+  double geoid_m = 0;  // above the ellipsoid: heights without RTK are above the sea
   double gimbal_noise_deg = 0.2;
   double distortion = 1;         // times the lens's own distortion
   double vignetting = 0.25;      // light lost in the corners

@@ -38,22 +38,22 @@ Eigen::Vector3d NormalVector(Random& random) {
 std::vector<int> ViewsInOrder(const Plan& plan) {
   std::vector<int> order(plan.views.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return plan.views[a].order < plan.views[b].order;
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return plan.views[a].order < plan.views[b].order; });
   return order;
 }
 
-// Exactly round(share * count) of `count`, the same ones at the same seed.
-std::vector<bool> Chosen(size_t count, double share, uint64_t seed) {
-  std::vector<size_t> order(count);
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-    return SeedOf(seed, a) < SeedOf(seed, b);
-  });
-  std::vector<bool> chosen(count, false);
-  const auto wanted = static_cast<size_t>(std::lround(share * static_cast<double>(count)));
-  for (size_t i = 0; i < std::min(wanted, count); ++i) chosen[order[i]] = true;
+// Exactly the share, rounded, of those that are not left out; the same ones at the same seed.
+std::vector<bool> Chosen(const std::vector<bool>& left_out, double share, uint64_t seed) {
+  std::vector<size_t> order;
+  for (size_t i = 0; i < left_out.size(); ++i) {
+    if (!left_out[i]) order.push_back(i);
+  }
+  const auto wanted = static_cast<size_t>(std::lround(share * static_cast<double>(order.size())));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return SeedOf(seed, a) < SeedOf(seed, b); });
+  std::vector<bool> chosen(left_out.size(), false);
+  for (size_t i = 0; i < std::min(wanted, order.size()); ++i) chosen[order[i]] = true;
   return chosen;
 }
 
@@ -126,9 +126,10 @@ Shot RealShot(const Plan& plan, int index, const FlightOptions& options) {
   constexpr double kDriftShare = 0.1;
   Shot shot;
   shot.view = index;
-  shot.position_m = view.position_m + options.position_sigma_m *
-                                          (NormalVector(at_hover) * std::sqrt(1 - kDriftShare * kDriftShare) +
-                                           NormalVector(of_view) * kDriftShare);
+  shot.position_m =
+      view.position_m + options.position_sigma_m *
+                            (NormalVector(at_hover) * std::sqrt(1 - kDriftShare * kDriftShare) +
+                             NormalVector(of_view) * kDriftShare);
   shot.angles = WithNoise(view, options.gimbal_sigma_deg, of_view);
   return shot;
 }
@@ -159,8 +160,9 @@ std::vector<Shot> ScheduleShots(const Plan& plan, const FlightOptions& options) 
     throw Error(ErrorKind::kBadInput, "the plan has no views to fly to", "plan the survey again");
   }
   const uint64_t choices = SeedOf(static_cast<uint64_t>(options.seed), kChoiceSeed);
-  const auto lost = Chosen(plan.views.size(), options.lost_share, SeedOf(choices, 1));
-  const auto twice = Chosen(plan.views.size(), options.duplicate_share, SeedOf(choices, 2));
+  const std::vector<bool> none(plan.views.size(), false);
+  const auto lost = Chosen(none, options.lost_share, SeedOf(choices, 1));
+  const auto twice = Chosen(lost, options.duplicate_share, SeedOf(choices, 2));
   Clock clock(options, plan.origin.latitude_deg);
   std::vector<Shot> shots;
   const PlannedView* before = nullptr;
@@ -177,7 +179,6 @@ std::vector<Shot> ScheduleShots(const Plan& plan, const FlightOptions& options) 
     clock.Stamp(shot);
     shot.number += 1;
     shot.duplicate_of = static_cast<int>(shots.size()) - 1;
-    shot.lost = false;
     shots.push_back(shot);
   }
   return shots;
@@ -189,10 +190,10 @@ Shot HeldOutShot(const Plan& plan, const std::vector<Shot>& shots, const FlightO
                                static_cast<uint64_t>(number));
   Random random(SeedOf(seed, static_cast<uint64_t>(attempt)));
   // Spread over the flight.
-  const size_t near = std::min(
-      shots.size() - 1,
-      static_cast<size_t>((number - 1 + random.Uniform()) * static_cast<double>(shots.size()) /
-                          std::max(1, options.held_out)));
+  const size_t near =
+      std::min(shots.size() - 1, static_cast<size_t>((number - 1 + random.Uniform()) *
+                                                     static_cast<double>(shots.size()) /
+                                                     std::max(1, options.held_out)));
   const PlannedView& view = plan.views[shots[near].view];
   Shot shot = shots[near];
   shot.view = -1;
@@ -201,9 +202,9 @@ Shot HeldOutShot(const Plan& plan, const std::vector<Shot>& shots, const FlightO
   shot.number = number;
   const double turn_rad = random.Uniform(0, 2 * 3.14159265358979323846);
   const double move_m = random.Uniform(1, 3);
-  shot.position_m = view.position_m +
-                    Eigen::Vector3d(move_m * std::cos(turn_rad), move_m * std::sin(turn_rad),
-                                    random.Uniform(-1, 1));
+  shot.position_m =
+      view.position_m + Eigen::Vector3d(move_m * std::cos(turn_rad), move_m * std::sin(turn_rad),
+                                        random.Uniform(-1, 1));
   shot.angles.yaw_deg = view.yaw_deg + random.Uniform(-10, 10);
   shot.angles.pitch_deg = std::clamp(view.pitch_deg + random.Uniform(-10, 10), -90.0, 20.0);
   shot.angles.roll_deg = 0;
@@ -222,7 +223,9 @@ std::string ExifTime(const Shot& shot) {
                      t.second);
 }
 
-int Milliseconds(const Shot& shot) { return TimeOf(shot).millisecond; }
+int Milliseconds(const Shot& shot) {
+  return TimeOf(shot).millisecond;
+}
 
 std::string PhotoName(const Shot& shot, const std::string& view) {
   return fmt::format("DJI_{}_{:04d}_D_{}.JPG", FileTime(shot), shot.number, view);

@@ -18,10 +18,10 @@ struct Shot {
   int view = -1;  // index into Plan::views; -1: held out
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   GimbalAngles angles;
-  int day = 0;           // day of the year, 1 is January 1
-  double hour = 0;       // local solar time
-  double time_s = 0;     // since the first photo
-  int number = 0;        // the camera's count of files, from 1
+  int day = 0;            // day of the year, 1 is January 1
+  double hour = 0;        // local solar time
+  double time_s = 0;      // since the first photo
+  int number = 0;         // the camera's count of files, from 1
   int duplicate_of = -1;  // index of the shot that this one repeats
   bool lost = false;
 };

@@ -10,6 +10,7 @@
 #include "simulate/flight/blur.h"
 #include "simulate/internal/random.h"
 #include "survey/parallel.h"
+#include "survey/srgb.h"
 
 namespace stucco::simulate {
 namespace {
@@ -41,8 +42,8 @@ class CurveTable {
     // Evenly spaced in the square root, where the curve is nearly straight.
     const float at = std::sqrt(std::clamp(linear / kMost, 0.0f, 1.0f)) * kSteps;
     const auto left = static_cast<size_t>(at);
-    const float value = values_[left] + (at - static_cast<float>(left)) *
-                                            (values_[left + 1] - values_[left]);
+    const float value =
+        values_[left] + (at - static_cast<float>(left)) * (values_[left + 1] - values_[left]);
     return static_cast<uint8_t>(std::clamp(value + 0.5f, 0.0f, 255.0f));
   }
 
@@ -52,8 +53,8 @@ class CurveTable {
   std::vector<float> values_;
 };
 
-void DevelopRow(const Radiance& picture, const Camera& camera, const SensorEffects& effects,
-                int y, Image& image) {
+void DevelopRow(const Radiance& picture, const Camera& camera, const SensorEffects& effects, int y,
+                Image& image) {
   static const CurveTable curve;
   const Eigen::Array3f balance = effects.white_balance.cast<float>();
   const auto noise2 = static_cast<float>(effects.noise * effects.noise);
@@ -90,8 +91,7 @@ double CameraCurve(double linear) {
     const double room = 1 - kShoulder;
     value = kShoulder + room * (1 - std::exp(-(value - kShoulder) / room));
   }
-  const double coded =
-      value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
+  const double coded = SrgbFromLinear(value);
   return coded + kContrast * coded * (1 - coded) * (2 * coded - 1);
 }
 
@@ -100,9 +100,8 @@ Image Develop(Radiance picture, const Camera& camera, const SensorEffects& effec
   BlurByTurning(camera, effects.turn_rad, threads, picture);
   Image image{picture.width_px, picture.height_px, 3, {}};
   image.data.resize(picture.rgb.size());
-  ParallelFor(static_cast<size_t>(picture.height_px), threads, [&](size_t y) {
-    DevelopRow(picture, camera, effects, static_cast<int>(y), image);
-  });
+  ParallelFor(static_cast<size_t>(picture.height_px), threads,
+              [&](size_t y) { DevelopRow(picture, camera, effects, static_cast<int>(y), image); });
   return image;
 }
 

@@ -15,8 +15,8 @@ namespace stucco::simulate {
 struct SensorEffects {
   double exposure = 1;
   Eigen::Vector3d white_balance = Eigen::Vector3d::Ones();
-  double vignetting = 0;     // light lost in the farthest corner
-  double focus_blur_px = 0;  // standard deviation
+  double vignetting = 0;                               // light lost in the farthest corner
+  double focus_blur_px = 0;                            // standard deviation
   Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();  // of the camera while the shutter is open
   double noise = 0;  // standard deviation at white, share of white
   uint64_t seed = 0;

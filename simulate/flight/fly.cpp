@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/flight/fly.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "simulate/flight/photo_store.h"
+#include "simulate/flight/prepare.h"
+#include "simulate/flight/take_photos.h"
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/survey_folder.h"
+
+namespace stucco::simulate {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Changes when the same flight gives other photos.
+constexpr char kFlightVersion[] = "1";
+
+fs::path PlanPath(const fs::path& given) {
+  std::error_code error;
+  if (!fs::is_directory(given, error)) return given;
+  for (const char* name : {kPlanFile, "plan.json"}) {
+    if (fs::exists(given / name, error)) return given / name;
+  }
+  throw Error(ErrorKind::kBadInput, fmt::format("{}: has no {}", given.string(), kPlanFile),
+              "make one with stucco plan");
+}
+
+fs::path ModelPath(const fs::path& scene) {
+  std::error_code error;
+  return fs::is_directory(scene, error) ? scene / kSceneModel : scene;
+}
+
+std::string MadeFrom(const FlyRequest& request, const fs::path& plan, FlightOptions options) {
+  options.write_depth = false;  // changes no photo
+  OptionTable table("simulate");
+  Describe(table, options);
+  const std::string parts[] = {
+      kFlightVersion, HashFile(ModelPath(request.scene)), HashFile(plan), CanonicalText(table),
+      fmt::format("{} {}", static_cast<int>(request.reading.up), request.reading.unit_m)};
+  return HashParts(parts);
+}
+
+// The survey keeps the plan that it was flown by.
+void KeepPlan(const fs::path& plan, const fs::path& survey) {
+  const fs::path kept = survey / kPlanFile;
+  const std::string bytes = ReadFile(plan);
+  std::error_code error;
+  if (fs::exists(kept, error)) {
+    if (fs::equivalent(plan, kept, error) || ReadFile(kept) == bytes) return;
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: is another plan than {}", kept.string(), plan.string()),
+                "simulate into a new survey");
+  }
+  fs::create_directories(kept.parent_path(), error);  // what fails here fails in writing
+  WriteFileAtomically(kept, bytes);
+}
+
+}  // namespace
+
+FlySummary Fly(const FlyRequest& request, const FlightOptions& options,
+               const std::function<void(size_t, size_t)>& progress) {
+  FlyRequest real = request;
+  if (real.threads <= 0) {
+    real.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  }
+  const fs::path plan_path = PlanPath(request.plan);
+  const Plan plan = ReadPlan(plan_path);
+  const SceneInfo info = ReadSceneInfo(request.scene);
+  const Renderer renderer(ReadScene(request.scene, request.reading));
+  PreparedFlight prepared = PrepareFlight(plan, info, ShapeOf(renderer), options);
+  prepared.flight.scene = request.scene.string();
+  prepared.flight.made_from = MadeFrom(request, plan_path, options);
+  if (renderer.scene().textures.empty()) {
+    prepared.notes.push_back(
+        "the scene has no textures: photos show plain colours, on which little can be matched");
+  }
+  const Photographer photographer = PhotographerOf(renderer);
+  MeterFlight(photographer, options, real.threads, prepared);
+  KeepPlan(plan_path, request.survey);
+  return TakePhotos(prepared, photographer, options, real, progress);
+}
+
+}  // namespace stucco::simulate

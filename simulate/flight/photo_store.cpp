@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/flight/photo_store.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <set>
+
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/photo_files.h"
+
+namespace stucco::simulate {
+namespace {
+
+namespace fs = std::filesystem;
+
+void MakeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return;
+  const bool is_full = error == std::errc::no_space_on_device;
+  throw Error(is_full ? ErrorKind::kOutOfResource : ErrorKind::kBadInput,
+              fmt::format("{}: cannot be created ({})", folder.string(), error.message()),
+              is_full ? "make room on the disk" : "choose a folder that you may write to");
+}
+
+std::optional<Flight> FlightBefore(const fs::path& survey) {
+  std::error_code error;
+  if (!fs::exists(survey / kFlightFile, error)) return std::nullopt;
+  return ReadFlight(survey);
+}
+
+void RequireOurPhotos(const fs::path& survey, const std::optional<Flight>& before) {
+  std::set<std::string> ours;
+  if (before) {
+    for (const FlownPhoto& photo : before->photos) {
+      if (!photo.held_out) ours.insert(photo.path);
+    }
+  }
+  for (const stucco::PhotoFile& file : FindPhotoFiles(survey / kPhotoFolder)) {
+    if (ours.count(file.path) > 0) continue;
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: no simulated flight made this photo",
+                            (survey / kPhotoFolder / file.file).string()),
+                "simulate into a new survey: real and simulated photos do not mix");
+  }
+}
+
+size_t RemovePhotos(const fs::path& survey, const Flight& flight) {
+  size_t removed = 0;
+  for (const FlownPhoto& photo : flight.photos) {
+    std::error_code error;
+    if (fs::remove(PhotoFile(survey, photo), error)) ++removed;
+    fs::remove(DepthFile(survey, photo), error);
+  }
+  return removed;
+}
+
+}  // namespace
+
+fs::path PhotoFile(const fs::path& survey, const FlownPhoto& photo) {
+  return survey / (photo.held_out ? kTruthFolder : kPhotoFolder) / photo.path;
+}
+
+fs::path DepthFile(const fs::path& survey, const FlownPhoto& photo) {
+  return survey / kTruthFolder / "depth" / (photo.path + ".dmap");
+}
+
+std::vector<std::string> OpenPhotoStore(const fs::path& survey, const Flight& flight) {
+  MakeFolder(survey / kPhotoFolder);
+  const auto before = FlightBefore(survey);
+  RequireOurPhotos(survey, before);
+  MakeFolder(survey / kTruthFolder / "held_out");
+  std::vector<std::string> notes;
+  if (before && before->made_from != flight.made_from) {
+    // Before the new truth is written: a kill in between leaves photos that their truth knows.
+    const size_t removed = RemovePhotos(survey, *before);
+    if (removed > 0) {
+      notes.push_back(fmt::format("{} photos of the flight before were replaced", removed));
+    }
+  }
+  WriteFlight(flight, survey);
+  return notes;
+}
+
+std::string JpegBytes(const Image& image, const fs::path& path, int quality) {
+  // Hidden, so that nobody takes it for a photo should it be left behind.
+  const fs::path partial = path.parent_path() / ("." + path.filename().string() + ".part.jpg");
+  WriteImage(image, partial, quality);
+  std::string bytes = ReadFile(partial);
+  std::error_code error;
+  fs::remove(partial, error);
+  return bytes;
+}
+
+std::string DepthBytes(const DepthMap& map) {
+  const size_t pixels = map.depth_m.size();
+  std::string bytes(12 + 8 * pixels, '\0');
+  const int32_t size[] = {map.width_px, map.height_px};
+  std::memcpy(bytes.data(), "SDM1", 4);
+  std::memcpy(bytes.data() + 4, size, sizeof size);
+  std::memcpy(bytes.data() + 12, map.depth_m.data(), 4 * pixels);
+  return bytes;
+}
+
+}  // namespace stucco::simulate

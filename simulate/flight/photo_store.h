@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "simulate/flight/flight_folder.h"
+#include "simulate/render/renderer.h"
+#include "survey/image.h"
+
+namespace stucco::simulate {
+
+inline constexpr char kPhotoFolder[] = "photos";  // of a survey that was flown here
+
+// Where a photo and its depth map lie.
+std::filesystem::path PhotoFile(const std::filesystem::path& survey, const FlownPhoto& photo);
+std::filesystem::path DepthFile(const std::filesystem::path& survey, const FlownPhoto& photo);
+
+// Makes the folders and writes the flight's truth. Photos of the same flight stay; those of another
+// one are removed, with a note. Throws Error (kBadInput) where the photo folder holds photos of
+// which no flight knows, having changed nothing.
+std::vector<std::string> OpenPhotoStore(const std::filesystem::path& survey, const Flight& flight);
+
+// The picture as a JPEG file's content, by way of a file beside `path`.
+std::string JpegBytes(const Image& image, const std::filesystem::path& path, int quality);
+
+// docs/formats.md, dense/depth: depths alone, without normals and costs.
+std::string DepthBytes(const DepthMap& map);
+
+}  // namespace stucco::simulate
