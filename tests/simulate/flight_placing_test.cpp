@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "simulate/flight/placing.h"
+#include "survey/error.h"
+#include "survey/plan_frame.h"
+#include "tests/simulate/made_flight.h"
+
+namespace stucco::simulate {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string ProblemOf(const Plan& plan, const SceneShape& scene) {
+  try {
+    PlacePlan(plan, MadeSceneInfo(), scene);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+    return std::string(error.what()) + "; " + error.remedy();
+  }
+  return "";
+}
+
+TEST(Placing, GroundOfAPlanWithoutTerrainIsTheScenes) {
+  const PlacedPlan placed = PlacePlan(MadePlan(2), MadeSceneInfo(), MadeScene(17));
+  EXPECT_NEAR(placed.height_m, 267, 1e-6);
+  EXPECT_LT((WorldFromPlan(placed, {5, -15, 4}) - Eigen::Vector3d(5, -15, 21)).norm(), 1e-3);
+}
+
+TEST(Placing, HeightsOfAPlanWithTerrainAreAbsolute) {
+  Plan plan = MadePlan(2);
+  plan.origin.height_m = 253;
+  const PlacedPlan placed = PlacePlan(plan, MadeSceneInfo(), MadeScene());
+  EXPECT_NEAR(WorldFromPlan(placed, {0, 0, 7}).z(), 10, 1e-6);
+}
+
+TEST(Placing, FollowsThePlansOriginAndNorth) {
+  // The plan's origin 900 m east of the scene's: its north is turned by the meridians' convergence.
+  Plan plan = MadePlan(2);
+  PlanOrigin scene_origin{50.1, 14.2, 0};
+  const Geodetic east = GeodeticFromPlan(scene_origin, {900, 0});
+  plan.origin = {east.latitude_deg, east.longitude_deg, 250};
+  for (auto& corner : plan.footprints[0].rings_m[0]) corner.x() -= 900;
+  const PlacedPlan placed = PlacePlan(plan, MadeSceneInfo(), MadeScene());
+  EXPECT_NEAR(WorldFromPlan(placed, {-900, 0, 0}).head<2>().norm(), 0, 2e-3);
+  const Eigen::Matrix3d axes = PlanAxesAt(placed, {0, 0, 0});
+  EXPECT_NEAR((axes.transpose() * axes - Eigen::Matrix3d::Identity()).norm(), 0, 1e-9);
+  EXPECT_NEAR(axes.determinant(), 1, 1e-9);
+  const double convergence = 900 / 6378137.0 * std::tan(50.1 / 57.29578);
+  EXPECT_NEAR(std::atan2(axes(0, 1), axes(1, 1)), -convergence, 2e-6);
+}
+
+TEST(Placing, CameraAxesFollowTheGimbal) {
+  const PlacedPlan placed = PlacePlan(MadePlan(2), MadeSceneInfo(), MadeScene());
+  const auto in_camera = [&](const GimbalAngles& angles, const Eigen::Vector3d& direction) {
+    return Eigen::Vector3d(CameraPose(placed, {1, 2, 3}, angles).rotation * direction);
+  };
+  const Eigen::Vector3d east(1, 0, 0), north(0, 1, 0), up(0, 0, 1);
+  EXPECT_LT((in_camera({0, 0, 0}, north) - Eigen::Vector3d(0, 0, 1)).norm(), 1e-5);
+  EXPECT_LT((in_camera({0, 0, 0}, up) - Eigen::Vector3d(0, -1, 0)).norm(), 1e-5);
+  EXPECT_LT((in_camera({90, 0, 0}, east) - Eigen::Vector3d(0, 0, 1)).norm(), 1e-5);
+  EXPECT_LT((in_camera({90, -90, 0}, up) - Eigen::Vector3d(0, 0, -1)).norm(), 1e-5);
+  EXPECT_LT((in_camera({90, -90, 0}, east) - Eigen::Vector3d(0, -1, 0)).norm(), 1e-5);
+  // Rolled to the right, the camera's right sinks.
+  EXPECT_GT(in_camera({0, 0, 10}, -up).x(), 0.1);
+  const Pose pose = CameraPose(placed, {1, 2, 3}, {30, -20, 0});
+  EXPECT_LT((pose.Center() - Eigen::Vector3d(1, 2, 3)).norm(), 1e-4);
+}
+
+TEST(Placing, AModelWithoutAPlaceIsInThePlansFrame) {
+  SceneInfo info;  // "arbitrary"
+  const PlacedPlan placed = PlacePlan(MadePlan(2), info, MadeScene(2));
+  EXPECT_LT((WorldFromPlan(placed, {5, 6, 7}) - Eigen::Vector3d(5, 6, 9)).norm(), 1e-3);
+  EXPECT_EQ(placed.world.frame, "enu");
+}
+
+TEST(Placing, PlansForOtherPlacesAreRefused) {
+  EXPECT_EQ(ProblemOf(MadePlan(2), MadeScene()), "");
+  Plan far = MadePlan(2);
+  far.origin.latitude_deg += 0.05;
+  EXPECT_THAT(ProblemOf(far, MadeScene()), HasSubstr("another place"));
+  Plan antipode = MadePlan(2);
+  antipode.origin.latitude_deg = -50.1;
+  EXPECT_THAT(ProblemOf(antipode, MadeScene()), HasSubstr("another place"));
+}
+
+TEST(Placing, AModelInMillimetresOrKilometresIsRefusedWithAHint) {
+  SceneShape small = MadeScene();
+  small.box = Eigen::AlignedBox3d(Eigen::Vector3d(-0.1, -0.1, 0), Eigen::Vector3d(0.1, 0.1, 0.01));
+  EXPECT_THAT(ProblemOf(MadePlan(2), small), HasSubstr("--unit"));
+}
+
+TEST(Placing, CamerasInsideHousesOrUnderGroundAreFound) {
+  const SceneShape scene = MadeScene(10);
+  EXPECT_EQ(WhyBlocked(scene, {6, -15, 15}), std::nullopt);
+  EXPECT_EQ(WhyBlocked(scene, {6, 4, 25}), std::nullopt);
+  EXPECT_EQ(WhyBlocked(scene, {6, 4, 13}), "stands inside B0001");
+  EXPECT_EQ(WhyBlocked(scene, {6, -15, 9}), "is below the ground");
+  EXPECT_EQ(WhyBlocked(scene, {500, 500, 5}), std::nullopt);  // beyond the ground's edge
+}
+
+}  // namespace
+}  // namespace stucco::simulate
