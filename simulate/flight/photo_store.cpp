@@ -41,7 +41,7 @@ void RequireOurPhotos(const fs::path& survey, const std::optional<Flight>& befor
       if (!photo.held_out) ours.insert(photo.path);
     }
   }
-  for (const stucco::PhotoFile& file : FindPhotoFiles(survey / kPhotoFolder)) {
+  for (const PhotoFile& file : FindPhotoFiles(survey / kPhotoFolder)) {
     if (ours.count(file.path) > 0) continue;
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: no simulated flight made this photo",
@@ -54,19 +54,19 @@ size_t RemovePhotos(const fs::path& survey, const Flight& flight) {
   size_t removed = 0;
   for (const FlownPhoto& photo : flight.photos) {
     std::error_code error;
-    if (fs::remove(PhotoFile(survey, photo), error)) ++removed;
-    fs::remove(DepthFile(survey, photo), error);
+    if (fs::remove(PathOfPhoto(survey, photo), error)) ++removed;
+    fs::remove(PathOfDepth(survey, photo), error);
   }
   return removed;
 }
 
 }  // namespace
 
-fs::path PhotoFile(const fs::path& survey, const FlownPhoto& photo) {
+fs::path PathOfPhoto(const fs::path& survey, const FlownPhoto& photo) {
   return survey / (photo.held_out ? kTruthFolder : kPhotoFolder) / photo.path;
 }
 
-fs::path DepthFile(const fs::path& survey, const FlownPhoto& photo) {
+fs::path PathOfDepth(const fs::path& survey, const FlownPhoto& photo) {
   return survey / kTruthFolder / "depth" / (photo.path + ".dmap");
 }
 

@@ -15,8 +15,8 @@ namespace stucco::simulate {
 inline constexpr char kPhotoFolder[] = "photos";  // of a survey that was flown here
 
 // Where a photo and its depth map lie.
-std::filesystem::path PhotoFile(const std::filesystem::path& survey, const FlownPhoto& photo);
-std::filesystem::path DepthFile(const std::filesystem::path& survey, const FlownPhoto& photo);
+std::filesystem::path PathOfPhoto(const std::filesystem::path& survey, const FlownPhoto& photo);
+std::filesystem::path PathOfDepth(const std::filesystem::path& survey, const FlownPhoto& photo);
 
 // Makes the folders and writes the flight's truth. Photos of the same flight stay; those of another
 // one are removed, with a note. Throws Error (kBadInput) where the photo folder holds photos of

@@ -80,12 +80,12 @@ FlySummary TakePhotos(const PreparedFlight& prepared, const Photographer& photog
   size_t done = 0;
   ParallelFor(wanted.size(), threads.photos, [&](size_t i) {
     const FlownPhoto& photo = photos[wanted[i]];
-    const fs::path path = PhotoFile(request.survey, photo);
+    const fs::path path = PathOfPhoto(request.survey, photo);
     std::error_code error;
     const bool is_there = fs::exists(path, error);
     if (!is_there) TakePhoto(prepared, wanted[i], photographer, options, path, threads.inside);
     if (options.write_depth) {
-      TakeDepth(photo, photographer, DepthFile(request.survey, photo), threads.inside);
+      TakeDepth(photo, photographer, PathOfDepth(request.survey, photo), threads.inside);
     }
     const std::lock_guard lock(mutex);
     if (!is_there) {

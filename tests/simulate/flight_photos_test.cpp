@@ -74,7 +74,7 @@ TEST_F(TakePhotosTest, TakesWhatIsNotLost) {
   for (const FlownPhoto& photo : flight.photos) {
     EXPECT_EQ(fs::exists(survey_ / (photo.held_out ? "truth" : "photos") / photo.path),
               !photo.lost);
-    EXPECT_EQ(fs::exists(DepthFile(survey_, photo)), !photo.lost);
+    EXPECT_EQ(fs::exists(PathOfDepth(survey_, photo)), !photo.lost);
   }
   // A photo taken twice is not the same file twice.
   for (const FlownPhoto& photo : flight.photos) {
@@ -148,7 +148,7 @@ TEST_F(TakePhotosTest, DepthMapsAreInTheFormatOfTheDenseStage) {
   options.write_depth = true;
   Take(options);
   const FlownPhoto photo = ReadFlight(survey_).photos[1];  // looks down by 20 degrees
-  const std::string bytes = ReadFile(DepthFile(survey_, photo));
+  const std::string bytes = ReadFile(PathOfDepth(survey_, photo));
   ASSERT_EQ(bytes.size(), 12u + 8u * 106 * 79);
   EXPECT_EQ(bytes.substr(0, 4), "SDM1");
   float depth = 0;

@@ -30,7 +30,9 @@ TEST(Schedule, WithoutNoiseItIsThePlan) {
     EXPECT_EQ(shots[i].angles.pitch_deg, view.pitch_deg);
     EXPECT_EQ(shots[i].angles.roll_deg, 0);
     EXPECT_EQ(shots[i].number, static_cast<int>(i) + 1);
-    if (i > 0) EXPECT_GT(shots[i].time_s, shots[i - 1].time_s + 1);
+    if (i > 0) {
+      EXPECT_GT(shots[i].time_s, shots[i - 1].time_s + 1);
+    }
   }
   EXPECT_EQ(shots[0].hour, 10);
 }
@@ -95,7 +97,9 @@ TEST(Schedule, FliesByDay) {
   for (size_t i = 0; i < shots.size(); ++i) {
     EXPECT_GE(SunElevation_deg(50.1, shots[i].day, shots[i].hour), kLowestSun_deg);
     EXPECT_GE(shots[i].hour, 16);
-    if (i > 0) EXPECT_GT(shots[i].time_s, shots[i - 1].time_s);
+    if (i > 0) {
+      EXPECT_GT(shots[i].time_s, shots[i - 1].time_s);
+    }
   }
   options.start_hour = 23;
   EXPECT_THROW(ScheduleShots(plan, options), Error);
