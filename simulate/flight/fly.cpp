@@ -47,6 +47,30 @@ std::string MadeFrom(const FlyRequest& request, const fs::path& plan, FlightOpti
   return HashParts(parts);
 }
 
+SceneShape ShapeOf(const Renderer& renderer) {
+  SceneShape shape;
+  for (const Eigen::Vector3f& position : renderer.scene().positions) {
+    shape.box.extend(position.cast<double>().eval());
+  }
+  shape.elements = renderer.scene().elements;
+  shape.cast = [&renderer](const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
+    return renderer.Cast(from, direction);
+  };
+  return shape;
+}
+
+Photographer PhotographerOf(const Renderer& renderer) {
+  Photographer photographer;
+  photographer.photograph = [&renderer](const Camera& camera, const Pose& pose, const Light& light,
+                                        int threads) {
+    return renderer.Photograph(camera, pose, light, {.threads = threads, .left_out = {}});
+  };
+  photographer.depth = [&renderer](const Camera& camera, const Pose& pose, int threads) {
+    return renderer.Depth(camera, pose, {.threads = threads, .left_out = {}});
+  };
+  return photographer;
+}
+
 // The survey keeps the plan that it was flown by.
 void KeepPlan(const fs::path& plan, const fs::path& survey) {
   const fs::path kept = survey / kPlanFile;

@@ -114,18 +114,6 @@ void RequireSamePlace(const Plan& plan, const PlacedPlan& placed, const SceneSha
 
 }  // namespace
 
-SceneShape ShapeOf(const Renderer& renderer) {
-  SceneShape shape;
-  for (const Eigen::Vector3f& position : renderer.scene().positions) {
-    shape.box.extend(position.cast<double>().eval());
-  }
-  shape.elements = renderer.scene().elements;
-  shape.cast = [&renderer](const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
-    return renderer.Cast(from, direction);
-  };
-  return shape;
-}
-
 PlacedPlan PlacePlan(const Plan& plan, const SceneInfo& info, const SceneShape& scene) {
   PlacedPlan placed;
   placed.origin = plan.origin;

@@ -29,7 +29,6 @@ struct SceneShape {
   std::vector<std::string> elements;
   CastRay cast;
 };
-SceneShape ShapeOf(const Renderer& renderer);
 
 // Where a plan lies in the frame of a scene.
 struct PlacedPlan {

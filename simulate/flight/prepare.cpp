@@ -128,18 +128,6 @@ const Eigen::Vector3d kRtkSigma_m(0.011, 0.011, 0.02);
 
 }  // namespace
 
-Photographer PhotographerOf(const Renderer& renderer) {
-  Photographer photographer;
-  photographer.photograph = [&renderer](const Camera& camera, const Pose& pose, const Light& light,
-                                        int threads) {
-    return renderer.Photograph(camera, pose, light, {.threads = threads, .left_out = {}});
-  };
-  photographer.depth = [&renderer](const Camera& camera, const Pose& pose, int threads) {
-    return renderer.Depth(camera, pose, {.threads = threads, .left_out = {}});
-  };
-  return photographer;
-}
-
 PreparedFlight PrepareFlight(const Plan& plan, const SceneInfo& info, const SceneShape& scene,
                              const FlightOptions& options) {
   PreparedFlight prepared;

@@ -22,7 +22,6 @@ struct Photographer {
   std::function<Radiance(const Camera&, const Pose&, const Light&, int threads)> photograph;
   std::function<DepthMap(const Camera&, const Pose&, int threads)> depth;
 };
-Photographer PhotographerOf(const Renderer& renderer);
 
 // A flight of which every photo is settled and none is taken.
 struct PreparedFlight {
