@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/exit_code.h"
 #include "pipeline/layout.h"
 #include "pipeline/resources.h"
 #include "pipeline/settings.h"
@@ -66,6 +67,22 @@ PhotoFolder InitSurvey(const fs::path& survey, const fs::path& photos, const Sta
   }
   WriteFileAtomically(settings, SettingsTemplate(table, written));
   return found;
+}
+
+void InitWaitingSurvey(const fs::path& survey, const StageTable& table) {
+  constexpr char kPhotoFolder[] = "photos";
+  std::error_code error;
+  if (fs::exists(survey, error) && !fs::is_directory(survey, error)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: is a file, not a folder", survey.string()),
+                "choose another name for the survey");
+  }
+  if (fs::exists(survey / kSettingsFile, error)) return;
+  fs::create_directories(survey / kPhotoFolder, error);
+  if (error) {
+    throw WriteError(survey / kPhotoFolder, "cannot be created", error.value());
+  }
+  RequireApart(survey, survey / kPhotoFolder, table);
+  WriteFileAtomically(survey / kSettingsFile, SettingsTemplate(table, kPhotoFolder));
 }
 
 }  // namespace stucco

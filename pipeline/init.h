@@ -17,4 +17,8 @@ namespace stucco {
 PhotoFolder InitSurvey(const std::filesystem::path& survey, const std::filesystem::path& photos,
                        const StageTable& table);
 
+// Makes a folder a survey that waits for its photos in SURVEY/photos. What is in the folder already
+// stays, and a folder that is a survey is left as it is. Throws Error (kBadInput).
+void InitWaitingSurvey(const std::filesystem::path& survey, const StageTable& table);
+
 }  // namespace stucco

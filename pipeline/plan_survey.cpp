@@ -6,8 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "pipeline/events.h"
-#include "pipeline/exit_code.h"
-#include "pipeline/layout.h"
+#include "pipeline/init.h"
 #include "pipeline/lock.h"
 #include "pipeline/outputs.h"
 #include "pipeline/progress.h"
@@ -26,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kPlanFolder[] = "plan";
-constexpr char kPhotoFolder[] = "photos";
 
 plan::PlanOptions ReadOptions(const std::vector<std::string>& set) {
   plan::PlanOptions options;
@@ -54,22 +52,6 @@ plan::SiteInputs InputsOf(const PlanRequest& request) {
   if (!request.terrain.empty()) inputs.dem = request.terrain;
   if (!request.home.empty()) inputs.home = request.home;
   return inputs;
-}
-
-// What is in the folder already stays; only what a survey needs is added.
-void MakeSurvey(const fs::path& survey, const StageTable& table) {
-  std::error_code error;
-  if (fs::exists(survey, error) && !fs::is_directory(survey, error)) {
-    throw Error(ErrorKind::kBadInput, fmt::format("{}: is a file, not a folder", survey.string()),
-                "choose another name for the survey");
-  }
-  if (fs::exists(survey / kSettingsFile, error)) return;
-  fs::create_directories(survey / kPhotoFolder, error);
-  if (error) {
-    throw WriteError(survey / kPhotoFolder, "cannot be created", error.value());
-  }
-  RequireApart(survey, survey / kPhotoFolder, table);
-  WriteFileAtomically(survey / kSettingsFile, SettingsTemplate(table, kPhotoFolder));
 }
 
 PlanSummary Summarise(const plan::PlanResult& result, const plan::Site& site) {
@@ -104,7 +86,7 @@ PlanSummary PlanSurvey(const fs::path& survey, const PlanRequest& request, const
   const int threads = request.threads > 0 ? request.threads : AvailableCores();
   // All that can be wrong with the input shows before the survey is touched.
   const plan::Site site = plan::ReadSite(InputsOf(request), options);
-  MakeSurvey(survey, table);
+  InitWaitingSurvey(survey, table);
   const SurveyLock lock(survey, fmt::format("plan {}", request.map.string()));
   CleanScratch(survey);
   ScratchFolder scratch(survey, kPlanFolder);

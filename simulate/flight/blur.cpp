@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -107,32 +108,38 @@ Eigen::Array3f ShortMean(const Radiance& in, int x, int y, const Eigen::Vector2d
   return mean.max(0.0f);
 }
 
-Eigen::Array3f Bilinear(const Radiance& in, double x, double y) {
-  const double left = std::floor(x);
-  const double top = std::floor(y);
-  const auto fx = static_cast<float>(x - left);
-  const auto fy = static_cast<float>(y - top);
-  const int ix = static_cast<int>(left);
-  const int iy = static_cast<int>(top);
-  const auto at = [&](int dx, int dy) {
-    return Eigen::Map<const Eigen::Array3f>(PixelAt(in, ix + dx, iy + dy));
-  };
-  return (1 - fy) * ((1 - fx) * at(0, 0) + fx * at(1, 0)) +
-         fy * ((1 - fx) * at(0, 1) + fx * at(1, 1));
+// Weights of the four pixels around a place `f` behind the second (Keys, "Cubic convolution
+// interpolation", 1981). Unlike linear weights they add no variance of their own.
+std::array<float, 4> CubicWeights(float f) {
+  return {((-0.5f * f + 1) * f - 0.5f) * f, (1.5f * f - 2.5f) * f * f + 1,
+          ((-1.5f * f + 2) * f + 0.5f) * f, (0.5f * f - 0.5f) * f * f};
 }
 
-// The mean along a way of two pixels and more. Reading between pixels has a variance of 1/6 of its
-// own, which is taken off the way's length squared over 12.
+Eigen::Array3f Interpolated(const Radiance& in, double x, double y) {
+  const double left = std::floor(x);
+  const double top = std::floor(y);
+  const auto across = CubicWeights(static_cast<float>(x - left));
+  const auto down = CubicWeights(static_cast<float>(y - top));
+  Eigen::Array3f sum = Eigen::Array3f::Zero();
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      const float* pixel =
+          PixelAt(in, static_cast<int>(left) + i - 1, static_cast<int>(top) + j - 1);
+      sum += across[i] * down[j] * Eigen::Map<const Eigen::Array3f>(pixel);
+    }
+  }
+  return sum;
+}
+
+// The mean along a way of two pixels and more.
 Eigen::Array3f LongMean(const Radiance& in, int x, int y, const Eigen::Vector2d& way) {
-  const double length = way.norm();
-  const Eigen::Vector2d shorter = way * std::sqrt(std::max(0.0, 1 - 2 / (length * length)));
-  const int samples = static_cast<int>(std::ceil(2 * length)) + 1;
+  const int samples = static_cast<int>(std::ceil(3 * way.norm())) + 1;
   Eigen::Array3f sum = Eigen::Array3f::Zero();
   for (int i = 0; i < samples; ++i) {
-    const Eigen::Vector2d offset = shorter * ((i + 0.5) / samples - 0.5);
-    sum += Bilinear(in, x + offset.x(), y + offset.y());
+    const Eigen::Vector2d offset = way * ((i + 0.5) / samples - 0.5);
+    sum += Interpolated(in, x + offset.x(), y + offset.y());
   }
-  return sum / static_cast<float>(samples);
+  return (sum / static_cast<float>(samples)).max(0.0f);
 }
 
 }  // namespace

@@ -44,13 +44,12 @@ Light DaylightAt(const FlightOptions& options, double latitude_deg, int day_of_y
 }
 
 Eigen::Vector3d NeutralGains(const Light& light) {
-  // A level surface gets the sun's light by its height.
-  const double height = std::max(0.0, light.to_sun.z());
-  const Eigen::Vector3d on_ground =
-      (light.sun * static_cast<float>(height) + light.sky).cast<double>();
+  // What is seen is turned half towards the sun, on the average.
+  constexpr float kTowardsSun = 0.5f;
+  const Eigen::Vector3d seen = (kTowardsSun * light.sun + light.sky).cast<double>();
   constexpr double kShare = 0.7;
-  if (!(on_ground.minCoeff() > 0)) return Eigen::Vector3d::Ones();
-  return (on_ground.y() / on_ground.array()).pow(kShare);
+  if (!(seen.minCoeff() > 0)) return Eigen::Vector3d::Ones();
+  return (seen.y() / seen.array()).pow(kShare);
 }
 
 }  // namespace stucco::simulate

@@ -22,7 +22,7 @@ void Describe(OptionTable& table, FlightOptions& options) {
             "recorded without RTK are lower by.");
   table.Add("gimbal_noise_deg", options.gimbal_noise_deg, 0.0, 20.0,
             "Noise of the recorded gimbal angles, in degrees.");
-  table.Add("distortion", options.distortion, 0.0, 3.0, "Times the distortion of a real lens.");
+  table.Add("distortion", options.distortion, 0.0, 2.0, "Times the distortion of a real lens.");
   table.Add("vignetting", options.vignetting, 0.0, 0.9, "Share of the light lost in the corners.");
   table.Add("exposure_drift", options.exposure_drift, 0.0, 1.0,
             "Share by which the exposure wanders over the flight.");

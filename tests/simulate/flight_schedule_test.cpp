@@ -91,7 +91,7 @@ TEST(Schedule, LosesAndRepeatsExactlyTheShare) {
 TEST(Schedule, FliesByDay) {
   FlightOptions options;
   options.start_hour = 16;
-  Plan plan = MadePlan(2000);  // 1000 stops: hours
+  Plan plan = MadePlan(5000);  // 2500 stops: hours
   const auto shots = ScheduleShots(plan, options);
   EXPECT_GT(shots.back().day, options.day_of_year);
   for (size_t i = 0; i < shots.size(); ++i) {
