@@ -107,6 +107,11 @@ FlySummary Fly(const FlyRequest& request, const FlightOptions& options,
   }
   const Photographer photographer = PhotographerOf(renderer);
   MeterFlight(photographer, options, real.threads, prepared);
+  if (progress) {
+    progress(0, static_cast<size_t>(
+                    std::count_if(prepared.flight.photos.begin(), prepared.flight.photos.end(),
+                                  [](const FlownPhoto& photo) { return !photo.lost; })));
+  }
   KeepPlan(plan_path, request.survey);
   return TakePhotos(prepared, photographer, options, real, progress);
 }

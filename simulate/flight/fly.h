@@ -31,7 +31,8 @@ struct FlySummary {
 };
 
 // Flies a plan through a scene: photos with the metadata that a drone writes into SURVEY/photos,
-// the truth beside them. `progress` hears (done, total) after each photo, one call at a time; what
+// the truth beside them. `progress` hears (0, total) when all input is known to be
+// sound and nothing is written yet, then (done, total) after each photo, one call at a time; what
 // it throws ends the flight. What an interrupted flight has finished is kept: the same call goes
 // on; a call with other options, plan or scene replaces the photos of the flight before, and nobody
 // else's. Throws Error (kBadInput): the plan is for another place, cameras stand inside buildings,
