@@ -106,8 +106,9 @@ TEST(SimulatedPhoto, ExiftoolReadsIt) {
   std::array<char, 512> line{};
   while (std::fgets(line.data(), line.size(), pipe) != nullptr) output += line.data();
   EXPECT_EQ(pclose(pipe), 0) << output;
-  EXPECT_EQ(output.substr(0, output.find('\n')),
-            "M3E|2026:04:30 10:00:12|-72.50|50.0875123333333|W|231.456|12.29|+50.087512345|+231.456|")
+  EXPECT_EQ(
+      output.substr(0, output.find('\n')),
+      "M3E|2026:04:30 10:00:12|-72.50|50.0875123333333|W|231.456|12.29|+50.087512345|+231.456|")
       << output;
 }
 
