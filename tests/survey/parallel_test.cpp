@@ -5,10 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <random>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
 namespace stucco {
@@ -93,22 +91,6 @@ TEST(ParallelInOrder, CallsEachIndexOnceAfterThoseItWaitsFor) {
       for (size_t i = 0; i < count; ++i) EXPECT_EQ(ended[i], 1) << threads << " " << i;
     }
   }
-}
-
-TEST(ParallelInOrder, RunsWhatDoesNotWaitAtTheSameTime) {
-  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor";
-  // Two chains; the calls of a pair wait for each other.
-  std::vector<std::vector<size_t>> before(20);
-  for (size_t i = 2; i < before.size(); ++i) before[i].push_back(i - 2);
-  std::vector<std::atomic<bool>> begun(before.size());
-  std::atomic<int> met = 0;
-  ParallelInOrder(before, 2, [&](size_t i) {
-    begun[i] = true;
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    while (!begun[i ^ 1] && std::chrono::steady_clock::now() < limit) std::this_thread::yield();
-    met += begun[i ^ 1] ? 1 : 0;
-  });
-  EXPECT_EQ(met, 20);
 }
 
 TEST(ParallelInOrder, RethrowsAndCallsNothingThatWaitsForTheFailed) {
