@@ -44,12 +44,12 @@ Brick BrickAt(Bond bond, float x, int row) {
 Colour BrickColour(const WallLook& look, const Brick& brick) {
   const uint32_t seed = look.wall;
   const auto draw = [&](int k) { return Normal(brick.column, brick.row, seed + 13 * k); };
-  constexpr float kSpread = 1.0f;  // a pixel of the picture averages several bricks
+  constexpr float kSpread = 0.6f;  // a pixel of the picture averages several bricks
   Colour colour = Pick(look.palette, kSpread * draw(1), kSpread * draw(2), draw(3));
-  colour = colour * Tone(0.10f * draw(6));
+  colour = colour * Tone(0.07f * draw(6));
   const float kind = Uniform(brick.column, brick.row, seed + 91);
-  if (kind < 0.05f) colour = colour * Colour{0.50f, 0.50f, 0.55f};
-  if (kind > 0.97f) colour = colour * Colour{1.35f, 1.25f, 1.15f};
+  if (kind < 0.03f) colour = colour * Colour{0.62f, 0.62f, 0.66f};
+  if (kind > 0.98f) colour = colour * Colour{1.25f, 1.18f, 1.12f};
   return colour;
 }
 
@@ -72,7 +72,9 @@ Style StyleOf(const WallLook& look) {
   const float bond = Trait(look, 1);
   style.bond = bond < 0.4f ? Bond::kStretcher : bond < 0.75f ? Bond::kFlemish : Bond::kEnglish;
   const float light = Trait(look, 2);
-  style.mortar = Mix(FromSrgb(110, 104, 98), FromSrgb(205, 198, 184), light);
+  // Dust of the bricks and soot bring mortar near the bricks' own colour within years.
+  style.mortar = Mix(Mix(FromSrgb(100, 95, 90), FromSrgb(190, 184, 172), light),
+                     Pick(look.palette, 0, 0, 0), 0.5f + 0.3f * Trait(look, 4));
   style.joint_m = 0.009f + 0.004f * Trait(look, 3);
   return style;
 }
@@ -89,7 +91,7 @@ void PaintBrick(Tile& tile, const WallLook& look) {
     return Noise(x, y, {2.4f, 3, 0.5f, look.wall + 6}, texel);
   });
   const float crisp = BandShare(0.035f, texel);  // what is finer than a brick can be seen
-  const float grain = 0.10f * std::min(1.0f, 0.01f / texel);
+  const float grain = 0.045f * std::min(1.0f, 0.01f / texel);
   for (int row = 0; row < tile.height; ++row) {
     Brick brick{0, 1 << 30, 0, 0};
     Colour colour;
@@ -113,9 +115,9 @@ void PaintBrick(Tile& tile, const WallLook& look) {
           Cover(x + rough, brick.left + style.joint_m / 2, brick.right - style.joint_m / 2, texel);
       // Raked joints lie in the shade of the brick above.
       const float y_in = y - static_cast<float>(course) * kCourse_m;
-      const float shade = Mix(0.86f, y_in < kCourse_m / 2 ? 0.72f : 1.0f, crisp);
+      const float shade = Mix(0.87f, y_in < kCourse_m / 2 ? 0.78f : 0.96f, crisp);
       const Colour mortar =
-          style.mortar * (shade * Tone(0.16f * pointing(column, row) + 0.25f * white));
+          style.mortar * (shade * Tone(0.16f * pointing(column, row) + 0.16f * white));
       const float face =
           1 + 2 * grain * white + 0.07f * GradientNoise(x * 26, y * 32, look.wall + 19) * crisp;
       tile.At(column, row) = Mix(mortar, colour * face, share_x * share_y);

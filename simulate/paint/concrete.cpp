@@ -55,8 +55,8 @@ void PaintConcrete(Tile& tile, const WallLook& look) {
   const float width = Trait(look, 1) < 0.5f ? 1.25f : 2.5f;
   const float height = Trait(look, 2) < 0.5f ? 1.25f : 2.7f;
   const bool ties = Trait(look, 3) < 0.7f;
-  const Field cloud(tile, StepFor(0.1f, texel), [&](float x, float y) {
-    return Noise(x, y, {0.9f, 4, 0.65f, look.wall + 5}, texel);
+  const Field cloud(tile, StepFor(0.2f, texel), [&](float x, float y) {
+    return Noise(x, y, {0.9f, 3, 0.7f, look.wall + 5}, texel);
   });
   const float grain = 0.05f * std::min(1.0f, 0.01f / texel);
   for (int row = 0; row < tile.height; ++row) {

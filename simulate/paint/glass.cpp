@@ -7,10 +7,27 @@
 namespace stucco::simulate::internal {
 namespace {
 
-// The house opposite at `x`: how high it stands over the horizon, and its tone.
-float RoofOpposite(float x, uint32_t seed) {
-  const int house = Floor(x / 7);
-  return 1.0f + 6.0f * Uniform(house, 0, seed) + 0.2f * Noise(x, 0.5f, {2, 2, 0.5f, seed}, 0.05f);
+// Houses opposite are this wide, their storeys and axes of windows this far apart.
+constexpr float kHouse_m = 9;
+constexpr float kStorey_m = 3.1f;
+constexpr float kAxis_m = 2.3f;
+
+// How much of a bump of half width `half` around 0.5 is at a share `t` of a period.
+float Bump(float t, float half, float soft) {
+  return Smooth(half + soft, half - soft, std::abs(t - 0.5f));
+}
+
+Colour Opposite(float x, float y, int house, uint32_t seed) {
+  const Colour wall = Mix(FromSrgb(112, 98, 86), FromSrgb(168, 160, 148), Uniform(house, 1, seed)) *
+                      (0.5f + 0.5f * Uniform(house, 2, seed));
+  const int axis = Floor(x / kAxis_m);
+  const int storey = Floor(y / kStorey_m);
+  const float u = x / kAxis_m - static_cast<float>(axis);
+  const float v = y / kStorey_m - static_cast<float>(storey);
+  const Colour pane =
+      Grey(0.02f + 0.25f * Uniform(axis, storey, seed) * Uniform(storey, axis, seed));
+  const Colour front = Mix(wall, pane, Bump(u, 0.24f, 0.02f) * Bump(v, 0.27f, 0.02f));
+  return front;
 }
 
 struct Grid {
@@ -40,17 +57,13 @@ Grid GridOf(const WallLook& look) {
 
 Colour Mirrored(float x, float y, float horizon_y, uint32_t seed) {
   const float up = horizon_y - y;
-  const float roof = RoofOpposite(x, seed);
-  const float cloud = Smooth(-0.6f, 1.4f, Noise(x, 1.6f * y, {9, 4, 0.55f, seed + 1}, 0.08f));
-  const Colour sky = Mix(FromSrgb(118, 152, 196), FromSrgb(214, 220, 226), cloud) *
+  const int house = Floor(x / kHouse_m);
+  const float roof = 1 + 6 * Uniform(house, 0, seed);
+  if (up < roof - 0.05f) return Opposite(x, y, house, seed);
+  const float cloud = Smooth(-0.6f, 1.4f, Noise(x, 1.6f * y, {9, 3, 0.55f, seed + 1}, 0.08f));
+  const Colour sky = Mix(FromSrgb(128, 152, 186), FromSrgb(208, 214, 220), cloud) *
                      (0.75f + 0.25f * Smooth(0, 25, up));
-  if (up > roof + 0.3f) return sky;
-  const int house = Floor(x / 7);
-  const Colour wall = FromSrgb(120, 108, 96) * (0.5f + Uniform(house, 1, seed));
-  const float openings = Smooth(0.1f, 0.3f, std::sin(x * 3.1f) * std::sin(y * 2.1f));
-  const Colour facade =
-      wall * (1 - 0.6f * openings) * Tone(0.2f * GradientNoise(x * 0.8f, y * 0.8f, seed + 2));
-  return Mix(facade, sky, Smooth(roof - 0.3f, roof + 0.3f, up));
+  return Mix(Opposite(x, y, house, seed), sky, Smooth(roof - 0.05f, roof + 0.05f, up));
 }
 
 void PaintCurtainWall(Tile& tile, const WallLook& look) {
@@ -58,7 +71,8 @@ void PaintCurtainWall(Tile& tile, const WallLook& look) {
   const Grid grid = GridOf(look);
   const std::vector<Pane>& rooms = Facades().windows;
   const Colour tint = Pick(look.palette, 0, 0, 0);
-  const Colour glass = tint * (1 / std::max(0.05f, Luminance(tint)));
+  // The coating colours what it mirrors, though less than the picture's blue sky would tell.
+  const Colour glass = Mix(tint * (1 / std::max(0.05f, Luminance(tint))), Grey(1), 0.6f);
   const float opacity = 0.3f + 0.4f * Trait(look, 2);  // how much the coating mirrors
   const Colour metal = Trait(look, 3) < 0.5f ? Grey(0.45f) : Grey(0.05f);
   const float bar = 0.025f + 0.02f * Trait(look, 4);

@@ -15,6 +15,7 @@ float Grain(const Tile& tile, int column, int row, uint32_t seed) {
 struct Cut {
   float inside = -1;  // signed distance from its edge
   float tone = 0;
+  float tar_m = 0;  // half the width of the sealed joint
 };
 
 Cut CutAt(float x, float y, uint32_t seed) {
@@ -27,8 +28,23 @@ Cut CutAt(float x, float y, uint32_t seed) {
   const float top = kCell_m * (static_cast<float>(cy) + 0.4f * ToUnit(h * 0x85ebca77u));
   const float wide = 0.6f + 2.2f * ToUnit(h * 0xc2b2ae3du);
   const float high = 0.6f + 2.2f * ToUnit(h * 0x2c1b3c6du);
-  return {std::min(std::min(x - left, left + wide - x), std::min(y - top, top + high - y)),
-          0.5f * (ToUnit(h) - 0.6f)};
+  const float ragged = 0.03f * Noise(x, y, {0.7f, 3, 0.6f, h}, 0.02f);
+  const float inside =
+      std::min(std::min(x - left, left + wide - x), std::min(y - top, top + high - y));
+  return {inside + ragged, 0.5f * (ToUnit(h) - 0.6f), (h & 0x300) != 0 ? 0.015f : 0.0f};
+}
+
+// Spots of gum, drips and leaves: the share of a texel that one covers.
+float Gum(float x, float y, uint32_t seed, float texel_m) {
+  constexpr float kCell_m = 0.16f;
+  const int cx = Floor(x / kCell_m);
+  const int cy = Floor(y / kCell_m);
+  const uint32_t h = Hash(cx, cy, seed);
+  if (h % 23 != 0) return 0;
+  const float dx = x / kCell_m - static_cast<float>(cx) - 0.25f - 0.5f * ToUnit(h * 0x9e3779b1u);
+  const float dy = y / kCell_m - static_cast<float>(cy) - 0.25f - 0.5f * ToUnit(h * 0x85ebca77u);
+  const float radius_m = 0.008f + 0.02f * ToUnit(h * 0xc2b2ae3du);
+  return Edge(radius_m - kCell_m * std::sqrt(dx * dx + dy * dy), texel_m);
 }
 
 // A cast-iron lid: at most one in a square of 9 m. Negative outside.
@@ -65,18 +81,17 @@ void PaintAsphalt(Tile& tile, const CoveringLook& look) {
       float tone = 0.11f * g + chip + 0.09f * stain(column, row);
       const Cut cut = CutAt(x, y, look.seed + 7);
       tone += cut.tone * Edge(cut.inside, texel);
-      const float open = Smooth(0.3f, 1.2f, worn(column, row));
+      const float open = Smooth(-0.2f, 1.0f, worn(column, row));
       if (open > 0) {
         const float level = Noise(x, y, {1.7f, 5, 0.6f, look.seed + 9}, texel);
         tone -= 0.8f * Edge(0.006f * open - std::abs(level) / 2.2f, texel);
       }
       Colour colour = base * Tone(tone);
       // Joints of patches are sealed with tar.
-      colour = Mix(colour, Grey(0.012f), 0.8f * Edge(0.025f - std::abs(cut.inside), texel));
+      colour = Mix(colour, Grey(0.012f), 0.7f * Edge(cut.tar_m - std::abs(cut.inside), texel));
       const float oil = GradientNoise(x * 0.9f, y * 0.9f, look.seed + 10);
       colour = colour * (1 - 0.4f * Smooth(1.7f, 2.3f, oil));
-      const float gum = Uniform(Floor(x / 0.09f), Floor(y / 0.09f), look.seed + 11);
-      colour = colour * (gum > 0.995f ? 1.5f : 1.0f);
+      colour = colour * (1 + 0.5f * Gum(x, y, look.seed + 11, texel));
       float pattern = 0;
       const float lid = Lid(x, y, look.seed + 12, pattern);
       colour = Mix(colour, Grey(0.055f) * Tone(0.6f * pattern + 0.1f * g), Edge(lid, texel));
@@ -118,8 +133,7 @@ void PaintPaving(Tile& tile, const CoveringLook& look) {
       const float green = Smooth(0.4f, 1.6f, stain(column, row));
       const Colour joint = Mix(base * 0.3f, Colour{0.06f, 0.09f, 0.03f}, green) * Tone(0.3f * g);
       Colour colour = Mix(joint, stone, Edge(inside, texel));
-      const float gum = Uniform(Floor(x / 0.05f), Floor(y / 0.05f), look.seed + 8);
-      if (gum > 0.998f) colour = colour * 0.6f;
+      colour = colour * (1 - 0.4f * Gum(x, y, look.seed + 8, texel));
       float pattern = 0;
       const float lid = Lid(x, y, look.seed + 12, pattern);
       colour = Mix(colour, Grey(0.06f) * Tone(0.6f * pattern + 0.1f * g), Edge(lid, texel));
@@ -144,7 +158,7 @@ void PaintGrass(Tile& tile, const CoveringLook& look) {
       const float blade =
           0.7f * GradientNoise(x * 30, y * 24, look.seed + 4) * BandShare(0.035f, texel) +
           Grain(tile, column, row, look.seed + 3);
-      const float parched = Smooth(-0.3f, 2.0f, m + 0.5f * tuft);
+      const float parched = Smooth(-0.3f, 2.0f, m + 0.22f * tuft);
       Colour colour =
           Mix(lush, dry, 0.75f * parched) * Tone(0.26f * blade + 0.16f * tuft - 0.12f * m);
       const float bare = Smooth(1.9f, 2.6f, -m + 0.4f * tuft);

@@ -51,8 +51,8 @@ void PaintPlaster(Tile& tile, const WallLook& look) {
   const float texel = tile.texel_m;
   const Colour base = Pick(look.palette, 0.5f * (Trait(look, 1) - 0.5f), 2 * Trait(look, 2) - 1,
                            2 * Trait(look, 3) - 1);
-  const Field trowel(tile, StepFor(0.08f, texel), [&](float x, float y) {
-    return Noise(x, y, {0.64f, 4, 0.7f, look.wall + 5}, texel);
+  const Field trowel(tile, StepFor(0.2f, texel), [&](float x, float y) {
+    return Noise(x, y, {0.8f, 3, 0.75f, look.wall + 5}, texel);
   });
   const Field cracked(tile, StepFor(0.5f, texel), [&](float x, float y) {
     return Noise(x, y, {4.0f, 3, 0.5f, look.wall + 6}, texel);
@@ -64,7 +64,7 @@ void PaintPlaster(Tile& tile, const WallLook& look) {
     for (int column = 0; column < tile.width; ++column) {
       const float x = tile.X(column);
       const float white = Normal(tile.x0 + column, tile.y0 + row, look.wall + 3);
-      float tone = 0.030f * trowel(column, row) + grain * white +
+      float tone = 0.035f * trowel(column, row) + grain * white +
                    (0.02f + 0.03f * coarse) * GradientNoise(x * 30, y * 30, look.wall + 8) *
                        BandShare(0.033f, texel);
       const float open = Smooth(0.6f, 1.6f, cracked(column, row) + look.soot);

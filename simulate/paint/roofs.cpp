@@ -92,7 +92,11 @@ void PaintMembrane(Tile& tile, const CoveringLook& look) {
       // Puddles leave rings.
       const float pond =
           GradientNoise(x * 0.45f, y * 0.45f, look.seed + 8) + 0.25f * stain(column, row);
-      tone -= 0.12f * Smooth(0.9f, 1.1f, pond) + 0.18f * Edge(0.08f - std::abs(pond - 1.0f), 0.1f);
+      tone -= 0.14f * Smooth(0.8f, 1.2f, pond) + 0.08f * Edge(0.06f - std::abs(pond - 1.0f), 0.1f);
+      // Leaves, moss and what birds drop.
+      const float litter = GradientNoise(x * 14, y * 14, look.seed + 9);
+      tone -= 0.5f * Smooth(1.9f, 2.3f, litter + 0.25f * stain(column, row));
+      tone += 0.4f * Smooth(2.1f, 2.4f, -litter);
       Colour colour = base * Tone(tone);
       const int px = Floor(x / 4);
       const int py = Floor(y / 4);

@@ -12,24 +12,24 @@ namespace {
 // Strokes of capital letters between points of a 3 x 5 grid, which are named a b c / d e f / ... /
 // m n o from the top left; two names are one stroke.
 constexpr std::array<std::string_view, 18> kLetters = {
-    "mddbbffoghhi",   // A
-    "amacceghmo",     // E, whose "ce" leans
-    "amacgh",         // F
-    "camacamoil",     // C and G between them
-    "amcogi",         // H
-    "bn",             // I
-    "amcgho",         // K
-    "ammo",           // L
-    "ameaceco",       // M
-    "amaoco",         // N
-    "bddjjnnllffb",   // O
-    "amaccfflgh",     // P
-    "amaccffggo",     // R
-    "caddggiilloom",  // S
-    "acbn",           // T
-    "ajjnnllc",       // U
-    "ancn",           // V
-    "accmmo",         // Z
+    "mddbbffoghhi",  // A
+    "amacghmo",      // E
+    "amacgh",        // F
+    "caammooiih",    // G
+    "amcogi",        // H
+    "bn",            // I
+    "amcggo",        // K
+    "ammo",          // L
+    "ameaceco",      // M
+    "amaoco",        // N
+    "bddjjnnllffb",  // O
+    "amacciig",      // P
+    "amacciigho",    // R
+    "caaggiioom",    // S
+    "acbn",          // T
+    "ajjnnllc",      // U
+    "ancn",          // V
+    "accmmo",        // Z
 };
 
 // Distance of (x, y), in grid steps, from a letter's strokes.
@@ -82,7 +82,7 @@ void PaintSign(Tile& tile, const Box& box, uint32_t seed) {
 void PaintGoods(Tile& tile, const Box& glass, uint32_t seed) {
   const std::vector<Pane>& shops = Facades().shops;
   const Pane& shop = shops[seed % shops.size()];
-  constexpr float kThing_m = 0.16f;
+  constexpr float kThing_m = 0.11f;
   Fill(tile, glass, [&](float x, float y, Colour) {
     const float u = (x - glass.left) / glass.Width();
     const float v = (y - glass.top) / glass.Height();

@@ -48,6 +48,8 @@ void PaintStone(Tile& tile, const WallLook& look) {
   const bool dark_joint = Trait(look, 4) < 0.6f;
   const Colour joint = Pick(look.palette, 0, 0, 0) * (dark_joint ? 0.45f : 1.25f);
   const float grain = 0.06f * std::min(1.0f, 0.01f / texel);
+  const Field cloud(tile, StepFor(0.11f, texel),
+                    [&](float x, float y) { return GradientNoise(x * 9, y * 9, look.wall + 11); });
   for (int row = 0; row < tile.height; ++row) {
     const float y = tile.Y(row);
     Block block;
@@ -58,15 +60,15 @@ void PaintStone(Tile& tile, const WallLook& look) {
       if (column == 0 || x >= block.box.right) {
         block = BlockAt(masonry, x, y, look.wall);
         const auto draw = [&](int k) { return Normal(block.column, block.row, look.wall + k); };
-        colour = Pick(look.palette, 0.7f * draw(1), draw(2), draw(3)) * Tone(0.09f * draw(4));
+        colour = Pick(look.palette, draw(1), draw(2), draw(3)) * Tone(0.09f * draw(4));
         tilt = 3 * draw(5);  // of the bedding
       }
       const uint32_t own = look.wall + Hash(block.column, block.row, 7);
       const float white = Normal(tile.x0 + column, tile.y0 + row, look.wall + 3);
       const float bed = GradientNoise(x * 3 + 100 * ToUnit(own), (y + 0.04f * tilt * x) * 14, own);
-      const float cloud = GradientNoise(x * 9, y * 9, own + 1);
       const float pit = GradientNoise(x * 33, y * 33, own + 2) * BandShare(0.03f, texel);
-      const float tone = 0.05f * bed + 0.05f * cloud + grain * white - 0.10f * Smooth(1, 2.2f, pit);
+      const float tone =
+          0.05f * bed + 0.05f * cloud(column, row) + grain * white - 0.10f * Smooth(1, 2.2f, pit);
       const float inside = std::min(std::min(x - block.box.left, block.box.right - x),
                                     std::min(y - block.box.top, block.box.bottom - y)) -
                            masonry.joint_m / 2 + 0.003f * pit;

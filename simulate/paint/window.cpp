@@ -32,9 +32,19 @@ Colour Room(const Box& glass, float x, float y, uint32_t seed) {
   const float u = (x - glass.left) / glass.Width();
   const float v = (y - glass.top) / glass.Height();
   const Colour seen = At(rooms[seed % rooms.size()], (seed & 64) != 0 ? 1 - u : u, v);
-  const Colour dim = seen * (0.25f + 0.5f * ToUnit(seed * 0x9e3779b1u));
-  const float clutter = 0.35f * GradientNoise(x * 5, y * 5, seed) * Smooth(0.3f, 1, v);
-  return dim * (Tone(clutter) * (0.55f + 0.45f * Smooth(0, 0.35f, v)));
+  const Colour pale = Mix(seen, Grey(Luminance(seen)), 0.4f);  // most of its hue is the sky's
+  const Colour dim = pale * (0.25f + 0.5f * ToUnit(seed * 0x9e3779b1u));
+  // What stands in the room: backs of chairs, shelves, pictures, a lamp.
+  constexpr float kThing_m = 0.34f;
+  const int cx = Floor(x / kThing_m);
+  const int cy = Floor(y / kThing_m);
+  const uint32_t h = Hash(cx, cy, seed);
+  const float in_x = std::abs(x / kThing_m - static_cast<float>(cx) - 0.5f);
+  const float in_y = std::abs(y / kThing_m - static_cast<float>(cy) - 0.5f);
+  const bool there = (h & 3) < 2 && in_x < 0.15f + 0.35f * ToUnit(h * 0x85ebca77u) &&
+                     in_y < 0.15f + 0.35f * ToUnit(h * 0xc2b2ae3du);
+  const float thing = there ? 0.35f + 1.3f * ToUnit(h) : 1.0f;
+  return dim * (thing * (0.55f + 0.45f * Smooth(0, 0.35f, v)));
 }
 
 Colour Plant(Colour behind, const Box& glass, float x, float y, uint32_t seed, float texel_m) {
@@ -93,7 +103,7 @@ void PaintBar(Tile& tile, const Box& bar, Colour colour, uint32_t seed) {
   Fill(tile, bar, [&](float x, float y, Colour) {
     const float edge =
         std::min(std::min(x - bar.left, bar.right - x), std::min(y - bar.top, bar.bottom - y));
-    const float wear = 0.06f * Noise(x, y, {0.12f, 3, 0.7f, seed}, tile.texel_m);
+    const float wear = 0.025f * Noise(x, y, {0.12f, 3, 0.7f, seed}, tile.texel_m);
     const float lit = y - bar.top < bar.bottom - y ? 0.08f : -0.12f;  // upper edges catch light
     return colour * Tone(wear + lit * Edge(0.008f - edge, tile.texel_m));
   });
