@@ -13,6 +13,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).parents[2]
 sys.path[:0] = [str(ROOT / "bench"), str(ROOT / "scripts")]
+import features_per_megapixel  # noqa: E402
 import key_figures  # noqa: E402
 import measure  # noqa: E402
 import slowest_units  # noqa: E402
@@ -75,6 +76,31 @@ class Measure(unittest.TestCase):
 
     def test_reports_a_signal(self):
         self.assertEqual(measure.measure(["sh", "-c", "kill -9 $$"])["exit_code"], -signal.SIGKILL)
+
+
+class FeaturesPerMegapixel(unittest.TestCase):
+    def test_takes_photos_from_all_of_a_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("a.jpg", "b.JPG", "c.png", "d.txt", "e.jpeg", "f.jpg", "g.jpg"):
+                pathlib.Path(folder, name).touch()
+            def names(most):
+                return [photo.name for photo in features_per_megapixel.photos_of(folder, most)]
+            self.assertEqual(names(0), ["a.jpg", "b.JPG", "c.png", "e.jpeg", "f.jpg", "g.jpg"])
+            self.assertEqual(names(3), ["a.jpg", "c.png", "f.jpg"])
+
+    def test_refuses_a_folder_without_photos(self):
+        with tempfile.TemporaryDirectory() as folder, self.assertRaises(SystemExit):
+            features_per_megapixel.photos_of(folder, 0)
+
+    def test_compares_medians(self):
+        rows = [{"per_megapixel": count, "contrast": 0.2, "slope": -2.5} for count in (1, 2, 900)]
+        self.assertEqual(features_per_megapixel.summary(rows, 4)["ratio"], 0.5)
+        self.assertEqual(features_per_megapixel.summary(rows, 0)["ratio"], 1)
+
+    def test_finds_the_slope_of_white_noise(self):
+        import numpy
+        noise = numpy.random.default_rng(1).random((600, 600))
+        self.assertAlmostEqual(features_per_megapixel.spectrum_slope(noise), 0, delta=0.1)
 
 
 class KeyFigures(unittest.TestCase):
