@@ -37,6 +37,7 @@ constexpr char kFooter[] =
 
 void AddVerbs(CLI::App& app, stucco::Program& program) {
   stucco::AddPlan(app, program);
+  stucco::AddSimulate(app, program);
   stucco::AddInit(app, program);
   stucco::AddCheck(app, program);
   stucco::AddRun(app, program);

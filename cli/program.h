@@ -55,6 +55,7 @@ void AddSurveyArgument(CLI::App& verb, Program& program);
 
 // One function per file of the same name.
 void AddPlan(CLI::App& app, Program& program);
+void AddSimulate(CLI::App& app, Program& program);
 void AddLint(CLI::App& app, Program& program);
 void AddInit(CLI::App& app, Program& program);
 void AddCheck(CLI::App& app, Program& program);

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the Stucco authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The whole chain on the sample survey at reduced sizes, against its truth, and what a second run,
-a changed option, an added photo, a plan and another number of threads do."""
+a changed option, an added photo and another number of threads do."""
 import itertools
 import json
 import math
@@ -9,7 +9,6 @@ import shutil
 import statistics
 import unittest
 
-import sample_plan
 import stucco
 
 TRUTH = stucco.ROOT / "data/sample/truth"
@@ -58,11 +57,6 @@ def area(ring):
         total[1] += a[2] * b[0] - a[0] * b[2]
         total[2] += a[0] * b[1] - a[1] * b[0]
     return math.hypot(*total) / 2
-
-
-def facets_of(survey):
-    buildings = json.loads((survey / "proxy/facets.json").read_text())["buildings"]
-    return {facet["id"]: facet for building in buildings for facet in building["facets"]}
 
 
 class Chain(stucco.TestCase):
@@ -207,60 +201,6 @@ class Chain(stucco.TestCase):
         one, two = stucco.contents(survey), stucco.contents(self.finished)
         self.assertEqual(sorted(one), sorted(two))
         self.assertEqual([name for name in one if one[name] != two[name]], [])
-
-    def test_a_plan_names_the_walls_and_its_photos_are_preferred(self):
-        survey = self.copy()
-        sample_plan.write_plan(survey / "plan/plan.json", east_m=-2.5, north_m=3.5)
-        self.run_survey(survey)
-        before, after = facets_of(self.finished), facets_of(survey)
-        walls = [plane for plane in json.loads((TRUTH / "planes.json").read_text())["planes"]
-                 if plane["class"] == "wall"]
-        large = [facet for facet in after.values()
-                 if facet["class"] == "WallSurface" and area(facet["outer"]) > 20]
-        self.assertGreater(len(large), 6)
-        for facet in large:
-            # The two houses are turned against each other: a direction is one wall.
-            alike = [wall["id"] for wall in walls if dot(wall["normal"], facet["normal"]) > 0.99]
-            self.assertEqual(len(alike), 1, facet["id"])
-            building, edge = alike[0].split("/F")
-            self.assertEqual(facet["facade"],
-                             sample_plan.facade_id(int(building[1:]), int(edge)), facet["id"])
-        # Nothing but the names has changed.
-        self.assertEqual({name: dict(facet, facade=name) for name, facet in after.items()}, before)
-        report = json.loads((survey / "report/report.json").read_text())
-        self.assertEqual((report["plan"]["facades"], report["plan"]["missing"]), (8, []))
-        self.assertEqual([facade["id"] for facade in report["facades"] if facade["planned"]],
-                         [name for name, facet in after.items() if facet["facade"] != name])
-
-        guided = self.textured_facades(survey)
-        self.assertTrue(any(facet["planned_photos"] for facet in guided))
-        set_options(survey, {"texture": {"guided": "false"}})
-        self.assertEqual(self.ran(self.run_survey(survey)), {"texture", "report"})
-        unguided = self.textured_facades(survey)
-        self.assertFalse(any(facet["planned_photos"] for facet in unguided))
-        self.assertLessEqual(sum(len(facet["photos"]) for facet in guided),
-                             sum(len(facet["photos"]) for facet in unguided))
-        for term in ("q_s", "q_d", "q_u", "q_c"):
-            with_plan, without = (statistics.mean(facet[term] for facet in facets)
-                                  for facets in (guided, unguided))
-            self.assertGreater(with_plan, without - 0.02, term)
-
-    @staticmethod
-    def textured_facades(survey):
-        """The textures of walls that are parts of the plan's facades."""
-        textures = json.loads((survey / "texture/textures.json").read_text())["facets"]
-        facets = facets_of(survey)
-        return [facet for facet in textures if facets[facet["id"]]["facade"] != facet["id"]]
-
-    def test_a_plan_of_another_place_and_a_damaged_one_name_nothing(self):
-        survey = self.copy()
-        for text, message in ((json.dumps(sample_plan.make_plan(east_m=500)), "keep their own ids"),
-                              ("{", "the plan is not used")):
-            (survey / "plan").mkdir(exist_ok=True)
-            (survey / "plan/plan.json").write_text(text)
-            process = self.check(stucco.run("run", survey, "--until", "proxy", "--threads", 2))
-            self.assertIn(message, process.stderr)
-            self.assertEqual(facets_of(survey), facets_of(self.finished))
 
     def test_an_added_photo_computes_only_what_involves_it(self):
         photos = self.photo_folder()

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "simulate/city/city_model.h"
+#include "simulate/city/town.h"
+#include "survey/proxy.h"
+
+namespace stucco::simulate {
+
+// The ground cut into cells along the borders of its patches, in the town's street axes.
+struct GroundGrid {
+  std::vector<double> x;  // lines, ascending
+  std::vector<double> y;
+  std::vector<int> patch_of;  // by cell, rows from the south: index of a patch, or their number for
+                              // the fields around the town
+  int columns() const { return static_cast<int>(x.size()) - 1; }
+  int rows() const { return static_cast<int>(y.size()) - 1; }
+};
+
+GroundGrid MakeGroundGrid(const Town& town);
+
+// The town's ground with a picture per patch, kerbs, and fields to the horizon, as element G0.
+// Texels are as small as asked for a hamlet and coarser for larger towns.
+void AddGround(const Town& town, const GroundGrid& grid, double metres_per_texel, CityModel& model);
+
+// The town's ground without the fields, houses cut out of it: one facet per level and closed area
+// where it is flat, else a triangle per half cell; G0 is the largest.
+std::vector<Facet> GroundFacets(const Town& town, const GroundGrid& grid);
+
+}  // namespace stucco::simulate

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "simulate/city/footprints.h"
+#include "simulate/city/internal/layouts.h"
+
+namespace stucco::simulate::internal {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kPavement_m = 3;
+
+// A perimeter block about the origin.
+struct Perimeter {
+  double width = 70;
+  double height = 56;
+  double depth = 12;   // of its buildings
+  double corner = 18;  // along the street, of the buildings at its corners
+};
+
+House MakeTenement(Random& random) {
+  House house;
+  house.use = HouseUse::kTenement;
+  house.storeys = random.Integer(3, 6);
+  house.storey_m = random.Uniform(3, 3.5);
+  house.floor_m = random.Uniform(0.3, 0.7);
+  house.palette = random.Index(1000);
+  constexpr std::array kCladdings = {Cladding::kPlaster, Cladding::kBrick, Cladding::kStone,
+                                     Cladding::kPlaster, Cladding::kConcrete};
+  house.cladding = kCladdings[random.Index(kCladdings.size())];
+  house.roof = random.Chance(0.6) ? RoofShape::kGabled : RoofShape::kFlat;
+  house.slope = random.Uniform(0.55, 0.85);
+  house.parapet_m = random.Uniform(0.3, 0.6);
+  if (house.roof == RoofShape::kFlat) {
+    house.covering = random.Chance(0.5) ? Covering::kMembrane : Covering::kGravel;
+  } else {
+    house.covering = random.Chance(0.75) ? Covering::kTiles : Covering::kMetal;
+  }
+  return house;
+}
+
+void AddTenement(plan::Polygon outline, const std::vector<Vector2d>& streets, Random& random,
+                 Town& town) {
+  House house = MakeTenement(random);
+  house.outline = std::move(outline);
+  ClearEdges(house);
+  for (const Vector2d& street : streets) MarkFront(street, house);
+  town.houses.push_back(std::move(house));
+}
+
+// Corner buildings are Ls whose outer corner is the block's.
+void AddCorners(const Perimeter& block, Random& random, Town& town) {
+  const double x = block.width / 2;
+  const double y = block.height / 2;
+  const double c = block.corner;
+  const double d = block.depth;
+  AddTenement(
+      {{{{-x, -y}, {c - x, -y}, {c - x, d - y}, {d - x, d - y}, {d - x, c - y}, {-x, c - y}}}},
+      {{0, -1}, {-1, 0}}, random, town);
+  AddTenement(
+      {{{{x - c, -y}, {x, -y}, {x, c - y}, {x - d, c - y}, {x - d, d - y}, {x - c, d - y}}}},
+      {{0, -1}, {1, 0}}, random, town);
+  AddTenement({{{{x, y}, {x - c, y}, {x - c, y - d}, {x - d, y - d}, {x - d, y - c}, {x, y - c}}}},
+              {{0, 1}, {1, 0}}, random, town);
+  AddTenement(
+      {{{{-x, y}, {-x, y - c}, {d - x, y - c}, {d - x, y - d}, {c - x, y - d}, {c - x, y}}}},
+      {{0, 1}, {-1, 0}}, random, town);
+}
+
+// Cuts a row into lots of 11 to 17 m.
+std::vector<double> Lots(double from, double to, Random& random) {
+  const double length = to - from;
+  const int count = std::max(1, static_cast<int>(length / random.Uniform(11.5, 15) + 0.5));
+  std::vector<double> cuts = {from};
+  for (int i = 1; i < count; ++i) {
+    cuts.push_back(from + length * (i + random.Uniform(-0.12, 0.12)) / count);
+  }
+  cuts.push_back(to);
+  return cuts;
+}
+
+void AddRows(const Perimeter& block, Random& random, Town& town) {
+  const double x = block.width / 2;
+  const double y = block.height / 2;
+  const double c = block.corner;
+  const double d = block.depth;
+  // One lot of the block is free: a way into the courtyard, with fire walls at its sides.
+  const int free_side = random.Index(4);
+  for (int side = 0; side < 4; ++side) {
+    const bool level = side % 2 == 0;  // south and north
+    const double half = level ? x : y;
+    const std::vector<double> cuts = Lots(c - half, half - c, random);
+    const int lots = static_cast<int>(cuts.size()) - 1;
+    const int free = side == free_side && lots > 1 ? random.Index(lots) : -1;
+    for (int i = 0; i < lots; ++i) {
+      if (i == free) continue;
+      const double a = cuts[i];
+      const double b = cuts[i + 1];
+      if (side == 0)
+        AddTenement({{{{a, -y}, {b, -y}, {b, d - y}, {a, d - y}}}}, {{0, -1}}, random, town);
+      if (side == 1)
+        AddTenement({{{{x - d, a}, {x, a}, {x, b}, {x - d, b}}}}, {{1, 0}}, random, town);
+      if (side == 2)
+        AddTenement({{{{a, y - d}, {b, y - d}, {b, y}, {a, y}}}}, {{0, 1}}, random, town);
+      if (side == 3)
+        AddTenement({{{{-x, a}, {d - x, a}, {d - x, b}, {-x, b}}}}, {{-1, 0}}, random, town);
+    }
+  }
+}
+
+// Across the street: a building around a courtyard of its own.
+void AddPalace(double x, Random& random, Town& town) {
+  House house = MakeTenement(random);
+  house.storeys = random.Integer(3, 4);
+  const double wing = random.Uniform(9, 10.5);
+  house.outline = Placed(CourtyardShape(random.Uniform(33, 38), random.Uniform(36, 46), wing), 0,
+                         {x + 19, random.Uniform(-4, 4)});
+  house.roof = random.Chance(0.5) ? RoofShape::kHipped : RoofShape::kFlat;
+  ClearEdges(house);
+  for (const Vector2d& side : {Vector2d(-1, 0), Vector2d(1, 0), Vector2d(0, 1), Vector2d(0, -1)}) {
+    MarkFront(side, house);
+  }
+  town.houses.push_back(std::move(house));
+}
+
+void AddStreets(const Perimeter& block, double street, Random& random, Town& town) {
+  const double x = block.width / 2;
+  const double y = block.height / 2;
+  const double k = kPavement_m;
+  const double far = x + street + 42;  // behind the building across the street
+  const double outer = std::max(x, y) + street + 12;
+  // Islands of pavement in a sea of asphalt; courtyards first.
+  town.ground.push_back({{block.depth - x + 2, block.depth - y + 2},
+                         {x - block.depth - 2, y - block.depth - 2},
+                         Covering::kGrass,
+                         0});
+  town.ground.push_back({{-x - k, -y - k}, {x + k, y + k}, Covering::kPaving, 0});
+  town.ground.push_back({{x + street - k, -28}, {far, 28}, Covering::kPaving, 0});
+  town.ground.push_back({{-outer, -outer}, {far + 12, outer}, Covering::kAsphalt, -0.12});
+  ParkCars({-x, -y - k - 1.2}, {x, -y - k - 1.2}, 0.55, random, town);
+  ParkCars({-x, y + k + 1.2}, {x, y + k + 1.2}, 0.55, random, town);
+  ParkCars({-x - k - 1.2, -y}, {-x - k - 1.2, y}, 0.5, random, town);
+  ParkCars({x + k + 1.2, -y}, {x + k + 1.2, y}, 0.5, random, town);
+}
+
+}  // namespace
+
+Town LayOutBlock(Random random) {
+  Town town;
+  town.turn_rad = random.Uniform(-std::numbers::pi, std::numbers::pi);
+  Perimeter block;
+  block.width = random.Uniform(64, 76);
+  block.height = random.Uniform(52, 60);
+  block.depth = random.Uniform(11, 13);
+  block.corner = block.depth + random.Uniform(7, 9);
+  const double street = random.Uniform(16, 20);
+  AddCorners(block, random, town);
+  AddRows(block, random, town);
+  AddPalace(block.width / 2 + street, random, town);
+  AddStreets(block, street, random, town);
+  const Vector2d court(block.width / 2 - block.depth, block.height / 2 - block.depth);
+  PlantTrees(-court, court, 5, random, town);
+  const double row = block.height / 2 + street - 4;
+  PlantTrees({-block.width / 2, row}, {block.width / 2, row + 3}, 6, random, town);
+  return town;
+}
+
+}  // namespace stucco::simulate::internal

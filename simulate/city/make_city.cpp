@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/city/make_city.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "simulate/city/city_model.h"
+#include "simulate/city/ground.h"
+#include "simulate/city/house_mesh.h"
+#include "simulate/city/occluders.h"
+#include "simulate/city/town.h"
+#include "simulate/city/town_map.h"
+#include "simulate/scene/internal/glb.h"
+#include "simulate/scene/scene_folder.h"
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/parallel.h"
+#include "survey/texture_set.h"
+
+namespace stucco::simulate {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Pictures of walls and roofs together: whoever draws the scene keeps them in memory, with mip maps
+// four bytes a texel. Towers exceed it; their texels become larger.
+constexpr double kMostTexels = 2e8;
+
+Georef GeorefOf(const CityOptions& options) {
+  return {.frame = "enu",
+          .origin_latitude_deg = options.latitude_deg,
+          .origin_longitude_deg = options.longitude_deg,
+          .origin_height_m = options.height_m,
+          .up = Eigen::Vector3d::UnitZ(),
+          .metric = true,
+          .source = "scene"};
+}
+
+void Check(const CityOptions& options) {
+  const auto require = [](bool fine, const std::string& what) {
+    if (!fine) throw Error(ErrorKind::kUsage, what);
+  };
+  require(options.metres_per_texel >= 0.002 && options.metres_per_texel <= 1,
+          "the texel of walls must be 0.002 to 1 m");
+  // Towards the poles a step of longitude is too short to write.
+  require(std::abs(options.latitude_deg) <= 85, "the latitude must be -85 to 85 degrees");
+  require(std::abs(options.longitude_deg) <= 180, "the longitude must be -180 to 180 degrees");
+  require(std::abs(options.height_m) <= 9000, "the height must be -9000 to 9000 m");
+}
+
+// Makes the folder, or clears an old scene's pictures out of it; files of the user's own stay.
+void PrepareFolder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: is a file", folder.string()),
+                "give the name of a folder");
+  }
+  const bool is_scene = fs::exists(folder / kSceneFile, error);
+  if (!is_scene && fs::is_directory(folder, error) && !fs::is_empty(folder, error)) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: is there already and no scene", folder.string()),
+                "give another folder; nothing in it was changed");
+  }
+  if (is_scene && fs::exists(folder / kTruthTextures, error)) {
+    for (const TexturedFacet& facet : ReadTextureSet(folder / kTruthTextures).facets) {
+      const fs::path name = fs::path(facet.image).filename();
+      if (!name.empty()) fs::remove(folder / "truth" / "textures" / name, error);
+    }
+  }
+  if (is_scene) fs::remove(folder / kSceneTerrain, error);
+  error.clear();
+  fs::create_directories(folder / "truth" / "textures", error);
+  if (error) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: cannot be made: {}", folder.string(), error.message()),
+                "give a folder that can be written");
+  }
+}
+
+double WallArea(const Town& town, const FacadeIds& facades, bool with_roofs) {
+  double area = 0;
+  for (size_t i = 0; i < town.houses.size(); ++i) {
+    for (const Facet& facet : TruthOf(town.houses[i], SolidOf(town.houses[i]), facades[i]).facets) {
+      const bool free_wall = facet.facet_class == FacetClass::kWall && facet.seen > 0;
+      if (free_wall || (with_roofs && facet.facet_class == FacetClass::kRoof)) area += facet.area;
+    }
+  }
+  return area;
+}
+
+Proxy TruthOf(const Town& town, const FacadeIds& facades, const GroundGrid& grid) {
+  Proxy proxy;
+  proxy.metric = true;
+  for (size_t i = 0; i < town.houses.size(); ++i) {
+    const House& house = town.houses[i];
+    proxy.buildings.push_back(TruthOf(house, SolidOf(house), facades[i]));
+  }
+  proxy.buildings.push_back({"G0", false, "model", GroundFacets(town, grid)});
+  if (const auto problem = FindProblem(proxy)) {
+    throw Error(ErrorKind::kStageFailed, fmt::format("the truth is not sound: {}", *problem));
+  }
+  return proxy;
+}
+
+// Paints and encodes a picture at a time on each thread: only encoded ones are kept.
+std::vector<internal::EncodedImage> PaintAll(const CityModel& model, int threads,
+                                             const fs::path& folder) {
+  std::vector<internal::EncodedImage> pictures(model.pictures.size());
+  ParallelFor(pictures.size(), threads, [&](size_t i) {
+    pictures[i] = internal::EncodeForGlb(model.pictures[i].paint());
+    const std::string& name = model.pictures[i].truth_file;
+    if (!name.empty()) WriteFile(folder / "truth" / "textures" / name, pictures[i].bytes);
+  });
+  return pictures;
+}
+
+}  // namespace
+
+CitySummary MakeCity(const CityOptions& options, const fs::path& scene_folder) {
+  Check(options);
+  const Town town = LayOutTown(options.style, options.seed);
+  const bool sloping = !town.relief.IsFlat();
+  PrepareFolder(scene_folder);
+  const Georef georef = GeorefOf(options);
+  WriteSceneInfo({options.style, options.seed, georef, /*has_truth=*/true, sloping}, scene_folder);
+  WriteMap(town, georef, scene_folder / kSceneMap);
+  std::optional<fs::path> terrain;
+  if (sloping) {
+    terrain = scene_folder / kSceneTerrain;
+    WriteTerrain(town, georef, *terrain);
+  }
+  const FacadeIds facades = FindFacades(town, georef, scene_folder / kSceneMap, terrain);
+
+  const GroundGrid grid = MakeGroundGrid(town);
+  WriteProxy(TruthOf(town, facades, grid), scene_folder / kTruthFacets);
+  const double texel =
+      std::max(options.metres_per_texel,
+               std::sqrt(WallArea(town, facades, /*with_roofs=*/true) / kMostTexels));
+  CityModel model;
+  TextureSet textures;
+  for (size_t i = 0; i < town.houses.size(); ++i) {
+    AddHouse(town.houses[i], facades[i], texel, model, textures);
+  }
+  AddGround(town, grid, options.metres_per_texel, model);
+  AddOccluders(town, options.seed, model);
+  WriteTextureSet(textures, scene_folder / kTruthTextures);
+  internal::WriteGlbFile(model.scene, PaintAll(model, options.threads, scene_folder),
+                         scene_folder / kSceneModel);
+
+  CitySummary summary;
+  summary.buildings = static_cast<int>(town.houses.size());
+  for (const auto& ids : facades) {
+    summary.facades += static_cast<int>(
+        std::count_if(ids.begin(), ids.end(), [](const auto& id) { return !id.empty(); }));
+  }
+  summary.triangles = static_cast<int>(model.scene.triangles.size());
+  summary.wall_area_m2 = WallArea(town, facades, /*with_roofs=*/false);
+  return summary;
+}
+
+}  // namespace stucco::simulate

@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/city/roof_mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "simulate/city/footprints.h"
+#include "simulate/random.h"
+
+namespace stucco::simulate {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kVerge_m = 0.22;    // overhang over a gable
+constexpr double kRafters_m = 0.16;  // thickness of a pitched roof
+constexpr double kParapet_m = 0.25;  // thickness
+
+struct Edge {
+  int from = 0, to = 0;  // corners, counted over the rings
+  Vector2d outward = Vector2d::Zero();
+  double overhang_m = 0;
+};
+
+bool IsPitched(const House& house) {
+  return house.roof != RoofShape::kFlat;
+}
+
+int CornerCount(const House& house) {
+  int count = 0;
+  for (const plan::Ring& ring : house.outline.rings) count += static_cast<int>(ring.size());
+  return count;
+}
+
+// By edge: the top of its gable as a vertex of the solid, -1 for eaves.
+std::vector<int> Gables(const House& house, const Solid& solid) {
+  std::vector<int> apex(CornerCount(house), -1);
+  for (const Solid::Face& face : solid.faces) {
+    if (face.facet_class == FacetClass::kWall && face.outer.size() == 5) {
+      apex[face.edge] = face.outer[3];
+    }
+  }
+  return apex;
+}
+
+std::vector<Edge> EdgesOf(const House& house, const std::vector<int>& apex) {
+  std::vector<Edge> edges;
+  int start = 0;
+  for (const plan::Ring& ring : house.outline.rings) {
+    const int n = static_cast<int>(ring.size());
+    for (int i = 0; i < n; ++i) {
+      Edge edge{.from = start + i, .to = start + (i + 1) % n};
+      const Vector2d u = (ring[(i + 1) % n] - ring[i]).normalized();
+      edge.outward = {u.y(), -u.x()};
+      edge.overhang_m = apex[start + i] >= 0 ? kVerge_m : house.overhang_m;
+      if (house.party[start + i]) edge.overhang_m = 0;
+      edges.push_back(edge);
+    }
+    start += n;
+  }
+  return edges;
+}
+
+Vector3d NormalOf(const Solid& solid, const Solid::Face& face) {
+  Vector3d sum = Vector3d::Zero();
+  const Vector3d& first = solid.vertices[face.outer[0]];
+  for (size_t i = 1; i + 1 < face.outer.size(); ++i) {
+    sum += (solid.vertices[face.outer[i]] - first).cross(solid.vertices[face.outer[i + 1]] - first);
+  }
+  return sum.normalized();
+}
+
+// Where the vertices of a pitched roof lie in the plan once its eaves stand out.
+std::vector<Vector2d> OverhungPlan(const House& house, const Solid& solid,
+                                   const std::vector<int>& apex, const std::vector<Edge>& edges) {
+  std::vector<Vector2d> plan;
+  for (const Vector3d& vertex : solid.vertices) plan.push_back(vertex.head<2>());
+  const int corners = CornerCount(house);
+  int start = 0;
+  for (const plan::Ring& ring : house.outline.rings) {
+    std::vector<double> distances;
+    for (size_t i = 0; i < ring.size(); ++i) distances.push_back(edges[start + i].overhang_m);
+    const plan::Ring moved = Offset(ring, distances);
+    std::copy(moved.begin(), moved.end(), plan.begin() + corners + start);
+    start += static_cast<int>(ring.size());
+  }
+  for (size_t i = 0; i < edges.size(); ++i) {
+    if (apex[i] >= 0) plan[apex[i]] += edges[i].overhang_m * edges[i].outward;
+  }
+  return plan;
+}
+
+Loop OverhungFace(const House& house, const Solid& solid, const Solid::Face& face) {
+  const std::vector<int> apex = Gables(house, solid);
+  const std::vector<Vector2d> plan = OverhungPlan(house, solid, apex, EdgesOf(house, apex));
+  const Vector3d normal = NormalOf(solid, face);
+  const double offset = normal.dot(solid.vertices[face.outer[0]]);
+  Loop loop;
+  for (const int corner : face.outer) {
+    const Vector2d& p = plan[corner];
+    loop.emplace_back(p.x(), p.y(), (offset - normal.head<2>().dot(p)) / normal.z());
+  }
+  return loop;
+}
+
+void AddPitchedEdges(const House& house, const Solid& solid, const Trim& trim, CityModel& model) {
+  const Vector3d down(0, 0, -kRafters_m);
+  for (const Solid::Face& face : solid.faces) {
+    if (face.facet_class != FacetClass::kRoof) continue;
+    const Loop loop = OverhungFace(house, solid, face);
+    Loop under;
+    for (auto corner = loop.rbegin(); corner != loop.rend(); ++corner) {
+      under.push_back(*corner + down);
+    }
+    AddPolygon(TrimSheet(trim, -NormalOf(solid, face)), under, {}, model);
+    // Fascias where no other face of the roof goes on.
+    for (size_t i = 0; i < loop.size(); ++i) {
+      const size_t next = (i + 1) % loop.size();
+      const bool shared =
+          std::any_of(solid.faces.begin(), solid.faces.end(), [&](const Solid::Face& other) {
+            if (&other == &face || other.facet_class != FacetClass::kRoof) return false;
+            const auto has = [&](int corner) {
+              return std::find(other.outer.begin(), other.outer.end(), corner) != other.outer.end();
+            };
+            return has(face.outer[i]) && has(face.outer[next]);
+          });
+      if (shared) continue;
+      AddTrim(trim, {loop[i] + down, loop[next] + down, loop[next], loop[i]}, model);
+    }
+  }
+}
+
+void AddParapet(const House& house, const Trim& trim, CityModel& model) {
+  const double low = house.eaves_m();
+  const double high = low + house.parapet_m;
+  const auto at = [](const Vector2d& p, double z) { return Vector3d(p.x(), p.y(), z); };
+  for (const plan::Ring& ring : house.outline.rings) {
+    const plan::Ring inner = Offset(ring, std::vector<double>(ring.size(), -kParapet_m));
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const size_t next = (i + 1) % ring.size();
+      AddTrim(trim,
+              {at(ring[i], high), at(ring[next], high), at(inner[next], high), at(inner[i], high)},
+              model);
+      AddTrim(trim,
+              {at(inner[next], low), at(inner[i], low), at(inner[i], high), at(inner[next], high)},
+              model);
+    }
+  }
+}
+
+void AddBox(const Vector2d& middle, const Vector2d& size, const Vector2d& along, double low,
+            double high, const Trim& trim, CityModel& model) {
+  const Vector2d x = size.x() / 2 * along;
+  const Vector2d y = size.y() / 2 * Vector2d(-along.y(), along.x());
+  AddPrism(trim, {middle - x - y, middle + x - y, middle + x + y, middle - x + y}, low, high,
+           /*with_bottom=*/false, model);
+}
+
+Vector2d Along(const House& house) {
+  const plan::Ring& ring = house.outline.rings[0];
+  return (ring[1] - ring[0]).normalized();
+}
+
+// A random place of the roof that is `from_edge` metres inside; false: none was found.
+bool FindPlace(const House& house, double from_edge, Random& random, Vector2d& place) {
+  Vector2d low = house.outline.rings[0][0];
+  Vector2d high = low;
+  for (const Vector2d& corner : house.outline.rings[0]) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  for (int i = 0; i < 40; ++i) {
+    place = {random.Uniform(low.x(), high.x()), random.Uniform(low.y(), high.y())};
+    if (Contains(house.outline, place) && DistanceToOutline(house.outline, place) > from_edge) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+RoofSheet LayRoofSheet(const House& house, const Solid& solid, const Solid::Face& face) {
+  RoofSheet result;
+  Sheet& sheet = result.sheet;
+  const Vector3d normal = NormalOf(solid, face);
+  if (IsPitched(house)) {
+    result.drawn = OverhungFace(house, solid, face);
+    sheet.u = Vector3d::UnitZ().cross(normal).normalized();
+  } else {
+    for (const int corner : face.outer) result.drawn.push_back(solid.vertices[corner]);
+    sheet.u = (result.drawn[1] - result.drawn[0]).normalized();
+  }
+  sheet.v = sheet.u.cross(normal);
+  Vector2d low = Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Vector2d high = -low;
+  for (const Vector3d& corner : result.drawn) {
+    const Vector2d at(corner.dot(sheet.u), corner.dot(sheet.v));
+    low = low.cwiseMin(at);
+    high = high.cwiseMax(at);
+  }
+  sheet.origin =
+      low.x() * sheet.u + low.y() * sheet.v + normal.dot(solid.vertices[face.outer[0]]) * normal;
+  sheet.width_m = high.x() - low.x();
+  sheet.height_m = high.y() - low.y();
+  return result;
+}
+
+void AddRoofEdges(const House& house, const Solid& solid, const Trim& trim, CityModel& model) {
+  if (IsPitched(house)) {
+    AddPitchedEdges(house, solid, trim, model);
+  } else {
+    AddParapet(house, trim, model);
+  }
+}
+
+void AddRoofThings(const House& house, const Solid& solid, const Trim& trim, CityModel& model) {
+  Random random(house.seed, 2);
+  const Vector2d along = Along(house);
+  double top = house.eaves_m();
+  for (const Vector3d& vertex : solid.vertices) top = std::max(top, vertex.z());
+  Vector2d place;
+  if (IsPitched(house)) {
+    const int chimneys = house.use == HouseUse::kHome ? 1 : random.Integer(1, 3);
+    for (int i = 0; i < chimneys; ++i) {
+      if (!FindPlace(house, 1.6, random, place)) continue;
+      const double rise =
+          std::min(top, house.eaves_m() + house.slope * DistanceToOutline(house.outline, place));
+      AddBox(place, {random.Uniform(0.5, 0.7), random.Uniform(0.5, 1.1)}, along, house.eaves_m(),
+             std::min(rise + 1.6, top + 0.8), trim, model);
+    }
+    return;
+  }
+  const double area = AreaOf(house.outline);
+  const bool large = house.use != HouseUse::kHome;
+  if (large && FindPlace(house, 3, random, place)) {  // the head of the stairs
+    AddBox(place, {3.2, random.Uniform(2.6, 4)}, along, house.eaves_m(),
+           house.eaves_m() + random.Uniform(2.3, 2.7), trim, model);
+  }
+  const int boxes = std::min(12, static_cast<int>(area / 60) + 1);
+  for (int i = 0; i < boxes; ++i) {
+    if (!FindPlace(house, 1.2, random, place)) continue;
+    const double side = random.Uniform(0.5, 1.4);
+    AddBox(place, {side, side * random.Uniform(0.7, 1.3)}, along, house.eaves_m(),
+           house.eaves_m() + random.Uniform(0.35, 1.1), trim, model);
+  }
+}
+
+}  // namespace stucco::simulate

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/city/town.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "simulate/city/footprints.h"
+#include "simulate/city/internal/layouts.h"
+#include "simulate/city/make_city.h"
+#include "survey/error.h"
+
+namespace stucco::simulate {
+namespace internal {
+namespace {
+
+size_t EdgeCount(const plan::Polygon& outline) {
+  size_t count = 0;
+  for (const plan::Ring& ring : outline.rings) count += ring.size();
+  return count;
+}
+
+}  // namespace
+
+void ClearEdges(House& house) {
+  house.party.assign(EdgeCount(house.outline), false);
+  house.front.assign(EdgeCount(house.outline), false);
+}
+
+void MarkFront(const Eigen::Vector2d& direction, House& house) {
+  const plan::Ring& ring = house.outline.rings[0];
+  for (size_t i = 0; i < ring.size(); ++i) {
+    const Eigen::Vector2d u = (ring[(i + 1) % ring.size()] - ring[i]).normalized();
+    if (Eigen::Vector2d(u.y(), -u.x()).dot(direction.normalized()) > std::cos(0.52)) {
+      house.front[i] = true;
+    }
+  }
+}
+
+void MarkPartyWalls(std::vector<House>& houses) {
+  for (House& house : houses) {
+    const plan::Ring& ring = house.outline.rings[0];
+    for (const House& other : houses) {
+      if (&other == &house) continue;
+      const plan::Ring& theirs = other.outline.rings[0];
+      for (size_t i = 0; i < ring.size(); ++i) {
+        for (size_t j = 0; j < theirs.size(); ++j) {
+          if (ring[i] == theirs[(j + 1) % theirs.size()] &&
+              ring[(i + 1) % ring.size()] == theirs[j]) {
+            house.party[i] = true;
+          }
+        }
+      }
+    }
+  }
+}
+
+bool KeepsApart(const plan::Polygon& outline, const std::vector<House>& houses, double least_m) {
+  return std::all_of(houses.begin(), houses.end(),
+                     [&](const House& house) { return Gap(outline, house.outline) >= least_m; });
+}
+
+void PlantTrees(const Eigen::Vector2d& low, const Eigen::Vector2d& high, int count, Random& random,
+                Town& town) {
+  constexpr int kTries = 20;
+  for (int i = 0; i < count * kTries && count > 0; ++i) {
+    Tree tree;
+    tree.position = {random.Uniform(low.x(), high.x()), random.Uniform(low.y(), high.y())};
+    tree.height_m = random.Uniform(5, 11);
+    tree.crown_m = tree.height_m * random.Uniform(0.22, 0.34);
+    constexpr double kClearance_m = 0.6;
+    const bool free =
+        std::all_of(town.houses.begin(), town.houses.end(),
+                    [&](const House& house) {
+                      return !Contains(house.outline, tree.position) &&
+                             DistanceToOutline(house.outline, tree.position) >
+                                 tree.crown_m + kClearance_m;
+                    }) &&
+        std::all_of(town.trees.begin(), town.trees.end(), [&](const Tree& other) {
+          return (other.position - tree.position).norm() > 0.8 * (other.crown_m + tree.crown_m);
+        });
+    if (!free) continue;
+    town.trees.push_back(tree);
+    if (--count == 0) return;
+  }
+}
+
+void ParkCars(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double share, Random& random,
+              Town& town) {
+  constexpr double kPlace_m = 5.8;
+  const Eigen::Vector2d along = (to - from).normalized();
+  const int places = static_cast<int>((to - from).norm() / kPlace_m);
+  for (int i = 0; i < places; ++i) {
+    if (!random.Chance(share)) continue;
+    Car car;
+    car.position = from + (i + 0.5 + random.Uniform(-0.08, 0.08)) * kPlace_m * along;
+    car.heading_rad = std::atan2(along.y(), along.x()) + random.Uniform(-0.03, 0.03) +
+                      (random.Chance(0.2) ? std::numbers::pi : 0);
+    town.cars.push_back(car);
+  }
+}
+
+}  // namespace internal
+
+namespace {
+
+Town InStreetAxes(const std::string& style, const Random& random) {
+  if (style == "hamlet") return internal::LayOutHamlet(random);
+  if (style == "terrain") return internal::LayOutTerrain(random);
+  if (style == "block") return internal::LayOutBlock(random);
+  if (style == "asia") return internal::LayOutAsia(random);
+  if (style == "campus") return internal::LayOutCampus(random);
+  throw Error(ErrorKind::kUsage, fmt::format("--style {}: is not known", style),
+              fmt::format("choose from {}", fmt::join(CityStyles(), ", ")));
+}
+
+void Turn(Town& town) {
+  const Eigen::Rotation2Dd turn(town.turn_rad);
+  for (House& house : town.houses) {
+    house.outline = Placed(house.outline, town.turn_rad, Eigen::Vector2d::Zero());
+  }
+  for (Tree& tree : town.trees) tree.position = turn * tree.position;
+  for (Car& car : town.cars) {
+    car.position = turn * car.position;
+    car.heading_rad += town.turn_rad;
+  }
+}
+
+// Puts houses on the ground: their walls start at its lowest point along the outline, and the
+// ground floor lies above the highest.
+void Settle(const Relief& relief, House& house) {
+  double low = relief.HeightAt(house.outline.rings[0][0]);
+  double high = low;
+  for (const plan::Ring& ring : house.outline.rings) {
+    for (size_t i = 0; i < ring.size(); ++i) {
+      constexpr int kSteps = 8;
+      for (int k = 0; k < kSteps; ++k) {
+        const double t = static_cast<double>(k) / kSteps;
+        const double z = relief.HeightAt(ring[i] + t * (ring[(i + 1) % ring.size()] - ring[i]));
+        low = std::min(low, z);
+        high = std::max(high, z);
+      }
+    }
+  }
+  house.base_m += low;
+  house.floor_m += high;
+}
+
+}  // namespace
+
+double Relief::HeightAt(const Eigen::Vector2d& position) const {
+  const Eigen::Vector2d uphill(std::cos(direction_rad), std::sin(direction_rad));
+  const Eigen::Vector2d across(-uphill.y(), uphill.x());
+  const double turns = 2 * std::numbers::pi / wave_length_m;
+  return rise * uphill.dot(position) + wave_m * std::sin(turns * across.dot(position)) *
+                                           std::cos(0.7 * turns * uphill.dot(position));
+}
+
+Town LayOutTown(const std::string& style, uint64_t seed) {
+  uint64_t name = 14695981039346656037u;  // FNV-1a: a style has towns of its own
+  for (const char c : style) name = (name ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  Random random(seed, name);
+  Town town = InStreetAxes(style, random);
+  internal::MarkPartyWalls(town.houses);
+  Turn(town);
+  for (size_t i = 0; i < town.houses.size(); ++i) {
+    House& house = town.houses[i];
+    house.id = fmt::format("B{:04}", i + 1);
+    house.seed = Random(seed, 1000 + i).Next();
+    Settle(town.relief, house);
+  }
+  return town;
+}
+
+std::vector<std::string> CityStyles() {
+  return {"hamlet", "block", "asia", "campus", "terrain"};
+}
+
+}  // namespace stucco::simulate

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+namespace stucco::simulate {
+
+// Random numbers whose bytes depend on the seed alone, unlike those of the standard library's
+// distributions: SplitMix64 (Steele, Lea, Flood: "Fast splittable pseudorandom number generators",
+// 2014).
+class Random {
+ public:
+  explicit Random(uint64_t seed) : state_(seed) {}
+  // A stream of its own for part `index` of what `seed` makes: what one part draws does not change
+  // the others.
+  Random(uint64_t seed, uint64_t index) : state_(seed) {
+    state_ = Next() ^ (index * 0x9e3779b97f4a7c15u);
+    Next();
+  }
+
+  uint64_t Next() {
+    state_ += 0x9e3779b97f4a7c15u;
+    uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+  // In [0, 1).
+  double Unit() { return static_cast<double>(Next() >> 11) * 0x1p-53; }
+  double Uniform(double from, double to) { return from + (to - from) * Unit(); }
+  // In [0, count), count > 0. The modulo favours small numbers by less than count / 2^64.
+  int Index(int count) { return static_cast<int>(Next() % static_cast<uint64_t>(count)); }
+  int Integer(int from, int to) { return from + Index(to - from + 1); }  // both inclusive
+  bool Chance(double probability) { return Unit() < probability; }
+
+ private:
+  uint64_t state_;
+};
+
+}  // namespace stucco::simulate

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/city/make_city.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <map>
+#include <set>
+
+#include "plan/map/read_site.h"
+#include "simulate/scene/scene_folder.h"
+#include "survey/files.h"
+#include "survey/image.h"
+#include "survey/plan_frame.h"
+#include "survey/proxy.h"
+#include "survey/texture_set.h"
+#include "tests/survey/support.h"
+
+namespace stucco::simulate {
+namespace {
+
+namespace fs = std::filesystem;
+
+CityOptions Coarse(const std::string& style, uint64_t seed) {
+  CityOptions options;
+  options.style = style;
+  options.seed = seed;
+  options.metres_per_texel = 0.25;
+  return options;
+}
+
+plan::Site SiteOf(const fs::path& scene) {
+  std::optional<fs::path> dem;
+  if (fs::exists(scene / kSceneTerrain)) dem = scene / kSceneTerrain;
+  return plan::ReadSite({.map = scene / kSceneMap, .dem = dem}, plan::PlanOptions{});
+}
+
+std::map<std::string, Facet> FacetsById(const fs::path& scene) {
+  std::map<std::string, Facet> facets;
+  for (const Building& building : ReadProxy(scene / kTruthFacets).buildings) {
+    for (const Facet& facet : building.facets) facets[facet.id] = facet;
+  }
+  return facets;
+}
+
+class Cities : public testing::TestWithParam<std::string> {};
+
+TEST_P(Cities, EveryFacadeOfThePlannerIsAWallOfTheTruth) {
+  const test::TemporaryFolder folder;
+  const fs::path scene = folder / "scene";
+  const CitySummary summary = MakeCity(Coarse(GetParam(), 5), scene);
+  const SceneInfo info = ReadSceneInfo(scene);
+  const auto facets = FacetsById(scene);
+  const plan::Site site = SiteOf(scene);
+  EXPECT_TRUE(site.repairs.empty()) << site.repairs[0];
+  EXPECT_EQ(static_cast<int>(site.facades.size()), summary.facades);
+  std::set<std::string> matched;
+  for (const plan::Facade& facade : site.facades) {
+    ASSERT_TRUE(facets.contains(facade.id)) << facade.id;
+    const Facet& wall = facets.at(facade.id);
+    EXPECT_EQ(wall.facade, facade.id);
+    matched.insert(facade.id);
+    // The wall's foot runs from a to b, to a millimetre of the map's rounding.
+    const auto in_scene = [&](const Eigen::Vector2d& at) -> Eigen::Vector2d {
+      const Geodetic place = GeodeticFromPlan(site.origin, at);
+      return EnuFromGeodetic(info.georef, place.latitude_deg, place.longitude_deg,
+                             info.georef.origin_height_m)
+          .head<2>();
+    };
+    EXPECT_LT((in_scene(facade.a) - wall.outer[0].head<2>()).norm(), 2e-3) << facade.id;
+    EXPECT_LT((in_scene(facade.b) - wall.outer[1].head<2>()).norm(), 2e-3) << facade.id;
+    // What the planner takes for the wall's top is nowhere lower than the wall.
+    double top = wall.outer[0].z();
+    for (const auto& corner : wall.outer) top = std::max(top, corner.z());
+    const double above_foot = top - wall.outer[0].z();
+    EXPECT_GT(facade.z_m.length_m(), above_foot - 0.1) << facade.id;
+  }
+  for (const auto& [id, facet] : facets) {
+    const bool free_wall = facet.facet_class == FacetClass::kWall && facet.seen > 0;
+    EXPECT_EQ(free_wall, matched.contains(id)) << id;
+  }
+}
+
+TEST_P(Cities, PicturesLieOnTheirFacets) {
+  const test::TemporaryFolder folder;
+  const fs::path scene = folder / "scene";
+  MakeCity(Coarse(GetParam(), 6), scene);
+  const auto facets = FacetsById(scene);
+  const std::string glb = ReadFile(scene / kSceneModel);
+  std::set<std::string> textured;
+  for (const TexturedFacet& texture : ReadTextureSet(scene / kTruthTextures).facets) {
+    ASSERT_TRUE(facets.contains(texture.id)) << texture.id;
+    textured.insert(texture.id);
+    const Facet& facet = facets.at(texture.id);
+    EXPECT_NEAR(texture.u_axis.dot(texture.v_axis), 0, 1e-9);
+    EXPECT_NEAR((texture.v_axis.cross(texture.u_axis) - facet.normal).norm(), 0, 1e-6);
+    for (const Eigen::Vector3d& corner : facet.outer) {
+      const Eigen::Vector3d at = (corner - texture.origin) / texture.metres_per_texel;
+      EXPECT_NEAR(at.dot(facet.normal), 0, 1e-4) << texture.id;
+      EXPECT_GT(at.dot(texture.u_axis), -1e-3) << texture.id;
+      EXPECT_GT(at.dot(texture.v_axis), -1e-3) << texture.id;
+      EXPECT_LT(at.dot(texture.u_axis), texture.width_px + 1e-3) << texture.id;
+      EXPECT_LT(at.dot(texture.v_axis), texture.height_px + 1e-3) << texture.id;
+    }
+    const std::string bytes = ReadFile(scene / "truth" / texture.image);
+    const ImageSize size = ReadJpegSize(scene / "truth" / texture.image);
+    EXPECT_EQ(size.width_px, texture.width_px);
+    EXPECT_EQ(size.height_px, texture.height_px);
+    EXPECT_NE(glb.find(bytes), std::string::npos) << texture.id;
+  }
+  for (const auto& [id, facet] : facets) {
+    const bool wants = facet.seen > 0 && facet.facet_class != FacetClass::kGround;
+    EXPECT_EQ(wants, textured.contains(id)) << id;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Styles, Cities, testing::ValuesIn(CityStyles()),
+                         [](const auto& test) { return test.param; });
+
+TEST(MakeCity, GivesTheSameBytesAtAnyNumberOfThreads) {
+  const test::TemporaryFolder folder;
+  CityOptions options = Coarse("hamlet", 11);
+  options.threads = 1;
+  MakeCity(options, folder / "one");
+  options.threads = 3;
+  MakeCity(options, folder / "three");
+  for (const char* name : {kSceneModel, kSceneMap, kTruthFacets, kTruthTextures, kSceneFile}) {
+    EXPECT_EQ(HashFile(folder / "one" / name), HashFile(folder / "three" / name)) << name;
+  }
+}
+
+TEST(MakeCity, ReplacesAnOlderSceneAndLeavesOtherFilesAlone) {
+  const test::TemporaryFolder folder;
+  const fs::path scene = folder / "scene";
+  MakeCity(Coarse("terrain", 1), scene);
+  WriteFile(scene / "notes.txt", "mine");
+  WriteFile(scene / "truth" / "textures" / "mine.jpg", "mine");
+  MakeCity(Coarse("hamlet", 2), scene);
+  EXPECT_EQ(ReadFile(scene / "notes.txt"), "mine");
+  EXPECT_EQ(ReadFile(scene / "truth" / "textures" / "mine.jpg"), "mine");
+  EXPECT_FALSE(fs::exists(scene / "truth" / "textures" / "B0005_F00.jpg"));
+  EXPECT_FALSE(fs::exists(scene / kSceneTerrain));
+  EXPECT_FALSE(ReadSceneInfo(scene).has_terrain);
+}
+
+TEST(MakeCity, TouchesNoFolderThatIsNoScene) {
+  const test::TemporaryFolder folder;
+  WriteFile(folder / "thesis.txt", "years of work");
+  const Error error = test::ErrorOf([&] { MakeCity(Coarse("hamlet", 1), folder.path()); });
+  EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+  EXPECT_FALSE(fs::exists(folder / kSceneFile));
+  EXPECT_EQ(test::ErrorOf([&] { MakeCity(Coarse("hamlet", 1), folder / "thesis.txt"); }).kind(),
+            ErrorKind::kBadInput);
+  EXPECT_EQ(
+      test::ErrorOf([&] { MakeCity(Coarse("hamlet", 1), folder / "thesis.txt/below"); }).kind(),
+      ErrorKind::kBadInput);
+}
+
+TEST(MakeCity, RefusesBadOptionsBeforeItWrites) {
+  const test::TemporaryFolder folder;
+  CityOptions style = Coarse("castle", 1);
+  CityOptions texel = Coarse("hamlet", 1);
+  texel.metres_per_texel = std::nan("");
+  CityOptions pole = Coarse("hamlet", 1);
+  pole.latitude_deg = 90;
+  for (const CityOptions& options : {style, texel, pole}) {
+    const Error error = test::ErrorOf([&] { MakeCity(options, folder / "scene"); });
+    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+    EXPECT_FALSE(fs::exists(folder / "scene"));
+  }
+}
+
+}  // namespace
+}  // namespace stucco::simulate

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/city/town.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "simulate/city/design_wall.h"
+#include "simulate/city/footprints.h"
+#include "simulate/city/ground.h"
+#include "simulate/city/house_mesh.h"
+#include "simulate/city/make_city.h"
+#include "survey/error.h"
+#include "tests/survey/support.h"
+
+namespace stucco::simulate {
+namespace {
+
+// Seeds in which everything is looked at that costs no painting.
+constexpr int kSeeds = 1000;
+constexpr int kSeedsOfDesigns = 60;
+
+std::string Print(const Town& town) {
+  std::ostringstream text;
+  for (const House& house : town.houses) {
+    for (const plan::Ring& ring : house.outline.rings) {
+      for (const auto& corner : ring) text << corner.transpose() << ";";
+    }
+    text << house.storeys << static_cast<int>(house.cladding) << "\n";
+  }
+  return text.str();
+}
+
+class Towns : public testing::TestWithParam<std::string> {};
+
+TEST_P(Towns, HousesNeverOverlapAndTouchAlongWholeWalls) {
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const Town town = LayOutTown(GetParam(), seed);
+    ASSERT_GE(town.houses.size(), 3u);
+    for (size_t i = 0; i < town.houses.size(); ++i) {
+      for (size_t j = 0; j < i; ++j) {
+        const double gap = Gap(town.houses[i].outline, town.houses[j].outline);
+        ASSERT_GE(gap, -1e-9) << "seed " << seed << ": " << i << " and " << j;
+        ASSERT_TRUE(gap <= 1e-6 || gap > 2.5) << "seed " << seed << ": " << i << " and " << j;
+      }
+    }
+  }
+}
+
+TEST_P(Towns, SolidsAreClosedAndTruthIsSound) {
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const Town town = LayOutTown(GetParam(), seed);
+    Proxy proxy;
+    for (const House& house : town.houses) {
+      const Solid solid = SolidOf(house);
+      ASSERT_FALSE(FindGap(solid)) << "seed " << seed << " " << house.id << *FindGap(solid);
+      std::vector<std::string> facades(house.party.size());
+      for (size_t i = 0; i < facades.size(); ++i) {
+        if (!house.party[i]) facades[i] = house.id + "/F" + std::to_string(i);
+      }
+      proxy.buildings.push_back(TruthOf(house, solid, facades));
+      EXPECT_TRUE(proxy.buildings.back().watertight);
+    }
+    proxy.buildings.push_back({"G0", false, "model", GroundFacets(town, MakeGroundGrid(town))});
+    ASSERT_FALSE(FindProblem(proxy)) << "seed " << seed << " " << *FindProblem(proxy);
+    if (seed == 50 && GetParam() == "terrain") break;  // thousands of facets each
+  }
+}
+
+TEST_P(Towns, GroundIsWhatHousesLeaveFree) {
+  for (int seed = 0; seed < 20; ++seed) {
+    const Town town = LayOutTown(GetParam(), seed);
+    if (!town.relief.IsFlat()) return;
+    double free = 0;
+    for (const Facet& facet : GroundFacets(town, MakeGroundGrid(town))) free += facet.area;
+    double houses = 0;
+    for (const House& house : town.houses) houses += AreaOf(house.outline);
+    double covered = 0;
+    const GroundGrid grid = MakeGroundGrid(town);
+    for (int row = 0; row < grid.rows(); ++row) {
+      for (int column = 0; column < grid.columns(); ++column) {
+        if (grid.patch_of[row * grid.columns() + column] == static_cast<int>(town.ground.size())) {
+          continue;
+        }
+        covered += (grid.x[column + 1] - grid.x[column]) * (grid.y[row + 1] - grid.y[row]);
+      }
+    }
+    EXPECT_NEAR(free, covered - houses, 1e-3) << "seed " << seed;
+  }
+}
+
+TEST_P(Towns, PartsLieOnTheirWallsApartFromEachOther) {
+  for (int seed = 0; seed < kSeedsOfDesigns; ++seed) {
+    const Town town = LayOutTown(GetParam(), seed);
+    for (const House& house : town.houses) {
+      for (const Solid::Face& face : SolidOf(house).faces) {
+        if (face.facet_class != FacetClass::kWall) continue;
+        const Solid solid = SolidOf(house);
+        const double width = (solid.vertices[face.outer[1]] - solid.vertices[face.outer[0]]).norm();
+        const double eaves = solid.vertices[face.outer[2]].z();
+        const double top = face.outer.size() == 5 ? solid.vertices[face.outer[3]].z() : eaves;
+        const WallDesign design = DesignWall(house, {face.edge, width, top, top - eaves});
+        EXPECT_TRUE(!house.party[face.edge] || design.parts.empty());
+        for (const WallPart& part : design.parts) {
+          const bool band = part.kind == PartKind::kCornice || part.kind == PartKind::kPlinth;
+          const double margin = band ? 0 : 0.09;
+          ASSERT_GE(part.top_left.x(), margin - 1e-9) << seed;
+          ASSERT_LE(part.bottom_right.x(), width - margin + 1e-9) << seed;
+          ASSERT_GE(part.top_left.y(), -1e-9) << seed;
+          ASSERT_LE(part.bottom_right.y(), design.height_m + 1e-9) << seed;
+          ASSERT_LT(part.top_left.x(), part.bottom_right.x()) << seed;
+          ASSERT_LT(part.top_left.y(), part.bottom_right.y()) << seed;
+          EXPECT_LE(std::abs(part.relief_m), 1.5);
+        }
+        for (size_t i = 0; i < design.parts.size(); ++i) {
+          for (size_t j = 0; j < i; ++j) {
+            const WallPart& a = design.parts[i];
+            const WallPart& b = design.parts[j];
+            // A balcony covers the foot of its door.
+            if (a.relief_m >= 0 || b.relief_m >= 0) continue;
+            const bool apart =
+                a.bottom_right.x() <= b.top_left.x() || b.bottom_right.x() <= a.top_left.x() ||
+                a.bottom_right.y() <= b.top_left.y() || b.bottom_right.y() <= a.top_left.y();
+            ASSERT_TRUE(apart) << "seed " << seed << " " << house.id << " edge " << face.edge;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_P(Towns, SeedsMakeDifferentTownsAndTheSameSeedTheSame) {
+  std::set<std::string> towns;
+  for (int seed = 0; seed < 50; ++seed) towns.insert(Print(LayOutTown(GetParam(), seed)));
+  EXPECT_EQ(towns.size(), 50u);
+  EXPECT_EQ(Print(LayOutTown(GetParam(), 7)), Print(LayOutTown(GetParam(), 7)));
+}
+
+TEST_P(Towns, CarsAndTreesStandFree) {
+  for (int seed = 0; seed < 100; ++seed) {
+    const Town town = LayOutTown(GetParam(), seed);
+    EXPECT_FALSE(town.trees.empty());
+    for (const House& house : town.houses) {
+      for (const Tree& tree : town.trees) {
+        ASSERT_FALSE(Contains(house.outline, tree.position)) << seed;
+      }
+      for (const Car& car : town.cars) {
+        ASSERT_FALSE(Contains(house.outline, car.position)) << seed;
+        ASSERT_GT(DistanceToOutline(house.outline, car.position), 1) << seed;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Styles, Towns, testing::ValuesIn(CityStyles()),
+                         [](const auto& test) { return test.param; });
+
+TEST(Town, UnknownStyleIsRefusedWithTheKnownOnes) {
+  const Error error = test::ErrorOf([] { LayOutTown("castle", 1); });
+  EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+  EXPECT_NE(error.remedy().find("hamlet, block"), std::string::npos);
+}
+
+TEST(Town, BlockHasPartyWallsAndACourtyard) {
+  const Town town = LayOutTown("block", 3);
+  int party = 0;
+  for (const House& house : town.houses) {
+    party += static_cast<int>(std::count(house.party.begin(), house.party.end(), true));
+  }
+  EXPECT_GE(party, 12);
+  EXPECT_EQ(party % 2, 0);
+}
+
+TEST(Town, TerrainSlopesByMetres) {
+  const Town town = LayOutTown("terrain", 3);
+  double low = 1e9;
+  double high = -1e9;
+  for (const House& house : town.houses) {
+    low = std::min(low, house.base_m);
+    high = std::max(high, house.base_m);
+    EXPECT_GT(house.floor_m, house.base_m + 0.2);
+  }
+  EXPECT_GT(high - low, 2);
+}
+
+}  // namespace
+}  // namespace stucco::simulate
