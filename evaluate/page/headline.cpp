@@ -99,7 +99,7 @@ std::string Planned(const PlanFigures& plan) {
                FigureHtml("method", plan.method) +
                    FigureHtml("photos", fmt::format("{}", plan.photos)) +
                    FigureHtml("hovers", fmt::format("{}", plan.hovers)) +
-                   FigureHtml("path", Metres(plan.length_m)) +
+                   FigureHtml("path", Decimal(plan.length_m, 0) + " m") +
                    FigureHtml("time", Decimal(plan.time_min, 1) + " min") +
                    FigureHtml("battery", Decimal(plan.battery_percent, 0) + " %") +
                    FigureHtml("Q_s, Q_d, Q_u, Q_c",

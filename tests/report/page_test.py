@@ -2,26 +2,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Opens the report in headless Chromium and uses it: page_test.py PAGE_MAKER.
 
-A script that is added to a copy of the page clicks, types and writes what it sees into the page;
---dump-dom prints that. Exits with 77 (skipped) where there is no Chromium.
+Exits with 77 (skipped) where there is no Chromium.
 """
-import html
-import json
 import pathlib
-import re
-import shutil
 import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1]))
+import browser as browsers  # noqa: E402
+
 PROBE = """
-<script>
-const seen = {errors: []};
 const rows = () => Array.from(document.querySelectorAll("#facade-table tbody tr"));
 const shown = () => rows().filter((row) => !row.hidden).map((row) => row.cells[1]
   .querySelector("button").textContent);
 const opened = () => document.querySelector("dialog[open]");
-try {
   seen.title = document.title;
   seen.at_first = shown();
   const column = (name) => Array.from(document.querySelectorAll(".sort"))
@@ -67,36 +62,7 @@ try {
     seen.map_opens = opened().id === "facade-" + wall.dataset.open;
     opened().close();
   }
-  seen.overflow = document.documentElement.scrollWidth - document.documentElement.clientWidth;
-} catch (error) {
-  seen.errors.push(String(error));
-}
-seen.final_title = document.title;
-const result = document.createElement("pre");
-result.id = "probe";
-result.textContent = JSON.stringify(seen);
-document.body.append(result);
-</script>
 """
-
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-
-
-def browse(browser, page, folder, width):
-    """What the probe saw on the page at a window width."""
-    copy = page.with_name("probed.html")
-    text = page.read_text()
-    copy.write_text(text.replace("</body>", PROBE + "</body>"))
-    command = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
-               "--disable-background-networking", "--disable-component-update", "--disable-sync",
-               "--disable-dev-shm-usage", f"--user-data-dir={folder}/profile",
-               f"--window-size={width},900", "--virtual-time-budget=4000", "--dump-dom",
-               copy.as_uri()]
-    dom = subprocess.run(command, capture_output=True, text=True, timeout=300, check=True).stdout
-    probe = re.search(r'<pre id="probe">(.*?)</pre>', dom, re.S)
-    if not probe:
-        raise AssertionError("the page did not run to its end")
-    return json.loads(html.unescape(probe.group(1)))
 
 
 def check_use(seen):
@@ -117,10 +83,10 @@ def check_use(seen):
 
 
 def main():
-    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
+    browser = browsers.find_browser()
     if not browser:
         print("no Chromium: skipped")
-        return 77
+        return browsers.SKIPPED
     maker = sys.argv[1]
     with tempfile.TemporaryDirectory() as folder:
         def page_of(kind):
@@ -129,10 +95,10 @@ def main():
             return survey / "report/report.html"
 
         full = page_of("full")
-        check_use(browse(browser, full, folder, 1280))
+        check_use(browsers.browse(browser, full, PROBE, folder, 1280))
         for width in (1280, 500):
             for page in (full, page_of("hostile"), page_of("empty"), page_of("failed")):
-                seen = browse(browser, page, folder, width)
+                seen = browsers.browse(browser, page, PROBE, folder, width)
                 name = f"{page.parent.parent.name} at {width} px"
                 assert not seen["errors"], (name, seen["errors"])
                 assert seen["final_title"] == "Facade report", (name, seen["final_title"])

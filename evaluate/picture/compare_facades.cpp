@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "evaluate/geometry/match_facets.h"
+#include "evaluate/geometry/moved.h"
+#include "evaluate/means.h"
+#include "evaluate/picture/compare_textures.h"
+#include "evaluate/picture/facade_picture.h"
+#include "evaluate/picture/lpips.h"
+#include "evaluate/picture/measure.h"
+#include "evaluate/picture/misregistration.h"
+#include "evaluate/picture/page_pictures.h"
+#include "evaluate/picture/tone.h"
+#include "survey/parallel.h"
+
+namespace stucco::evaluate {
+namespace {
+
+using simulate::Radiance;
+
+// Spots of this size tell the gains: content and small shifts are averaged away.
+constexpr double kGainTexel_m = 0.16;
+// Pictures with more texels are compared coarser; FLIP needs some hundred bytes for each.
+constexpr double kMostTexels = 8e6;
+
+// A facet with a picture that lies on a wall of the truth.
+struct Pairing {
+  const Facet* truth = nullptr;
+  const Facet* result = nullptr;
+  const TexturedFacet* texture = nullptr;
+};
+
+int Threads(const TextureComparison& comparison) {
+  return comparison.threads > 0 ? comparison.threads : std::numeric_limits<int>::max();
+}
+
+std::string BuildingOf(const std::string& id) {
+  return id.substr(0, id.find('/'));
+}
+
+// Elements that rays to a building's wall pass: occluders, and other buildings, which may be nearer
+// than the rays begin.
+std::vector<bool> LeftOut(const TextureComparison& comparison, const std::string& building) {
+  const std::vector<std::string>& elements = comparison.scene.scene().elements;
+  std::set<std::string> others;
+  for (const Building& other : comparison.truth.buildings) others.insert(other.id);
+  others.erase(building);
+  std::vector<bool> left_out(elements.size(), false);
+  for (size_t i = 0; i < elements.size(); ++i) {
+    left_out[i] = (i < comparison.occluders.size() && comparison.occluders[i]) ||
+                  others.contains(BuildingOf(elements[i]));
+  }
+  return left_out;
+}
+
+Radiance DrawTruth(const TextureComparison& comparison, const Facet& truth,
+                   const simulate::PicturePlane& plane) {
+  simulate::Light light = comparison.light;
+  light.haze_m = 0;
+  return comparison.scene.Flatten(
+      plane, light, {.threads = 1, .left_out = LeftOut(comparison, BuildingOf(truth.id))});
+}
+
+// The result's picture on the overlap of both outlines, with texels of at least `texel_m`.
+FacadePicture ReadOverlap(const TextureComparison& comparison, const Pairing& pairing,
+                          double texel_m) {
+  FacadePicture picture =
+      ReadFacadePicture(*pairing.texture, comparison.texture_folder, comparison.truth_from_world);
+  KeepInside(*pairing.truth, picture);
+  KeepInside(Moved(*pairing.result, comparison.truth_from_world), picture);
+  picture = Cropped(picture);
+  return Coarsened(picture, texel_m / picture.plane.metres_per_texel);
+}
+
+double ComparedTexel_m(const TextureComparison& comparison, const TexturedFacet& texture) {
+  const double own = comparison.truth_from_world.scale * texture.metres_per_texel;
+  const double texels = static_cast<double>(texture.width_px) * texture.height_px;
+  return std::max({own, comparison.truth_texel_m, own * std::sqrt(texels / kMostTexels)});
+}
+
+LightPairs PairsOfLight(const TextureComparison& comparison, const Pairing& pairing) {
+  LightPairs pairs;
+  const FacadePicture result = ReadOverlap(comparison, pairing, kGainTexel_m);
+  if (CountKnown(result) == 0) return pairs;
+  const Radiance truth = DrawTruth(comparison, *pairing.truth, result.plane);
+  for (size_t i = 0; i < result.known.size(); ++i) {
+    if (result.known[i] != 0) pairs.Add(&truth.rgb[3 * i], &result.rgb[3 * i]);
+  }
+  return pairs;
+}
+
+std::array<double, 3> GainsOf(const TextureComparison& comparison,
+                              const std::vector<std::vector<Pairing>>& walls) {
+  std::vector<LightPairs> of_walls(walls.size());
+  ParallelFor(walls.size(), Threads(comparison), [&](size_t i) {
+    for (const Pairing& pairing : walls[i]) of_walls[i].Append(PairsOfLight(comparison, pairing));
+  });
+  LightPairs all;
+  for (const LightPairs& pairs : of_walls) all.Append(pairs);
+  return FitGains(std::move(all));
+}
+
+struct ComparedFacade {
+  double area_m2 = 0;  // painted and in both outlines
+  PicturePair pictures;
+};
+
+std::optional<ComparedFacade> Compare(const TextureComparison& comparison, const Pairing& pairing,
+                                      const std::array<double, 3>& gains) {
+  const FacadePicture result =
+      ReadOverlap(comparison, pairing, ComparedTexel_m(comparison, *pairing.texture));
+  const size_t known = CountKnown(result);
+  if (known == 0) return std::nullopt;
+  const ImageSize size{result.plane.width_px, result.plane.height_px};
+  const Radiance truth = DrawTruth(comparison, *pairing.truth, result.plane);
+  const double texel_m = result.plane.metres_per_texel;
+  return ComparedFacade{
+      static_cast<double>(known) * texel_m * texel_m,
+      {Developed(truth.rgb, size, gains), Developed(result.rgb, size, {1, 1, 1}), result.known}};
+}
+
+// Everything that a wall is measured with.
+struct Measuring {
+  const TextureComparison& comparison;
+  std::array<double, 3> gains = {1, 1, 1};
+  const Lpips* lpips = nullptr;
+};
+
+// What the facets on one wall say together, weighted by their painted area. The page shows the one
+// with the largest overlap.
+FacadeFigures MeasureWall(const Measuring& measuring, const TruthFacet& wall,
+                          const std::vector<Pairing>& pairings, size_t number) {
+  FacadeFigures figures;
+  figures.id = wall.truth->id;
+  figures.area_m2 = wall.area_m2;
+  if (!wall.matches.empty()) figures.facet = wall.matches.front().result->id;
+  std::vector<WeightedPicture> pictures;
+  double painted_m2 = 0;
+  double shift_sum = 0;
+  double shift_m2 = 0;
+  for (const Pairing& pairing : pairings) {
+    const auto compared = Compare(measuring.comparison, pairing, measuring.gains);
+    if (!compared) continue;
+    const MeasuredPair measured = MeasurePair(compared->pictures, measuring.lpips);
+    const double shift = Misregistration(compared->pictures);
+    if (!std::isnan(shift)) {
+      shift_sum += compared->area_m2 * shift;
+      shift_m2 += compared->area_m2;
+    }
+    if (pictures.empty()) {
+      const PagePictures names =
+          WritePagePictures(compared->pictures, measured.flip, measuring.comparison.output,
+                            PictureStem(number, figures.id));
+      figures.truth_picture = names.truth;
+      figures.result_picture = names.result;
+      figures.error_picture = names.error;
+    }
+    pictures.push_back({measured.figures, compared->area_m2});
+    painted_m2 += compared->area_m2;
+  }
+  figures.painted = wall.area_m2 > 0 ? std::min(1.0, painted_m2 / wall.area_m2) : 0;
+  figures.picture = MeanFigures(pictures);
+  if (shift_m2 > 0) figures.misregistration_px = shift_sum / shift_m2;
+  return figures;
+}
+
+std::vector<Pairing> PairingsOf(const TruthFacet& wall,
+                                const std::map<std::string, const TexturedFacet*>& textures) {
+  std::vector<Pairing> pairings;
+  for (const FacetMatch& match : wall.matches) {
+    const auto texture = textures.find(match.result->id);
+    if (texture == textures.end() || texture->second->image.empty()) continue;
+    pairings.push_back({wall.truth, match.result, texture->second});
+  }
+  return pairings;
+}
+
+}  // namespace
+
+std::vector<FacadeFigures> CompareFacades(const TextureComparison& comparison) {
+  std::map<std::string, const TexturedFacet*> textures;
+  for (const TexturedFacet& facet : comparison.textures.facets) textures[facet.id] = &facet;
+  std::vector<TruthFacet> walls;
+  std::vector<std::vector<Pairing>> pairings;
+  for (TruthFacet& facet :
+       MatchFacets(comparison.proxy, comparison.truth, comparison.truth_from_world)) {
+    if (facet.truth->facet_class != FacetClass::kWall) continue;
+    pairings.push_back(PairingsOf(facet, textures));
+    walls.push_back(std::move(facet));
+  }
+  std::optional<Lpips> lpips;
+  if (!comparison.lpips_model.empty()) lpips.emplace(comparison.lpips_model);
+  const Measuring measuring{comparison, GainsOf(comparison, pairings), lpips ? &*lpips : nullptr};
+  std::vector<FacadeFigures> figures(walls.size());
+  ParallelFor(walls.size(), Threads(comparison),
+              [&](size_t i) { figures[i] = MeasureWall(measuring, walls[i], pairings[i], i); });
+  return figures;
+}
+
+}  // namespace stucco::evaluate

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "evaluate/picture/compare_textures.h"
+#include "evaluate/picture/lpips.h"
+#include "evaluate/picture/measure.h"
+#include "evaluate/picture/page_pictures.h"
+#include "evaluate/picture/tone.h"
+#include "simulate/scene/scene_folder.h"
+#include "survey/srgb.h"
+
+namespace stucco::evaluate {
+namespace {
+
+using simulate::DepthMap;
+using simulate::FlownPhoto;
+using simulate::Renderer;
+
+// Photos are compared at most this large: models hold pictures of limited size anyway.
+constexpr int kViewSide_px = 1600;
+// ... and the gains are fitted on pictures of this size, where small shifts are averaged away.
+constexpr int kGainSide_px = 200;
+// What stands nearer than the scene without occluders does, is one.
+constexpr float kInFront_m = 0.05f;
+
+// model.glb has the world's coordinates, turned so that up is z, less an offset (texture_set.h).
+Similarity ModelFromScene(const TextureComparison& comparison) {
+  const Similarity world_from_scene = comparison.truth_from_world.Inverse();
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond::FromTwoVectors(comparison.proxy.up, Eigen::Vector3d::UnitZ());
+  return {world_from_scene.scale, (turn * world_from_scene.rotation).normalized(),
+          turn * (world_from_scene.translation - comparison.textures.model_offset)};
+}
+
+struct View {
+  Image photo;
+  Image model;  // codes of the textures
+  std::vector<uint8_t> mask;
+};
+
+std::vector<uint8_t> MaskOf(const DepthMap& model, const DepthMap& scene,
+                            const DepthMap& scene_without) {
+  std::vector<uint8_t> mask(model.depth_m.size(), 0);
+  for (size_t i = 0; i < mask.size(); ++i) {
+    const bool occluded =
+        scene.depth_m[i] > 0 && (!(scene_without.depth_m[i] > 0) ||
+                                 scene.depth_m[i] < scene_without.depth_m[i] - kInFront_m);
+    mask[i] = model.depth_m[i] > 0 && !occluded ? 1 : 0;
+  }
+  return mask;
+}
+
+// Textures carry their light; the model's colours are their codes.
+Image Codes(const simulate::Radiance& radiance) {
+  Image image{radiance.width_px, radiance.height_px, 3, {}};
+  image.data.reserve(radiance.rgb.size());
+  for (const float light : radiance.rgb) image.data.push_back(SrgbCode(light));
+  return image;
+}
+
+View MakeView(const TextureComparison& comparison, const Renderer& model, const FlownPhoto& flown,
+              const std::filesystem::path& flight_folder, int side_px) {
+  View view;
+  view.photo = ReadJpeg(flight_folder / simulate::kTruthFolder / flown.path, 3, side_px);
+  const Camera camera = Resized(flown.camera, view.photo.width_px, view.photo.height_px);
+  const Pose cam_from_model = Transformed(flown.cam_from_world, ModelFromScene(comparison));
+  const simulate::RenderOptions all{.threads = comparison.threads, .left_out = {}};
+  const simulate::RenderOptions without{.threads = comparison.threads,
+                                        .left_out = comparison.occluders};
+  view.model = Codes(model.Photograph(camera, cam_from_model, {.lit = false}, all));
+  view.mask = MaskOf(model.Depth(camera, cam_from_model, all),
+                     comparison.scene.Depth(camera, flown.cam_from_world, all),
+                     comparison.scene.Depth(camera, flown.cam_from_world, without));
+  return view;
+}
+
+// What a photo's own exposure and white balance make of a survey's mean light.
+std::array<double, 3> OwnGains(const FlownPhoto& flown) {
+  const Eigen::Vector3d gains = flown.exposure * flown.white_balance;
+  return {gains.x(), gains.y(), gains.z()};
+}
+
+std::vector<float> LightOf(const Image& image) {
+  std::vector<float> light;
+  light.reserve(image.data.size());
+  for (const uint8_t code : image.data) light.push_back(LightOfCode(code));
+  return light;
+}
+
+LightPairs PairsOfLight(const View& view, const std::array<double, 3>& own_gains) {
+  LightPairs pairs;
+  const std::vector<float> photo = LightOf(view.photo);
+  std::vector<float> model = LightOf(view.model);
+  for (size_t i = 0; i < model.size(); ++i) model[i] *= static_cast<float>(own_gains[i % 3]);
+  for (size_t i = 0; i < view.mask.size(); ++i) {
+    if (view.mask[i] != 0) pairs.Add(&model[3 * i], &photo[3 * i]);
+  }
+  return pairs;
+}
+
+PicturePair AtThePhotosExposure(const View& view, std::array<double, 3> gains,
+                                const std::array<double, 3>& own_gains) {
+  for (size_t c = 0; c < 3; ++c) gains[c] *= own_gains[c];
+  const ImageSize size{view.photo.width_px, view.photo.height_px};
+  return {view.photo, Developed(LightOf(view.model), size, gains), view.mask};
+}
+
+}  // namespace
+
+std::vector<HeldOutFigures> CompareViews(const TextureComparison& comparison,
+                                         const simulate::Flight& flight,
+                                         const std::filesystem::path& flight_folder) {
+  std::vector<const FlownPhoto*> held_out;
+  for (const FlownPhoto& photo : flight.photos) {
+    if (photo.held_out && !photo.lost) held_out.push_back(&photo);
+  }
+  if (held_out.empty()) return {};
+  const Renderer model(
+      simulate::ReadScene(comparison.texture_folder / comparison.textures.model_glb));
+  LightPairs pairs;
+  for (const FlownPhoto* photo : held_out) {
+    pairs.Append(PairsOfLight(MakeView(comparison, model, *photo, flight_folder, kGainSide_px),
+                              OwnGains(*photo)));
+  }
+  const std::array<double, 3> gains = FitGains(std::move(pairs));
+  std::optional<Lpips> lpips;
+  if (!comparison.lpips_model.empty()) lpips.emplace(comparison.lpips_model);
+  std::vector<HeldOutFigures> figures;
+  for (const FlownPhoto* photo : held_out) {
+    const View view = MakeView(comparison, model, *photo, flight_folder, kViewSide_px);
+    const PicturePair pair = AtThePhotosExposure(view, gains, OwnGains(*photo));
+    const MeasuredPair measured = MeasurePair(pair, lpips ? &*lpips : nullptr);
+    const PagePictures names = WritePagePictures(
+        pair, measured.flip, comparison.output, PictureStem(figures.size(), "view-" + photo->path));
+    figures.push_back({photo->path, measured.figures, names.truth, names.result, names.error});
+  }
+  return figures;
+}
+
+}  // namespace stucco::evaluate

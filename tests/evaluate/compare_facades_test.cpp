@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "evaluate/geometry/moved.h"
+#include "evaluate/picture/compare_textures.h"
+#include "survey/error.h"
+#include "tests/evaluate/made_pictures.h"
+#include "tests/evaluate/made_walls.h"
+
+namespace stucco::evaluate {
+namespace {
+
+using simulate::Light;
+using simulate::Renderer;
+
+// A survey of the house, in a folder of its own.
+struct Survey {
+  std::filesystem::path folder;
+  Proxy truth = MadeHouse();
+  Proxy proxy = MadeHouse();
+  TextureSet textures;
+  Similarity truth_from_world;
+  std::vector<bool> occluders;
+};
+
+Survey MadeSurvey(const std::string& name, const Renderer& scene, const Painting& painting = {}) {
+  Survey survey;
+  survey.folder = std::filesystem::path(testing::TempDir()) / name;
+  survey.textures = PaintHouse(scene, Light{}, painting, survey.folder);
+  return survey;
+}
+
+std::vector<FacadeFigures> Compare(const Survey& survey, const Renderer& scene, int threads = 2) {
+  return CompareFacades({.texture_folder = survey.folder,
+                         .proxy = survey.proxy,
+                         .textures = survey.textures,
+                         .truth = survey.truth,
+                         .scene = scene,
+                         .light = Light{},
+                         .occluders = survey.occluders,
+                         .truth_from_world = survey.truth_from_world,
+                         .output = survey.folder / "evaluation",
+                         .lpips_model = {},
+                         .threads = threads});
+}
+
+void ExpectEqual(const FacadeFigures& figures) {
+  EXPECT_NEAR(figures.painted, 1, 0.002) << figures.id;
+  EXPECT_GT(figures.picture.ssim, 0.999) << figures.id;
+  EXPECT_GT(figures.picture.ms_ssim, 0.999) << figures.id;
+  EXPECT_GT(figures.picture.psnr, 50) << figures.id;
+  EXPECT_LT(figures.picture.gmsd, 0.002) << figures.id;
+  EXPECT_LT(figures.picture.flip, 0.01) << figures.id;
+  EXPECT_LT(figures.misregistration_px, 0.02) << figures.id;
+}
+
+TEST(CompareFacades, TruthAgainstItselfHasNoError) {
+  const Renderer scene(MadeHouseScene());
+  const Survey survey = MadeSurvey("self", scene);
+  const auto figures = Compare(survey, scene);
+  ASSERT_EQ(figures.size(), 4u);
+  for (const FacadeFigures& facade : figures) {
+    ExpectEqual(facade);
+    EXPECT_EQ(facade.facet, facade.id);
+    EXPECT_TRUE(std::isnan(facade.picture.lpips));
+    for (const std::string& picture :
+         {facade.truth_picture, facade.result_picture, facade.error_picture}) {
+      EXPECT_TRUE(std::filesystem::exists(survey.folder / "evaluation" / picture)) << picture;
+    }
+  }
+  EXPECT_NEAR(figures[0].area_m2, 7.5, 1e-9);
+}
+
+TEST(CompareFacades, ExposureAndWhiteBalanceOfTheSurveyAreNoError) {
+  const Renderer scene(MadeHouseScene());
+  const Survey survey = MadeSurvey("exposed", scene, {.gains = {0.7, 0.9, 0.8}});
+  for (const FacadeFigures& facade : Compare(survey, scene)) ExpectEqual(facade);
+}
+
+TEST(CompareFacades, OneFacadeThatIsDarkerIsAnError) {
+  const Renderer scene(MadeHouseScene());
+  Survey survey = MadeSurvey("uneven", scene);
+  const std::filesystem::path wall = survey.folder / survey.textures.facets[1].image;
+  WriteImage(Changed(ReadImage(wall), [](double code) { return 0.8 * code; }), wall);
+  const auto figures = Compare(survey, scene);
+  ExpectEqual(figures[0]);
+  ExpectEqual(figures[2]);
+  EXPECT_LT(figures[1].picture.psnr, 25);
+  EXPECT_GT(figures[1].picture.flip, 0.05);
+  EXPECT_LT(figures[1].misregistration_px, 0.02);
+}
+
+TEST(CompareFacades, AShiftIsFoundInTexels) {
+  const Renderer scene(MadeHouseScene());
+  for (const FacadeFigures& facade : Compare(MadeSurvey("shifted", scene, {.shift = 2.5}), scene)) {
+    EXPECT_NEAR(facade.misregistration_px, 2.5, 0.1) << facade.id;
+    EXPECT_LT(facade.picture.ssim, 0.9);
+  }
+}
+
+TEST(CompareFacades, WorksInTheSurveysOwnFrame) {
+  const Renderer scene(MadeHouseScene());
+  Survey survey = MadeSurvey("frame", scene);
+  survey.truth_from_world.scale = 2.5;
+  survey.truth_from_world.rotation =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(0.1, 0.2, 1).normalized());
+  survey.truth_from_world.translation = {100, -40, 7};
+  const Similarity world_from_truth = survey.truth_from_world.Inverse();
+  survey.proxy = Moved(survey.truth, world_from_truth);
+  for (TexturedFacet& facet : survey.textures.facets) {
+    facet.origin = world_from_truth * facet.origin;
+    facet.u_axis = world_from_truth.rotation * facet.u_axis;
+    facet.v_axis = world_from_truth.rotation * facet.v_axis;
+    facet.metres_per_texel *= world_from_truth.scale;
+  }
+  for (const FacadeFigures& facade : Compare(survey, scene)) ExpectEqual(facade);
+}
+
+TEST(CompareFacades, FinerTexelsAreComparedAtTheTruths) {
+  const Renderer scene(MadeHouseScene());
+  for (const FacadeFigures& facade :
+       Compare(MadeSurvey("fine", scene, {.texel_m = 0.005, .shift = 3}), scene)) {
+    // Three texels of half a centimetre.
+    EXPECT_NEAR(facade.misregistration_px, 1.5, 0.1) << facade.id;
+  }
+  for (const FacadeFigures& facade :
+       Compare(MadeSurvey("coarse", scene, {.texel_m = 0.02, .shift = 3}), scene)) {
+    EXPECT_NEAR(facade.misregistration_px, 3, 0.1) << facade.id;
+  }
+}
+
+TEST(CompareFacades, FilledInTexelsAreNotPainted) {
+  const Renderer scene(MadeHouseScene());
+  Survey survey = MadeSurvey("filled", scene);
+  TexturedFacet& south = survey.textures.facets[0];
+  Image image = ReadImage(survey.folder / south.image);
+  Image labels{south.width_px, south.height_px, 1, {}};
+  for (int y = 0; y < south.height_px; ++y) {
+    for (int x = 0; x < south.width_px; ++x) {
+      const bool painted = x < south.width_px / 2;
+      labels.data.push_back(painted ? 1 : 255);
+      if (!painted) std::fill_n(image.Pixel(x, y), 3, uint8_t{255});
+    }
+  }
+  south.label_image = "labels.png";
+  WriteImage(labels, survey.folder / south.label_image);
+  WriteImage(image, survey.folder / south.image);
+  const auto figures = Compare(survey, scene);
+  EXPECT_NEAR(figures[0].painted, 0.5, 0.01);
+  EXPECT_GT(figures[0].picture.ssim, 0.999);
+  EXPECT_GT(figures[0].picture.psnr, 50);
+}
+
+TEST(CompareFacades, WhatStandsBeforeAWallIsLeftOutButNotItsShade) {
+  simulate::Scene with_tree = MadeHouseScene();
+  AddBoard("occluder/tree-1", 1, with_tree);
+  const Renderer scene(with_tree);
+  std::vector<bool> tree(scene.scene().elements.size(), false);
+  tree.back() = true;
+  Survey survey = MadeSurvey("tree", scene, {.left_out = tree});
+  EXPECT_LT(Compare(survey, scene)[0].picture.psnr, 20);
+  survey.occluders = tree;
+  ExpectEqual(Compare(survey, scene)[0]);
+  // Without the tree there would be no shade.
+  EXPECT_LT(Compare(survey, Renderer(MadeHouseScene()))[0].picture.psnr, 30);
+}
+
+TEST(CompareFacades, ANearHouseBehindTheOnlookerIsLeftOut) {
+  simulate::Scene narrow = MadeHouseScene();
+  AddBoard("B0002/F01", 1.5, narrow);
+  const Renderer scene(narrow);
+  std::vector<bool> neighbour(scene.scene().elements.size(), false);
+  neighbour.back() = true;
+  Survey survey = MadeSurvey("narrow", scene, {.left_out = neighbour});
+  survey.truth.buildings.push_back({.id = "B0002", .watertight = true, .source = "", .facets = {}});
+  ExpectEqual(Compare(survey, scene)[0]);
+}
+
+TEST(CompareFacades, AWallWithoutAResultSaysSo) {
+  const Renderer scene(MadeHouseScene());
+  Survey survey = MadeSurvey("bare", scene);
+  survey.textures.facets[0].image.clear();
+  auto& facets = survey.proxy.buildings[0].facets;
+  facets.erase(facets.begin() + 1);
+  const auto figures = Compare(survey, scene);
+  EXPECT_EQ(figures[0].facet, "B0001/F00");
+  EXPECT_EQ(figures[0].painted, 0);
+  EXPECT_TRUE(std::isnan(figures[0].picture.ssim));
+  EXPECT_TRUE(figures[0].truth_picture.empty());
+  EXPECT_EQ(figures[1].facet, "");
+  EXPECT_TRUE(std::isnan(figures[1].misregistration_px));
+  ExpectEqual(figures[2]);
+}
+
+TEST(CompareFacades, IsTheSameAtAnyNumberOfThreads) {
+  const Renderer scene(MadeHouseScene());
+  const Survey survey = MadeSurvey("threads", scene, {.shift = 1});
+  const auto one = Compare(survey, scene, 1);
+  const auto two = Compare(survey, scene, 2);
+  for (size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].picture.ssim, two[i].picture.ssim);
+    EXPECT_EQ(one[i].picture.flip, two[i].picture.flip);
+    EXPECT_EQ(one[i].misregistration_px, two[i].misregistration_px);
+  }
+}
+
+TEST(CompareFacades, AMissingPictureIsAnErrorThatNamesIt) {
+  const Renderer scene(MadeHouseScene());
+  Survey survey = MadeSurvey("missing", scene);
+  survey.textures.facets[2].image = "gone.png";
+  try {
+    Compare(survey, scene);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("gone.png"));
+  }
+}
+
+}  // namespace
+}  // namespace stucco::evaluate

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "evaluate/picture/compare_textures.h"
+#include "evaluate/picture/tone.h"
+#include "simulate/scene/scene_folder.h"
+#include "survey/error.h"
+#include "survey/srgb.h"
+#include "tests/evaluate/made_pictures.h"
+#include "tests/evaluate/made_walls.h"
+
+namespace stucco::evaluate {
+namespace {
+
+using simulate::FlownPhoto;
+using simulate::Renderer;
+
+// A camera with a distorted lens south of the house.
+FlownPhoto MadePhoto(const std::string& path, double exposure) {
+  FlownPhoto photo;
+  photo.path = path;
+  photo.camera = {CameraId{1}, CameraModel::kRadial, 480, 360, {420, 240, 180, -0.08, 0.02}};
+  Eigen::Matrix3d rotation;  // x east, y down, z north
+  rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  photo.cam_from_world.rotation = rotation;
+  photo.cam_from_world.translation = -(rotation * Eigen::Vector3d(1.2, -4, 1.3));
+  photo.exposure = exposure;
+  photo.white_balance = {1.1, 1, 0.9};
+  photo.held_out = true;
+  return photo;
+}
+
+// The picture of a model that carries its light, as the photo's sensor records it.
+Image Recorded(const Renderer& model, const FlownPhoto& photo) {
+  simulate::Radiance radiance =
+      model.Photograph(photo.camera, photo.cam_from_world, {.lit = false});
+  for (float& light : radiance.rgb) light = LightOfCode(SrgbCode(light));
+  const Eigen::Vector3d gains = 0.8 * photo.exposure * photo.white_balance;
+  return Developed(radiance.rgb, {photo.camera.width_px, photo.camera.height_px},
+                   {gains.x(), gains.y(), gains.z()});
+}
+
+struct Survey {
+  std::filesystem::path folder;
+  Proxy proxy = MadeHouse();
+  TextureSet textures;
+  simulate::Flight flight;
+  Similarity truth_from_world;
+};
+
+// The house as model.glb in a world that is turned, moved and offset against the scene, and two
+// photos of it.
+Survey MadeSurvey(const std::string& name, const Renderer& scene) {
+  Survey survey;
+  survey.folder = std::filesystem::path(testing::TempDir()) / name;
+  std::filesystem::create_directories(survey.folder / "truth/held_out");
+  survey.truth_from_world.scale = 0.5;
+  survey.truth_from_world.rotation = Eigen::AngleAxisd(0.9, Eigen::Vector3d::UnitZ());
+  survey.truth_from_world.translation = {-3000, 700, 12};
+  survey.textures.model_glb = "model.glb";
+  survey.textures.model_offset = {2000, -6000, 0};
+  simulate::Scene model = MadeHouseScene();
+  const Similarity world_from_truth = survey.truth_from_world.Inverse();
+  for (Eigen::Vector3f& position : model.positions) {
+    const Eigen::Vector3d world = world_from_truth * position.cast<double>();
+    position = (world - survey.textures.model_offset).cast<float>();
+  }
+  simulate::WriteGlb(model, survey.folder / "model.glb");
+  survey.flight.photos = {MadePhoto("held_out/a.jpg", 0.9), MadePhoto("held_out/b.jpg", 1.1)};
+  for (const FlownPhoto& photo : survey.flight.photos) {
+    WriteImage(Recorded(scene, photo), survey.folder / "truth" / photo.path, 100);
+  }
+  return survey;
+}
+
+std::vector<HeldOutFigures> Compare(const Survey& survey, const Renderer& scene,
+                                    const std::vector<bool>& occluders = {}) {
+  const Proxy truth = MadeHouse();
+  return CompareViews({.texture_folder = survey.folder,
+                       .proxy = survey.proxy,
+                       .textures = survey.textures,
+                       .truth = truth,
+                       .scene = scene,
+                       .light = {},
+                       .occluders = occluders,
+                       .truth_from_world = survey.truth_from_world,
+                       .output = survey.folder / "evaluation",
+                       .lpips_model = {},
+                       .threads = 2},
+                      survey.flight, survey.folder);
+}
+
+TEST(CompareViews, APerfectModelLooksLikeThePhotos) {
+  const Renderer scene(MadeHouseScene());
+  const Survey survey = MadeSurvey("views", scene);
+  const auto figures = Compare(survey, scene);
+  ASSERT_EQ(figures.size(), 2u);
+  for (const HeldOutFigures& view : figures) {
+    // JPEG takes a little of the photo, and all fine colour of the model's textures.
+    EXPECT_GT(view.picture.ssim, 0.97) << view.photo;
+    EXPECT_GT(view.picture.psnr, 33) << view.photo;
+    EXPECT_LT(view.picture.flip, 0.08) << view.photo;
+    EXPECT_TRUE(std::filesystem::exists(survey.folder / "evaluation" / view.error_picture));
+  }
+  EXPECT_EQ(figures[1].photo, "held_out/b.jpg");
+}
+
+TEST(CompareViews, AModelElsewhereDoesNot) {
+  const Renderer scene(MadeHouseScene());
+  Survey survey = MadeSurvey("views_off", scene);
+  const double right = Compare(survey, scene)[0].picture.ssim;
+  survey.truth_from_world.translation.x() += 0.05;
+  EXPECT_LT(Compare(survey, scene)[0].picture.ssim, right - 0.1);
+}
+
+TEST(CompareViews, WhatHidesTheModelIsLeftOut) {
+  const Renderer bare(MadeHouseScene());
+  Survey survey = MadeSurvey("views_tree", bare);
+  simulate::Scene with_tree = MadeHouseScene();
+  AddBoard("occluder/tree-1", 1, with_tree);
+  const Renderer scene(with_tree);
+  for (const FlownPhoto& photo : survey.flight.photos) {
+    WriteImage(Recorded(scene, photo), survey.folder / "truth" / photo.path, 100);
+  }
+  std::vector<bool> occluders(scene.scene().elements.size(), false);
+  const double with = Compare(survey, scene, occluders)[0].picture.psnr;
+  occluders.back() = true;
+  const double without = Compare(survey, scene, occluders)[0].picture.psnr;
+  EXPECT_LT(with, 22);
+  EXPECT_GT(without, 30);
+}
+
+TEST(CompareViews, NothingHeldOutIsNothing) {
+  const Renderer scene(MadeHouseScene());
+  Survey survey = MadeSurvey("views_none", scene);
+  for (FlownPhoto& photo : survey.flight.photos) photo.held_out = false;
+  EXPECT_TRUE(Compare(survey, scene).empty());
+}
+
+TEST(CompareViews, AMissingModelOrPhotoIsAnErrorThatNamesIt) {
+  const Renderer scene(MadeHouseScene());
+  Survey survey = MadeSurvey("views_missing", scene);
+  const auto complaint = [&]() -> std::string {
+    try {
+      Compare(survey, scene);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  survey.flight.photos[0].path = "held_out/gone.jpg";
+  EXPECT_THAT(complaint(), testing::HasSubstr("gone.jpg"));
+  survey.textures.model_glb = "gone.glb";
+  EXPECT_THAT(complaint(), testing::HasSubstr("gone.glb"));
+}
+
+}  // namespace
+}  // namespace stucco::evaluate
