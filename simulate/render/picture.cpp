@@ -125,7 +125,7 @@ uint32_t Drawing::FindSunlit(const std::array<ViewRay, kLanes>& rays, const HitP
         shader_.ToSun(ray.origin + hits[i].at * ray.direction, hits[i].triangle, ray.direction);
   }
   if (asked == 0) return 0;
-  const uint32_t blocked = shader_.scene->Blocked(to_sun, asked, *shader_.left_out);
+  const uint32_t blocked = shader_.scene->Blocked(to_sun, asked);
   uint32_t sunlit = 0;
   for (int k = 0; k < asked; ++k) {
     if (!(blocked >> k & 1)) sunlit |= 1u << lanes[k];

@@ -248,14 +248,13 @@ HitPack RayScene::Nearest(const RayPack& rays, int count, const std::vector<bool
   return hits;
 }
 
-uint32_t RayScene::Blocked(const RayPack& rays, int count,
-                           const std::vector<bool>& left_out) const {
+uint32_t RayScene::Blocked(const RayPack& rays, int count) const {
   alignas(32) std::array<int, kLanes> valid;
   for (int i = 0; i < kLanes; ++i) valid[i] = i < count ? -1 : 0;
   alignas(32) RTCRay8 pack;
   Load(rays, pack);
   Context context;
-  Start(context, left_out, PassLeftOut, true);
+  Start(context, {}, PassLeftOut, true);
   rtcOccluded8(valid.data(), tree_, &context.base, &pack);
   uint32_t blocked = 0;
   for (int i = 0; i < count; ++i) {

@@ -49,7 +49,7 @@ struct RayHit {
   int element = -1;
 };
 
-// Which elements a picture leaves out: by default none.
+// Which elements a picture leaves out, though not their shade: by default none.
 struct RenderOptions {
   int threads = 0;             // 0: all
   std::vector<bool> left_out;  // by element; empty: none

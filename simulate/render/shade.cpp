@@ -149,7 +149,7 @@ Eigen::Array3f Shader::Mirrored(const ViewRay& ray, const Place& place,
   if (FacesSun(hit.triangle, mirrored.ray.direction)) {
     RayPack pack;
     pack[0] = ToSun(there.point, hit.triangle, mirrored.ray.direction);
-    there.in_sun = scene->Blocked(pack, 1, *left_out) ? 0.0f : 1.0f;
+    there.in_sun = scene->Blocked(pack, 1) ? 0.0f : 1.0f;
   }
   const Footprint footprint = FootprintOf(mirrored, there, scene->surface(hit.triangle),
                                           scene->UvAt(hit.triangle, there.point));

@@ -223,6 +223,9 @@ TEST(RenderLight, LeavesOutWhatIsNotWanted) {
   options.left_out = {false, true};
   EXPECT_EQ(renderer.Photograph(camera, pose, Albedo(), options).rgb[3 * 40], 1);
   EXPECT_NEAR(renderer.Depth(camera, pose, options).depth_m[40], 30, 1e-4);
+  // Its shade stays.
+  const Light noon = SunOnly({0, 0, 1});
+  EXPECT_LT(renderer.Photograph(camera, pose, noon, options).rgb[3 * 40], 0.5f);
 }
 
 Scene Village() {

@@ -58,8 +58,9 @@ class RayScene {
 
   // `count` rays of the pack, which should be neighbours. Elements of `left_out` are not there.
   HitPack Nearest(const RayPack& rays, int count, const std::vector<bool>& left_out) const;
-  // Bit i is set where something is on the way of ray i.
-  uint32_t Blocked(const RayPack& rays, int count, const std::vector<bool>& left_out) const;
+  // Bit i is set where something is on the way of ray i, wanted in the picture or not: light does
+  // not know.
+  uint32_t Blocked(const RayPack& rays, int count) const;
   Hit Nearest(const Ray& ray, const std::vector<bool>& left_out) const;
 
   const Scene& scene() const { return scene_; }  // its textures have no texels left
