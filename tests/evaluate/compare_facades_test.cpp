@@ -157,7 +157,7 @@ TEST(CompareFacades, FilledInTexelsAreNotPainted) {
 
 TEST(CompareFacades, WhatStandsBeforeAWallIsLeftOutButNotItsShade) {
   simulate::Scene with_tree = MadeHouseScene();
-  AddBoard("occluder/tree-1", 1, with_tree);
+  AddBoard("occluder/tree-1", 0.4, with_tree);  // so near that its shade is on the wall
   const Renderer scene(with_tree);
   std::vector<bool> tree(scene.scene().elements.size(), false);
   tree.back() = true;
