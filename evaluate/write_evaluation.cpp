@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "evaluate/evaluate.h"
+#include "evaluate/page/evaluation_page.h"
 #include "survey/error.h"
 #include "survey/escape.h"
 #include "survey/files.h"
@@ -81,6 +82,7 @@ Json FacadeJson(const FacadeFigures& facade) {
   json["misregistration_px"] = Number(facade.misregistration_px);
   json["truth_picture"] = facade.truth_picture;
   json["result_picture"] = facade.result_picture;
+  json["error_picture"] = facade.error_picture;
   return json;
 }
 
@@ -104,6 +106,7 @@ Json ViewsJson(const Evaluation& evaluation) {
     AddPicture(view.picture, "", photo);
     photo["truth_picture"] = view.truth_picture;
     photo["result_picture"] = view.result_picture;
+    photo["error_picture"] = view.error_picture;
     json["photos"].push_back(photo);
   }
   return json;
@@ -170,6 +173,7 @@ void WriteEvaluation(const Evaluation& evaluation, const std::filesystem::path& 
   }
   WriteFileAtomically(output / "evaluation.json", EvaluationJson(evaluation) + "\n");
   WriteFileAtomically(output / "facades.csv", FacadesCsv(evaluation));
+  WriteEvaluationPage(evaluation, output);
 }
 
 }  // namespace stucco::evaluate

@@ -69,7 +69,7 @@ std::string EvaluationHtml(const Evaluation& evaluation) {
 }
 
 void WriteEvaluationPage(const Evaluation& evaluation, const std::filesystem::path& output) {
-  WriteFile(output / "evaluation.html", EvaluationHtml(evaluation));
+  WriteFileAtomically(output / "evaluation.html", EvaluationHtml(evaluation));
 }
 
 }  // namespace stucco::evaluate

@@ -43,8 +43,10 @@ bool IsMeasured(const SurfaceFigures& figures) {
 std::string SurfaceRow(const char* name, const SurfaceFigures& figures) {
   if (!IsMeasured(figures)) return "";
   return fmt::format(
-      "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>", name,
-      Metres(figures.error95_m), Percent(figures.completeness));
+      "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td>"
+      "<td class=\"num\">{}</td></tr>",
+      name, Metres(figures.error95_m), Percent(figures.completeness),
+      Percent(figures.completeness_all));
 }
 
 std::string Surfaces(const Evaluation& evaluation) {
@@ -58,8 +60,10 @@ std::string Surfaces(const Evaluation& evaluation) {
   return fmt::format(
       "<h3>Surfaces</h3><div class=\"scroll\"><table class=\"plain\"><thead><tr><td></td>"
       "<th scope=\"col\" class=\"num\">error<br><span class=\"quiet\">95 % lie nearer</span></th>"
-      "<th scope=\"col\" class=\"num\">completeness<br><span class=\"quiet\">within {}</span></th>"
-      "</tr></thead><tbody>{}</tbody></table></div>",
+      "<th scope=\"col\" class=\"num\">complete within {0}<br><span class=\"quiet\">of what "
+      "photos show</span></th><th scope=\"col\" class=\"num\">complete within {0}<br>"
+      "<span class=\"quiet\">of everything</span></th>"
+      "</tr></thead><tbody>{1}</tbody></table></div>",
       Metres(evaluation.tolerance_m), rows);
 }
 
@@ -67,7 +71,9 @@ std::string Solids(const ProxyFigures& proxy) {
   if (proxy.buildings == 0) return "";
   const auto of_all = [&](int count) { return fmt::format("{} of {}", count, proxy.buildings); };
   return Group("Buildings",
-               FigureHtml("closed", of_all(proxy.watertight)) +
+               FigureHtml("buildings", fmt::format("{}", proxy.buildings),
+                          fmt::format("the truth has {}", proxy.truth_buildings)) +
+                   FigureHtml("closed", of_all(proxy.watertight)) +
                    FigureHtml("manifold", of_all(proxy.manifold)) +
                    FigureHtml("cutting themselves", of_all(proxy.self_intersecting)) +
                    FigureHtml("facets", fmt::format("{}", proxy.facets),

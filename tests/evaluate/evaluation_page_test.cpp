@@ -18,7 +18,7 @@ Evaluation MadeEvaluation() {
   evaluation.survey = "a <b>survey</b>";
   evaluation.scene = "hamlet & co";
   evaluation.poses = {.posed = 41, .total = 42, .position_mean_m = 0.0123};
-  evaluation.dense = {.error95_m = 0.031, .completeness = 0.871};
+  evaluation.dense = {.error95_m = 0.031, .completeness = 0.871, .completeness_all = 0.62};
   FacadeFigures painted;
   painted.id = "B0001/F03";
   painted.facet = "B0001/W02";
@@ -40,6 +40,7 @@ TEST(EvaluationHtml, HoldsTheFigures) {
   EXPECT_THAT(html, HasSubstr("41 of 42"));
   EXPECT_THAT(html, HasSubstr("1.2 cm"));
   EXPECT_THAT(html, HasSubstr("87 %"));
+  EXPECT_THAT(html, HasSubstr("62 %"));
   EXPECT_THAT(html, HasSubstr("data-sort=\"0.8125\">0.812<"));
   EXPECT_THAT(html, HasSubstr("0.62 px"));
   EXPECT_THAT(html, HasSubstr("no facet of the result lies here"));

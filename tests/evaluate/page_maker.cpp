@@ -46,7 +46,7 @@ int main(int count, char** arguments) {
   evaluation.scene = "<script>document.title='owned'</script>";
   evaluation.notes = {hostile, "nothing of the mesh is measured: there is no dense/mesh.ply"};
   evaluation.poses = {.posed = 41, .total = 42, .position_mean_m = 0.012};
-  evaluation.dense = {.error95_m = 0.031, .completeness = 0.87};
+  evaluation.dense = {.error95_m = 0.031, .completeness = 0.87, .completeness_all = 0.7};
   const stucco::Image truth = stucco::evaluate::Waves(420, 240);
   const stucco::Image moved = stucco::evaluate::Waves(420, 240, 1.5);
   evaluation.facades = {
