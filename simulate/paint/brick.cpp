@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
-#include "simulate/paint/internal/wall_look.h"
+#include "simulate/paint/internal/openings.h"
 
 namespace stucco::simulate::internal {
 namespace {
@@ -74,12 +74,28 @@ Style StyleOf(const WallLook& look) {
   const float light = Trait(look, 2);
   // Dust of the bricks and soot bring mortar near the bricks' own colour within years.
   style.mortar = Mix(Mix(FromSrgb(100, 95, 90), FromSrgb(190, 184, 172), light),
-                     Pick(look.palette, 0, 0, 0), 0.5f + 0.3f * Trait(look, 4));
+                     Pick(look.palette, 0, 0, 0), 0.62f + 0.3f * Trait(look, 4));
   style.joint_m = 0.009f + 0.004f * Trait(look, 3);
   return style;
 }
 
 }  // namespace
+
+void PaintSoldierCourse(Tile& tile, const WallLook& look, const Box& box) {
+  const Style style = StyleOf(look);
+  const float texel = tile.texel_m;
+  Fill(tile, box, [&](float x, float y, Colour) {
+    const int rank = Floor(x / kCourse_m);
+    const float in = x - static_cast<float>(rank) * kCourse_m;
+    const uint32_t bits = Hash(Floor(x / texel), Floor(y / texel), look.wall + 23);
+    const float white = ToUnit(bits) - 0.5f;
+    const float across = Cover(in, style.joint_m / 2, kCourse_m - style.joint_m / 2, texel);
+    const float down = Cover(y, box.top + style.joint_m / 2, box.bottom, texel);
+    const int storey = Floor(box.top * 8);
+    const Colour brick = BrickColour(look, {9000 + storey, rank, 0, 0}) * Tone(0.09f * white);
+    return Mix(style.mortar * 0.9f, brick, across * down);
+  });
+}
 
 void PaintBrick(Tile& tile, const WallLook& look) {
   const Style style = StyleOf(look);

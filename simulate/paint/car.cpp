@@ -56,7 +56,9 @@ Image PaintCar(uint64_t seed, double metres_per_texel) {
                        (1 + 0.4f * internal::Noise(x, y, {0.3f, 5, 0.7f, mixed}, texel));
     return Mix(lacquer * internal::Tone(sky), internal::FromSrgb(120, 110, 96), dirt);
   });
-  const Box cabin = {0.95f, 0.12f, 3.85f, 0.62f};
+  const float tail = 3.6f + 0.7f * internal::ToUnit(mixed * 0x9e3779b1u);  // saloon to estate
+  const float low = 0.58f + 0.08f * internal::ToUnit(mixed * 0x85ebca77u);
+  const Box cabin = {0.95f, 0.12f, tail, low};
   Fill(tile, cabin, [&](float x, float y, Colour under) {
     const float front = x - cabin.left - 0.9f * (cabin.bottom - y);
     const float back = cabin.right - x - 0.5f * (cabin.bottom - y);
@@ -68,7 +70,7 @@ Image PaintCar(uint64_t seed, double metres_per_texel) {
     Fill(tile, {pillar - 0.04f, cabin.top, pillar + 0.04f, cabin.bottom}, Grey(0.01f));
   }
   for (const float gap : {1.2f, 2.05f, 3.05f}) {
-    Fill(tile, {gap - 0.004f, 0.62f, gap + 0.004f, 1.2f}, lacquer * 0.2f);
+    Fill(tile, {gap - 0.004f, low, gap + 0.004f, 1.2f}, lacquer * 0.2f);
   }
   for (const float handle : {1.85f, 2.85f}) {
     Fill(tile, {handle, 0.72f, handle + 0.16f, 0.75f}, lacquer * 0.45f);

@@ -53,6 +53,20 @@ Grid GridOf(const WallLook& look) {
   return grid;
 }
 
+// Light that comes from rooms: rows of lamps under the ceiling, some rooms dark, and desks.
+Colour Office(float x, float down, float height, uint32_t seed) {
+  const int room = Floor(x / 5.6f);
+  const float lit = Uniform(room, 3, seed) < 0.55f ? 0.5f + 0.5f * Uniform(room, 4, seed) : 0.0f;
+  constexpr float kLamp_m = 1.1f;
+  const float in = x - kLamp_m * static_cast<float>(Floor(x / kLamp_m));
+  const float row = down - 0.14f - 0.2f * static_cast<float>(Floor((down - 0.14f) / 0.2f));
+  const bool lamp = down > 0.14f && down < 0.6f && in > 0.2f && in < 0.75f && row < 0.045f;
+  const int thing = Floor(x / 0.42f);
+  const float desk = 0.25f + 0.35f * Uniform(thing, 5, seed);
+  const bool shade = height - down < desk && Uniform(thing, 6, seed) < 0.6f;
+  return FromSrgb(236, 232, 214) * (lit * (lamp ? 0.7f : shade ? 0.02f : 0.07f));
+}
+
 }  // namespace
 
 Colour Mirrored(float x, float y, float horizon_y, uint32_t seed) {
@@ -98,6 +112,7 @@ void PaintCurtainWall(Tile& tile, const WallLook& look) {
       Colour inside = spandrel ? glass * 0.06f
                                : At(rooms[Hash(pane, level, look.wall) % rooms.size()], u, v) *
                                      (0.25f + 0.5f * draw(2));
+      if (!spandrel) inside = inside + Office(x, y - top, bottom - top, Hash(level, 8, look.wall));
       const float blind = draw(3) < 0.35f && !spandrel ? 0.2f + 0.8f * draw(4) : 0.0f;
       if (v < blind) {
         const float slat = y * 28 - static_cast<float>(Floor(y * 28));

@@ -28,9 +28,10 @@ Cut CutAt(float x, float y, uint32_t seed) {
   const float top = kCell_m * (static_cast<float>(cy) + 0.4f * ToUnit(h * 0x85ebca77u));
   const float wide = 0.6f + 2.2f * ToUnit(h * 0xc2b2ae3du);
   const float high = 0.6f + 2.2f * ToUnit(h * 0x2c1b3c6du);
-  const float ragged = 0.03f * Noise(x, y, {0.7f, 3, 0.6f, h}, 0.02f);
   const float inside =
       std::min(std::min(x - left, left + wide - x), std::min(y - top, top + high - y));
+  const float ragged =
+      std::abs(inside) < 0.2f ? 0.03f * Noise(x, y, {0.7f, 3, 0.6f, h}, 0.02f) : 0.0f;
   return {inside + ragged, 0.5f * (ToUnit(h) - 0.6f), (h & 0x300) != 0 ? 0.015f : 0.0f};
 }
 
@@ -71,6 +72,9 @@ void PaintAsphalt(Tile& tile, const CoveringLook& look) {
   const Field worn(tile, StepFor(0.6f, texel), [&](float x, float y) {
     return Noise(x, y, {8.0f, 3, 0.6f, look.seed + 6}, texel);
   });
+  const Field bend(tile, StepFor(0.3f, texel), [&](float x, float y) {
+    return Noise(x, y, {1.7f, 3, 0.6f, look.seed + 8}, texel);
+  });
   for (int row = 0; row < tile.height; ++row) {
     const float y = tile.Y(row);
     for (int column = 0; column < tile.width; ++column) {
@@ -78,12 +82,16 @@ void PaintAsphalt(Tile& tile, const CoveringLook& look) {
       const float g = Grain(tile, column, row, look.seed + 3);
       // Light chippings show here and there.
       const float chip = g > 1.6f ? 0.25f : 0.0f;
-      float tone = 0.11f * g + chip + 0.09f * stain(column, row);
+      float tone = 0.13f * g + chip + 0.11f * stain(column, row);
+      const float crumb = GradientNoise(x * 18, y * 18, look.seed + 4) * BandShare(0.055f, texel);
+      tone += 0.05f * crumb - 0.25f * Smooth(2.0f, 2.5f, crumb);
       const Cut cut = CutAt(x, y, look.seed + 7);
       tone += cut.tone * Edge(cut.inside, texel);
       const float open = Smooth(-0.2f, 1.0f, worn(column, row));
-      if (open > 0) {
-        const float level = Noise(x, y, {1.7f, 5, 0.6f, look.seed + 9}, texel);
+      const float coarse = bend(column, row);
+      if (open > 0 && std::abs(coarse) < 0.7f) {
+        // Cracks, as in plaster.
+        const float level = coarse + 0.22f * Noise(x, y, {0.21f, 2, 0.6f, look.seed + 9}, texel);
         tone -= 0.8f * Edge(0.006f * open - std::abs(level) / 2.2f, texel);
       }
       Colour colour = base * Tone(tone);
@@ -131,7 +139,7 @@ void PaintPaving(Tile& tile, const CoveringLook& look) {
       const float hue = 0.06f * Normal(rank, course, look.seed + 2);
       const Colour stone = base * Colour{1 + hue, 1, 1 - hue} * Tone(tone);
       const float green = Smooth(0.4f, 1.6f, stain(column, row));
-      const Colour joint = Mix(base * 0.3f, Colour{0.06f, 0.09f, 0.03f}, green) * Tone(0.3f * g);
+      const Colour joint = Mix(base * 0.42f, Colour{0.08f, 0.11f, 0.05f}, green) * Tone(0.3f * g);
       Colour colour = Mix(joint, stone, Edge(inside, texel));
       colour = colour * (1 - 0.4f * Gum(x, y, look.seed + 8, texel));
       float pattern = 0;

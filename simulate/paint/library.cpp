@@ -140,7 +140,16 @@ Colour Pick(const Palette& palette, float a, float b, float c) {
 }
 
 Palette Calmed(const Palette& palette, float most) {
+  constexpr float kChroma = 0.8f;   // old compact cameras saturate colours
+  constexpr float kDarkest = 0.1f;  // walls photographed in the shade are no darker than others
+  constexpr float kLightest = 0.62f;
   Palette calmed = palette;
+  Colour& mean = calmed.mean;
+  const float grey = (mean.r + mean.g + mean.b) / 3;
+  mean = Mix({grey, grey, grey}, mean, kChroma);
+  const float light = Luminance(Pick(calmed, 0, 0, 0));
+  const float lift = std::log(std::clamp(light, kDarkest, kLightest) / light);
+  mean = mean + Grey(lift);
   const Colour& first = palette.axes[0];
   const float length = std::sqrt(first.r * first.r + first.g * first.g + first.b * first.b);
   const float scale = std::min(1.0f, most / std::max(length, 1e-6f));

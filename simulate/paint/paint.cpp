@@ -123,7 +123,10 @@ Image PaintWall(const WallDesign& design, double metres_per_texel) {
       for (const WallPart& part : design.parts) {
         if (Layer(part.kind) == layer) internal::PaintPart(tile, look, part);
       }
-      if (layer == 0) internal::PaintFittings(tile, look);
+      if (layer == 0) {
+        internal::PaintOrnament(tile, look);
+        internal::PaintFittings(tile, look);
+      }
     }
   });
 }

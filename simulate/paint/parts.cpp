@@ -30,7 +30,11 @@ bool HasRoomBeside(const WallLook& look, const Box& box) {
 void PaintAround(Tile& tile, const WallLook& look, const WallPart& part) {
   const Box box = BoxOf(part);
   const bool window = part.kind == PartKind::kWindow;
-  if (look.surrounds) PaintSurround(tile, look, box);
+  if (look.surrounds) {
+    PaintSurround(tile, look, box);
+  } else if (look.design->cladding == Cladding::kBrick) {
+    PaintSoldierCourse(tile, look, {box.left - 0.11f, box.top - 0.24f, box.right + 0.11f, box.top});
+  }
   if (window && look.shutters && HasRoomBeside(look, box)) {
     const float leaf = box.Width() / 2;
     PaintShutter(tile, look, {box.left - leaf - 0.02f, box.top, box.left - 0.02f, box.bottom});

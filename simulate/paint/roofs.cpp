@@ -61,7 +61,7 @@ void PaintTiles(Tile& tile, const CoveringLook& look) {
       colour = Mix(colour, Colour{0.10f, 0.11f, 0.045f} * Tone(4 * grain),
                    0.8f * Smooth(0.0f, 0.7f, growth));
       const float lichen = GradientNoise(x * 17, y * 17, look.seed + 7);
-      colour = Mix(colour, Grey(0.35f), 0.5f * Smooth(2.0f, 2.5f, lichen + 0.3f * mossy));
+      colour = Mix(colour, Grey(0.35f), 0.5f * Smooth(2.2f, 2.6f, lichen + 0.25f * mossy));
       tile.At(column, row) = colour;
     }
   }
@@ -134,7 +134,7 @@ void PaintGravel(Tile& tile, const CoveringLook& look) {
           0.6f * GradientNoise(x * 27, y * 27, look.seed + 2) * BandShare(0.037f, texel) +
           Grain(tile, column, row, look.seed + 3);
       const float hue = GradientNoise(x * 40, y * 40, look.seed + 4) * BandShare(0.025f, texel);
-      const float tone = 0.20f * pebble + 0.12f * stain(column, row);
+      const float tone = 0.24f * pebble + 0.14f * stain(column, row);
       Colour colour = base * Colour{1 + 0.06f * hue, 1, 1 - 0.06f * hue} * Tone(tone);
       const float moss = stain(column, row) + 0.4f * pebble;
       colour = Mix(colour, Colour{0.07f, 0.085f, 0.03f}, 0.6f * Smooth(1.3f, 2.2f, moss));
@@ -165,7 +165,14 @@ void PaintMetal(Tile& tile, const CoveringLook& look) {
                    0.04f * GradientNoise(x * 6, y * 2, look.seed + 6);
       tone += 0.35f * Cover(in, 0, 0.012f, texel) - 0.9f * Cover(in, 0.012f, 0.035f, texel);
       tone -= 0.35f * Edge(0.006f - along, texel);
-      tile.At(column, row) = base * Tone(tone);
+      // Clips on the seams, leaves caught by them, and rust or verdigris running from the joints.
+      const float clip = cross - 0.5f * static_cast<float>(Floor(cross / 0.5f));
+      tone -= 0.6f * Cover(clip, 0, 0.04f, texel) * Cover(in, 0.03f, 0.06f, texel);
+      const float litter = GradientNoise(x * 16, y * 13, look.seed + 9);
+      tone -= 0.4f * Smooth(2.0f, 2.4f, litter + 0.4f * Smooth(0.12f, 0.03f, in));
+      const float run = GradientNoise(x * 19, y * 0.8f, look.seed + 10);
+      const float rust = Smooth(0.4f, 1.8f, run) * Smooth(0.9f, 0.0f, along);
+      tile.At(column, row) = base * Tone(tone) * Mix(Grey(1), {0.72f, 0.6f, 0.5f}, 0.6f * rust);
     }
   }
 }

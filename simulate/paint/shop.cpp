@@ -95,7 +95,8 @@ void PaintGoods(Tile& tile, const Box& glass, uint32_t seed) {
     const float tall = 0.25f + 0.6f * ToUnit(h * 0x85ebca77u);
     const float wide = 0.25f + 0.22f * ToUnit(h * 0xc2b2ae3du);
     const bool there = in_y > 1 - tall && std::abs(in_x) < wide && v > 0.3f && (h & 3) != 0;
-    if (there) seen = Mix(seen, SignColour(h >> 8) * (0.5f + 0.3f * in_y), 0.75f);
+    if (there)
+      seen = Mix(seen, SignColour(h >> 8) * (0.65f + 0.3f * in_y - 1.8f * in_x * in_x), 0.75f);
     return seen * Tone(0.15f * Noise(x, y, {0.4f, 5, 0.6f, seed}, tile.texel_m));
   });
 }

@@ -30,7 +30,7 @@ float PictureVariation(const WallLook& look, float x, float y) {
     const float bend_y = 0.4f * GradientNoise(0.3f * x, 0.3f * y, h + 2);
     const float px = (turned ? -x - bend_x : x + bend_x) / scale + shift;
     const float py = (y + bend_y) / scale + 40 * ToUnit(h * 0x85ebca77u);
-    sum += 0.4f * std::clamp(At(patch, px, py), -0.3f, 0.3f);
+    sum += 0.35f * std::clamp(At(patch, px, py), -0.25f, 0.25f);
   }
   return sum;
 }

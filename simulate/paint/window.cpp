@@ -167,7 +167,7 @@ void PaintSurround(Tile& tile, const WallLook& look, const Box& box) {
   const uint32_t seed = look.wall + 71;
   Fill(tile, outer, [&](float x, float y, Colour) {
     const float edge = std::min(std::min(x - outer.left, outer.right - x), y - outer.top);
-    const float wear = 0.05f * Noise(x, y, {0.5f, 5, 0.7f, seed}, tile.texel_m);
+    const float wear = 0.05f * Noise(x, y, {0.4f, 4, 0.7f, seed}, tile.texel_m);
     return look.surround * Tone(wear - 0.25f * Edge(0.010f - edge, tile.texel_m));
   });
   Shade(tile, {outer.left, box.bottom, outer.right, box.bottom + 0.02f},
@@ -188,7 +188,7 @@ void PaintShutter(Tile& tile, const WallLook& look, const Box& leaf) {
     const float slat = pitch - static_cast<float>(Floor(pitch));
     const float edge =
         std::min(std::min(x - leaf.left, leaf.right - x), std::min(y - leaf.top, leaf.bottom - y));
-    const float wear = 0.10f * Noise(x, y, {0.3f, 5, 0.7f, look.wall + 83}, texel);
+    const float wear = 0.10f * Noise(x, y, {0.2f, 3, 0.7f, look.wall + 83}, texel);
     const float light =
         edge < 0.06f ? 1.05f
                      : Mix(0.8f, 0.5f + 0.6f * Smooth(0, 0.8f, slat), BandShare(0.045f, texel));

@@ -30,8 +30,8 @@ struct Palette {
   std::array<Colour, 3> axes;
 };
 
-// The same mean with axes no longer than `most`, in logarithms of light: what stands for one
-// material when a picture's bare wall has shadows and other things on it.
+// A wall's palette from a photo's: axes no longer than `most`, in logarithms of light, for a
+// picture's bare wall has shadows and other things on it, and a mean that walls can have.
 Palette Calmed(const Palette& palette, float most);
 
 // The colour that lies `a`, `b` and `c` standard deviations along the axes.

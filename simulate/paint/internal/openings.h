@@ -20,8 +20,13 @@ void PaintBalcony(Tile& tile, const WallLook& look, const WallPart& part);
 void PaintCornice(Tile& tile, const WallLook& look, const WallPart& part);
 void PaintPlinth(Tile& tile, const WallLook& look, const WallPart& part);
 
+// Blocks at the wall's corners and bands at its floors, where the building has them.
+void PaintOrnament(Tile& tile, const WallLook& look);
+
 // Around an opening.
 void PaintSurround(Tile& tile, const WallLook& look, const Box& box);
+// Bricks on end over an opening, as a lintel is faced.
+void PaintSoldierCourse(Tile& tile, const WallLook& look, const Box& box);
 void PaintSill(Tile& tile, const WallLook& look, const Box& box);
 void PaintShutter(Tile& tile, const WallLook& look, const Box& leaf);
 
