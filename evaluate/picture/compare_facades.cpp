@@ -24,8 +24,10 @@ namespace {
 
 using simulate::Radiance;
 
-// Spots of this size tell the gains: content and small shifts are averaged away.
+// Spots of this size tell the gains: content and small shifts are averaged away. The middle of each
+// facade has enough of them.
 constexpr double kGainTexel_m = 0.16;
+constexpr int kGainSide_px = 640;
 // Pictures with more texels are compared coarser; FLIP needs some hundred bytes for each.
 constexpr double kMostTexels = 8e6;
 
@@ -86,9 +88,15 @@ double ComparedTexel_m(const TextureComparison& comparison, const TexturedFacet&
 
 LightPairs PairsOfLight(const TextureComparison& comparison, const Pairing& pairing) {
   LightPairs pairs;
-  const FacadePicture result = ReadOverlap(comparison, pairing, kGainTexel_m);
+  const double texel_m = ComparedTexel_m(comparison, *pairing.texture);
+  FacadePicture result = Middle(ReadOverlap(comparison, pairing, texel_m), kGainSide_px);
   if (CountKnown(result) == 0) return pairs;
-  const Radiance truth = DrawTruth(comparison, *pairing.truth, result.plane);
+  // Drawn with the texels that are compared, for coarser ones have a light of their own: edges.
+  FacadePicture truth = result;
+  truth.rgb = DrawTruth(comparison, *pairing.truth, truth.plane).rgb;
+  const double factor = kGainTexel_m / result.plane.metres_per_texel;
+  result = Coarsened(result, factor);
+  truth = Coarsened(truth, factor);
   for (size_t i = 0; i < result.known.size(); ++i) {
     if (result.known[i] != 0) pairs.Add(&truth.rgb[3 * i], &result.rgb[3 * i]);
   }

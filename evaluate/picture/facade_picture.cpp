@@ -108,6 +108,28 @@ std::vector<Eigen::Vector2d> OnPlane(const std::vector<Eigen::Vector3d>& ring,
   return out;
 }
 
+// From the left and upper texel to before the right and lower one.
+struct Texels {
+  int left, top, right, bottom;
+};
+
+FacadePicture Cut(const FacadePicture& picture, const Texels& part) {
+  const simulate::PicturePlane& plane = picture.plane;
+  FacadePicture cut;
+  cut.plane = plane;
+  cut.plane.width_px = part.right - part.left;
+  cut.plane.height_px = part.bottom - part.top;
+  cut.plane.origin += plane.metres_per_texel * (part.left * plane.u_axis + part.top * plane.v_axis);
+  for (int y = part.top; y < part.bottom; ++y) {
+    const size_t row = static_cast<size_t>(y) * plane.width_px;
+    cut.rgb.insert(cut.rgb.end(), picture.rgb.data() + 3 * (row + part.left),
+                   picture.rgb.data() + 3 * (row + part.right));
+    cut.known.insert(cut.known.end(), picture.known.data() + row + part.left,
+                     picture.known.data() + row + part.right);
+  }
+  return cut;
+}
+
 }  // namespace
 
 FacadePicture ReadFacadePicture(const TexturedFacet& facet,
@@ -172,21 +194,15 @@ FacadePicture Cropped(const FacadePicture& picture) {
       bottom = y + 1;
     }
   }
-  FacadePicture cropped;
-  cropped.plane = picture.plane;
-  cropped.plane.width_px = std::max(0, right - left);
-  cropped.plane.height_px = std::max(0, bottom - top);
-  if (right <= left) return cropped;
-  cropped.plane.origin +=
-      picture.plane.metres_per_texel * (left * picture.plane.u_axis + top * picture.plane.v_axis);
-  for (int y = top; y < bottom; ++y) {
-    const size_t row = static_cast<size_t>(y) * width;
-    cropped.rgb.insert(cropped.rgb.end(), picture.rgb.data() + 3 * (row + left),
-                       picture.rgb.data() + 3 * (row + right));
-    cropped.known.insert(cropped.known.end(), picture.known.data() + row + left,
-                         picture.known.data() + row + right);
-  }
-  return cropped;
+  if (right <= left) return Cut(picture, {0, 0, 0, 0});
+  return Cut(picture, {left, top, right, bottom});
+}
+
+FacadePicture Middle(const FacadePicture& picture, int side_px) {
+  const int left = std::max(0, (picture.plane.width_px - side_px) / 2);
+  const int top = std::max(0, (picture.plane.height_px - side_px) / 2);
+  return Cut(picture, {left, top, std::min(picture.plane.width_px, left + side_px),
+                       std::min(picture.plane.height_px, top + side_px)});
 }
 
 size_t CountKnown(const FacadePicture& picture) {

@@ -37,6 +37,9 @@ void KeepInside(const Facet& facet_in_scene, FacadePicture& picture);
 // The smallest rectangle that holds every known texel; no texels where none is known.
 FacadePicture Cropped(const FacadePicture& picture);
 
+// The middle of a picture, at most so many texels wide and high.
+FacadePicture Middle(const FacadePicture& picture, int side_px);
+
 size_t CountKnown(const FacadePicture& picture);
 
 }  // namespace stucco::evaluate

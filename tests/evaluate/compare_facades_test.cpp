@@ -54,7 +54,7 @@ void ExpectEqual(const FacadeFigures& figures) {
   EXPECT_GT(figures.picture.ms_ssim, 0.999) << figures.id;
   EXPECT_GT(figures.picture.psnr, 50) << figures.id;
   EXPECT_LT(figures.picture.gmsd, 0.002) << figures.id;
-  EXPECT_LT(figures.picture.flip, 0.01) << figures.id;
+  EXPECT_LT(figures.picture.flip, 0.002) << figures.id;
   EXPECT_LT(figures.misregistration_px, 0.02) << figures.id;
 }
 

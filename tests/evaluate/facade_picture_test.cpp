@@ -79,6 +79,16 @@ TEST(Cropped, MovesTheOrigin) {
   EXPECT_EQ(CountKnown(Cropped(picture)), 0u);
 }
 
+TEST(Middle, LimitsBothSides) {
+  const FacadePicture middle = Middle(Ramp(7, 2), 3);
+  EXPECT_EQ(middle.plane.width_px, 3);
+  EXPECT_EQ(middle.plane.height_px, 2);
+  EXPECT_EQ(middle.rgb[0], 2);
+  EXPECT_EQ(middle.known.size(), 6u);
+  EXPECT_TRUE(middle.plane.origin.isApprox(Eigen::Vector3d(0.2, 0, 0)));
+  EXPECT_EQ(Middle(Ramp(7, 2), 100).rgb, Ramp(7, 2).rgb);
+}
+
 TEST(ReadFacadePicture, KnowsWhatPhotosPaintedInTheScenesFrame) {
   const std::filesystem::path folder = testing::TempDir();
   WriteImage(Plain(3, 1, 10, 128, 255), folder / "wall.png");
