@@ -48,7 +48,9 @@ std::vector<FacadeFigures> Compare(const Survey& survey, const Renderer& scene, 
                          .threads = threads});
 }
 
-void ExpectEqual(const FacadeFigures& figures, double most_flip = 0.002) {
+// Codes are whole: gains that are found turn some into the next, which FLIP takes for 0.03 and 50
+// dB allow to every fifth pixel.
+void ExpectEqual(const FacadeFigures& figures, double most_flip = 0.006) {
   EXPECT_NEAR(figures.painted, 1, 0.002) << figures.id;
   EXPECT_GT(figures.picture.ssim, 0.999) << figures.id;
   EXPECT_GT(figures.picture.ms_ssim, 0.999) << figures.id;
