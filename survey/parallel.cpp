@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
+#include <mutex>
 
 namespace stucco {
 namespace {
@@ -17,6 +19,20 @@ namespace {
 // More threads than the machine has would only make TBB warn.
 int Usable(int threads) {
   return std::min(threads, tbb::info::default_concurrency());
+}
+
+// Runs fn in an arena of that many threads. Arenas are kept, as TBB takes up to half a second to
+// lend its workers to a new one on a busy machine. In isolation, a thread that waits inside a
+// nested call never picks up an outer index.
+void RunOn(int threads, const std::function<void()>& fn) {
+  static std::mutex mutex;
+  static std::map<int, tbb::task_arena> arenas;
+  tbb::task_arena* arena = nullptr;
+  {
+    const std::lock_guard lock(mutex);
+    arena = &arenas.try_emplace(threads, threads).first->second;
+  }
+  arena->execute([&] { tbb::this_task_arena::isolate(fn); });
 }
 
 }  // namespace
@@ -27,9 +43,7 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& f
     for (size_t i = 0; i < count; ++i) fn(i);
     return;
   }
-  // An arena of its own: a thread that waits inside a nested call never picks up an outer index.
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
+  RunOn(threads, [&] {
     tbb::parallel_for(
         size_t{0}, count, [&](size_t i) { fn(i); }, tbb::simple_partitioner());
   });
@@ -50,8 +64,7 @@ void ParallelInOrder(std::span<const std::vector<size_t>> before, int threads,
     missing[i] = before[i].size();
     if (before[i].empty()) ready.push_back(i);
   }
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
+  RunOn(threads, [&] {
     tbb::parallel_for_each(ready, [&](size_t i, tbb::feeder<size_t>& feeder) {
       fn(i);
       for (const size_t later : after[i]) {
