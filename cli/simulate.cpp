@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "cli/internal/json_output.h"
+#include "cli/internal/simulate_flight.h"
 #include "cli/program.h"
 #include "pipeline/shell.h"
 #include "simulate/city/make_city.h"
@@ -20,9 +21,9 @@ namespace fs = std::filesystem;
 // What follows `stucco simulate`: the word city, or a scene and a plan.
 struct SimulateArguments {
   std::string scene;
-  std::string plan;
   std::string out;
   simulate::CityOptions city;
+  FlightArguments flight;
 };
 
 void PrintCity(const simulate::CitySummary& city, const SimulateArguments& arguments,
@@ -66,7 +67,7 @@ void AddCityOptions(CLI::App& verb, simulate::CityOptions& city) {
       ->type_name("STYLE")
       ->capture_default_str()
       ->group(kGroup);
-  verb.add_option("--seed", city.seed, "Another number makes another place")
+  verb.add_option("--seed", city.seed, "Another number makes another place, or another flight")
       ->type_name("NUMBER")
       ->capture_default_str()
       ->group(kGroup);
@@ -91,23 +92,43 @@ void AddCityOptions(CLI::App& verb, simulate::CityOptions& city) {
 }  // namespace
 
 void AddSimulate(CLI::App& app, Program& program) {
-  CLI::App& verb = AddVerb(app, {"simulate", "Make a textured city with its truth",
-                                 "stucco simulate city -o hamlet --seed 7\n"
-                                 "stucco simulate city -o quarter --style block",
-                                 kEverydayGroup});
+  CLI::App& verb =
+      AddVerb(app, {"simulate", "Make a textured city with its truth, or fly a plan through one",
+                    "stucco simulate city -o hamlet --seed 7\n"
+                    "stucco plan hamlet/map.geojson -o survey\n"
+                    "stucco simulate hamlet survey -o survey --scale 0.25\n"
+                    "stucco simulate quarter.glb survey -o survey --rtk --lost-share 0.05",
+                    kEverydayGroup});
   auto arguments = std::make_shared<SimulateArguments>();
-  verb.add_option("scene", arguments->scene, "The word city")->type_name("city")->required();
-  verb.add_option("-o,--out", arguments->out, "Folder to make; an older scene in it is replaced")
+  verb.add_option("scene", arguments->scene,
+                  "The word city; or the scene to fly through: a folder made so, or a textured "
+                  "model (GLB, OBJ)")
+      ->type_name("city|SCENE")
+      ->required();
+  verb.add_option("plan", arguments->flight.plan, "plan.json, or a survey that has one")
+      ->type_name("PLAN");
+  verb.add_option("-o,--out", arguments->out,
+                  "Folder to make: of the city (an older one in it is replaced), or of the survey "
+                  "with the photos and their truth")
       ->type_name("FOLDER")
       ->required();
   AddCityOptions(verb, arguments->city);
+  AddFlightOptions(verb, arguments->flight);
   verb.callback([&program, arguments] {
     program.action = [&program, arguments] {
-      if (arguments->scene != "city") {
-        throw Error(ErrorKind::kUsage, fmt::format("simulate {}: is not known", arguments->scene),
-                    "say stucco simulate city -o FOLDER");
+      FlightArguments& flight = arguments->flight;
+      if (arguments->scene == "city" && flight.plan.empty()) {
+        return SimulateCity(*arguments, program.common);
       }
-      return SimulateCity(*arguments, program.common);
+      if (flight.plan.empty()) {
+        throw Error(ErrorKind::kUsage,
+                    fmt::format("simulate {}: no plan to fly by is given", arguments->scene),
+                    "say stucco simulate SCENE PLAN -o SURVEY, or stucco simulate city -o FOLDER");
+      }
+      flight.scene = arguments->scene;
+      flight.survey = arguments->out;
+      flight.set.push_back(fmt::format("seed={}", arguments->city.seed));
+      return SimulateFlight(flight, program);
     };
   });
 }

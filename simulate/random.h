@@ -2,9 +2,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace stucco::simulate {
+
+// The finaliser of SplitMix64: every bit of the result depends on every bit of `x`.
+constexpr uint64_t Scrambled(uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+// A seed for unit `b` of the work that has seed `a`.
+constexpr uint64_t SeedOf(uint64_t a, uint64_t b) {
+  return Scrambled(Scrambled(a + 0x9e3779b97f4a7c15u) + b * 0xd1342543de82ef95u);
+}
 
 // Random numbers whose bytes depend on the seed alone, unlike those of the standard library's
 // distributions: SplitMix64 (Steele, Lea, Flood: "Fast splittable pseudorandom number generators",
@@ -19,13 +33,7 @@ class Random {
     Next();
   }
 
-  uint64_t Next() {
-    state_ += 0x9e3779b97f4a7c15u;
-    uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  uint64_t Next() { return Scrambled(state_ += 0x9e3779b97f4a7c15u); }
   // In [0, 1).
   double Unit() { return static_cast<double>(Next() >> 11) * 0x1p-53; }
   double Uniform(double from, double to) { return from + (to - from) * Unit(); }
@@ -33,6 +41,11 @@ class Random {
   int Index(int count) { return static_cast<int>(Next() % static_cast<uint64_t>(count)); }
   int Integer(int from, int to) { return from + Index(to - from + 1); }  // both inclusive
   bool Chance(double probability) { return Unit() < probability; }
+  // Standard normal (Box and Muller, 1958).
+  double Normal() {
+    const double radius = std::sqrt(-2 * std::log(1 - Unit()));
+    return radius * std::cos(2 * std::numbers::pi * Unit());
+  }
 
  private:
   uint64_t state_;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulate/internal/random.h"
+#include "simulate/random.h"
 
 namespace stucco::simulate {
 namespace {
@@ -20,12 +20,12 @@ double Luminance(const float* rgb) {
 }
 
 // Three slow waves whose sum stays in [-1, 1].
-double SlowWave(double time_s, internal::Random& random) {
+double SlowWave(double time_s, Random& random) {
   constexpr double kPeriods_s[] = {2700, 1100, 370};
   constexpr double kShares[] = {0.5, 0.3, 0.2};
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
-    const double phase = 6.28318530717958647692 * random.Uniform();
+    const double phase = 6.28318530717958647692 * random.Unit();
     sum += kShares[i] * std::sin(6.28318530717958647692 * time_s / kPeriods_s[i] + phase);
   }
   return sum;
@@ -68,7 +68,7 @@ std::vector<double> Exposures(std::span<const double> metered, const FlightOptio
 
 Eigen::Vector3d WhiteBalance(const Eigen::Vector3d& neutral, double time_s,
                              const FlightOptions& options) {
-  internal::Random random(internal::SeedOf(static_cast<uint64_t>(options.seed), kWhiteSeed));
+  Random random(SeedOf(static_cast<uint64_t>(options.seed), kWhiteSeed));
   Eigen::Vector3d gains = neutral;
   gains[0] *= 1 + options.white_balance_drift * SlowWave(time_s, random);
   gains[2] *= 1 + options.white_balance_drift * SlowWave(time_s, random);

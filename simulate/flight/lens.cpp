@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulate/internal/random.h"
+#include "simulate/random.h"
 #include "survey/error.h"
 
 namespace stucco::simulate {
@@ -47,13 +47,13 @@ bool HasARayForEveryPixel(const Camera& camera) {
 
 Camera MakeLens(const PlannedCamera& planned, const FlightOptions& options) {
   RequireCamera(planned);
-  internal::Random random(internal::SeedOf(static_cast<uint64_t>(options.seed), kLensSeed));
+  Random random(SeedOf(static_cast<uint64_t>(options.seed), kLensSeed));
   Camera camera;
   camera.id = CameraId{1};
   camera.model = CameraModel::kOpenCv;
   camera.width_px = std::max(1, static_cast<int>(std::lround(planned.width_px * options.scale)));
   camera.height_px = std::max(1, static_cast<int>(std::lround(planned.height_px * options.scale)));
-  const double off = random.Uniform(0.005, 0.015) * (random.Uniform() < 0.5 ? -1 : 1);
+  const double off = random.Uniform(0.005, 0.015) * (random.Unit() < 0.5 ? -1 : 1);
   const double focal_x =
       planned.focal_m / planned.sensor_width_m * camera.width_px * (1 + off * options.distortion);
   // Pixels are square to a few parts in a hundred thousand.

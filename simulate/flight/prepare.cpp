@@ -10,15 +10,12 @@
 #include "simulate/flight/daylight.h"
 #include "simulate/flight/exposure.h"
 #include "simulate/flight/lens.h"
-#include "simulate/internal/random.h"
+#include "simulate/random.h"
 #include "survey/error.h"
 #include "survey/parallel.h"
 
 namespace stucco::simulate {
 namespace {
-
-using internal::Random;
-using internal::SeedOf;
 
 constexpr uint64_t kSensorSeed = 0x5E50;
 constexpr uint64_t kMotionSeed = 0x307E;

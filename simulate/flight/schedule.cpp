@@ -11,14 +11,11 @@
 
 #include "plan/path/energy.h"
 #include "simulate/flight/daylight.h"
-#include "simulate/internal/random.h"
+#include "simulate/random.h"
 #include "survey/error.h"
 
 namespace stucco::simulate {
 namespace {
-
-using internal::Random;
-using internal::SeedOf;
 
 constexpr uint64_t kHoverSeed = 0x4077;
 constexpr uint64_t kViewSeed = 0x71E3;
@@ -191,7 +188,7 @@ Shot HeldOutShot(const Plan& plan, const std::vector<Shot>& shots, const FlightO
   Random random(SeedOf(seed, static_cast<uint64_t>(attempt)));
   // Spread over the flight.
   const size_t near =
-      std::min(shots.size() - 1, static_cast<size_t>((number - 1 + random.Uniform()) *
+      std::min(shots.size() - 1, static_cast<size_t>((number - 1 + random.Unit()) *
                                                      static_cast<double>(shots.size()) /
                                                      std::max(1, options.held_out)));
   const PlannedView& view = plan.views[shots[near].view];

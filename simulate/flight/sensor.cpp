@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "simulate/flight/blur.h"
-#include "simulate/internal/random.h"
+#include "simulate/random.h"
 #include "survey/parallel.h"
 #include "survey/srgb.h"
 
@@ -20,7 +20,7 @@ constexpr double kReadShare = 0.25;
 // Nearly normal, variance 1: the sum of the four 16-bit numbers in a scrambled counter. Ten times
 // faster than logarithms, and with the tails cut at 3.5 standard deviations.
 float NoiseAt(uint64_t seed, uint64_t index) {
-  const uint64_t bits = internal::Scrambled(seed + index * 0x9E3779B97F4A7C15u);
+  const uint64_t bits = Scrambled(seed + index * 0x9E3779B97F4A7C15u);
   const auto sum = static_cast<float>((bits & 0xFFFF) + (bits >> 16 & 0xFFFF) +
                                       (bits >> 32 & 0xFFFF) + (bits >> 48));
   constexpr float kMean = 2 * 65535.0f;

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "simulate/internal/random.h"
+#include "simulate/random.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
 #include "survey/files.h"
@@ -24,7 +24,7 @@ class FlightFolder : public ::testing::Test {
 };
 
 Flight MadeFlight() {
-  internal::Random random(7);
+  Random random(7);
   Flight flight;
   flight.scene = "town/scene";
   flight.seed = 9;
@@ -48,7 +48,7 @@ Flight MadeFlight() {
     photo.cam_from_world.translation = {random.Normal(), random.Normal(), random.Normal()};
     photo.light.haze_m = 4000;
     photo.time_s = i / 3.0;
-    photo.exposure = 0.7 + random.Uniform();
+    photo.exposure = 0.7 + random.Unit();
     photo.white_balance = {1.05, 1, 1 / 3.0};
     flight.photos.push_back(photo);
   }

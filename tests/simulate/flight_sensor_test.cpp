@@ -7,7 +7,7 @@
 #include "simulate/flight/blur.h"
 #include "simulate/flight/exposure.h"
 #include "simulate/flight/sensor.h"
-#include "simulate/internal/random.h"
+#include "simulate/random.h"
 
 namespace stucco::simulate {
 namespace {
@@ -175,8 +175,8 @@ TEST(Sensor, NoiseOfTwoPhotosIsUnrelated) {
 TEST(Sensor, SameBytesAtAnyNumberOfThreads) {
   const Camera camera = Lens(333, 222);
   Radiance picture = Plain(333, 222, 0);
-  internal::Random random(3);
-  for (float& light : picture.rgb) light = static_cast<float>(random.Uniform());
+  Random random(3);
+  for (float& light : picture.rgb) light = static_cast<float>(random.Unit());
   SensorEffects effects;
   effects.noise = 0.02;
   effects.focus_blur_px = 0.8;
