@@ -98,7 +98,7 @@ void PaintAsphalt(Tile& tile, const CoveringLook& look) {
       // Joints of patches are sealed with tar.
       colour = Mix(colour, Grey(0.012f), 0.7f * Edge(cut.tar_m - std::abs(cut.inside), texel));
       const float oil = GradientNoise(x * 0.9f, y * 0.9f, look.seed + 10);
-      colour = colour * (1 - 0.4f * Smooth(1.7f, 2.3f, oil));
+      colour = colour * (1 - 0.28f * Smooth(1.9f, 3.0f, oil));
       colour = colour * (1 + 0.5f * Gum(x, y, look.seed + 11, texel));
       float pattern = 0;
       const float lid = Lid(x, y, look.seed + 12, pattern);
@@ -152,8 +152,8 @@ void PaintPaving(Tile& tile, const CoveringLook& look) {
 
 void PaintGrass(Tile& tile, const CoveringLook& look) {
   const float texel = tile.texel_m;
-  const Colour lush = Mix(FromSrgb(74, 96, 44), FromSrgb(96, 112, 56), Trait(look, 1));
-  const Colour dry = FromSrgb(148, 138, 88);
+  const Colour lush = Mix(FromSrgb(80, 94, 54), FromSrgb(100, 110, 66), Trait(look, 1));
+  const Colour dry = FromSrgb(142, 134, 92);
   const Field meadow(tile, StepFor(0.2f, texel), [&](float x, float y) {
     return Noise(x, y, {5.0f, 6, 0.65f, look.seed + 5}, texel);
   });
@@ -162,14 +162,16 @@ void PaintGrass(Tile& tile, const CoveringLook& look) {
     for (int column = 0; column < tile.width; ++column) {
       const float x = tile.X(column);
       const float m = meadow(column, row);
-      const float tuft = GradientNoise(x * 8, y * 8, look.seed + 2) * BandShare(0.12f, texel);
+      // Turned, as lattices of noise run along x and y and grass does not.
+      const float tuft = GradientNoise(6.4f * x + 4.8f * y, 6.4f * y - 4.8f * x, look.seed + 2) *
+                         BandShare(0.12f, texel);
       const float blade =
           0.7f * GradientNoise(x * 30, y * 24, look.seed + 4) * BandShare(0.035f, texel) +
           Grain(tile, column, row, look.seed + 3);
-      const float parched = Smooth(-0.3f, 2.0f, m + 0.22f * tuft);
+      const float parched = Smooth(-1.2f, 3.2f, m + 0.35f * tuft);
       Colour colour =
           Mix(lush, dry, 0.75f * parched) * Tone(0.26f * blade + 0.16f * tuft - 0.12f * m);
-      const float bare = Smooth(1.9f, 2.6f, -m + 0.4f * tuft);
+      const float bare = Smooth(2.3f, 3.6f, -m + 0.5f * tuft);
       colour = Mix(colour, FromSrgb(116, 98, 76) * Tone(0.15f * blade), bare);
       const float flower = Uniform(tile.x0 + column, tile.y0 + row, look.seed + 9);
       if (flower > 0.9993f) colour = Grey(0.6f);

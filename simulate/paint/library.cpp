@@ -140,8 +140,8 @@ Colour Pick(const Palette& palette, float a, float b, float c) {
 }
 
 Palette Calmed(const Palette& palette, float most) {
-  constexpr float kChroma = 0.8f;   // old compact cameras saturate colours
-  constexpr float kDarkest = 0.1f;  // walls photographed in the shade are no darker than others
+  constexpr float kChroma = 0.7f;    // old compact cameras saturate colours
+  constexpr float kDarkest = 0.08f;  // walls photographed in the shade are no darker than others
   constexpr float kLightest = 0.62f;
   Palette calmed = palette;
   Colour& mean = calmed.mean;

@@ -32,7 +32,7 @@ void PaintTiles(Tile& tile, const CoveringLook& look) {
   const Field moss(tile, StepFor(0.15f, texel), [&](float x, float y) {
     return Noise(x, y, {1.6f, 4, 0.6f, look.seed + 5}, texel);
   });
-  const float mossy = 0.4f + 1.6f * Trait(look, 5);
+  const float mossy = 0.2f + 1.3f * Trait(look, 5);
   for (int row = 0; row < tile.height; ++row) {
     const float y = tile.Y(row);
     for (int column = 0; column < tile.width; ++column) {
@@ -59,7 +59,7 @@ void PaintTiles(Tile& tile, const CoveringLook& look) {
       const float growth = moss(column, row) + 0.6f * GradientNoise(x * 11, y * 11, look.seed + 6) +
                            mossy - 2.6f + 0.5f * Smooth(0.2f, 0.0f, v);
       colour = Mix(colour, Colour{0.10f, 0.11f, 0.045f} * Tone(4 * grain),
-                   0.8f * Smooth(0.0f, 0.7f, growth));
+                   0.65f * Smooth(0.0f, 1.1f, growth));
       const float lichen = GradientNoise(x * 17, y * 17, look.seed + 7);
       colour = Mix(colour, Grey(0.35f), 0.5f * Smooth(2.2f, 2.6f, lichen + 0.25f * mossy));
       tile.At(column, row) = colour;
