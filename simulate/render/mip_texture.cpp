@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "survey/srgb.h"
+
 namespace stucco::simulate::internal {
 namespace {
 
@@ -20,33 +22,19 @@ struct ToneTables {
   std::array<uint8_t, 65536> srgb;  // of 16-bit linear values
 };
 
-// IEC 61966-2-1.
-double Decode(double value) {
-  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-}
-
-double Encode(double value) {
-  return value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-}
-
 ToneTables MakeTables() {
   ToneTables tables;
   for (size_t i = 0; i < 256; ++i) {
-    const double linear = Decode(static_cast<double>(i) / 255);
-    tables.linear[i] = static_cast<float>(linear);
-    tables.linear16[i] = static_cast<uint16_t>(std::lround(linear * 65535));
+    tables.linear[i] = LinearFromSrgb(static_cast<uint8_t>(i));
+    tables.linear16[i] = static_cast<uint16_t>(std::lround(tables.linear[i] * 65535));
   }
   for (size_t i = 0; i < 65536; ++i) {
-    tables.srgb[i] =
-        static_cast<uint8_t>(std::lround(Encode(static_cast<double>(i) / 65535) * 255));
+    tables.srgb[i] = SrgbCode(static_cast<double>(i) / 65535);
   }
   return tables;
 }
 
-const ToneTables& Tables() {
-  static const ToneTables tables = MakeTables();
-  return tables;
-}
+const ToneTables kTables = MakeTables();
 
 uint8_t Channel(uint32_t texel, int channel) {
   return static_cast<uint8_t>(texel >> (8 * channel));
@@ -67,6 +55,12 @@ int Wrapped(int at, int size) {
   return rest < 0 ? rest + size : rest;
 }
 
+// std::floor is a call where processors of 2003 are to run the program.
+int Floor(float value) {
+  const int whole = static_cast<int>(value);
+  return whole - (value < static_cast<float>(whole));
+}
+
 // log2 to 0.01, exact at powers of two: a table-free cubic on the mantissa.
 float Log2(float value) {
   const auto bits = std::bit_cast<uint32_t>(value);
@@ -76,10 +70,6 @@ float Log2(float value) {
 }
 
 }  // namespace
-
-float LinearFromSrgb(uint8_t value) {
-  return Tables().linear[value];
-}
 
 MipTexture::MipTexture(const Image& image, bool repeats) : repeats_(repeats) {
   size_t texels = 0;
@@ -131,7 +121,7 @@ void MipTexture::FillBase(const Image& image) {
 void MipTexture::FillFromFiner(size_t level) {
   const Level& finer = levels_[level - 1];
   const Level& coarser = levels_[level];
-  const ToneTables& tables = Tables();
+  const ToneTables& tables = kTables;
   const int finer_number = static_cast<int>(level) - 1;
   for (int y = 0; y < coarser.height; ++y) {
     for (int x = 0; x < coarser.width; ++x) {
@@ -170,12 +160,10 @@ void MipTexture::FillFromFiner(size_t level) {
 
 // x, y in texels of the level, its first texel's centre at 0.5.
 Eigen::Array4f MipTexture::Bilinear(const Level& level, float x, float y) const {
-  const float fx = std::floor(x - 0.5f);
-  const float fy = std::floor(y - 0.5f);
-  const float tx = x - 0.5f - fx;
-  const float ty = y - 0.5f - fy;
-  int x0 = static_cast<int>(fx);
-  int y0 = static_cast<int>(fy);
+  int x0 = Floor(x - 0.5f);
+  int y0 = Floor(y - 0.5f);
+  const float tx = x - 0.5f - static_cast<float>(x0);
+  const float ty = y - 0.5f - static_cast<float>(y0);
   int x1 = x0 + 1;
   int y1 = y0 + 1;
   if (x0 < 0 || x1 >= level.width) {
@@ -189,7 +177,7 @@ Eigen::Array4f MipTexture::Bilinear(const Level& level, float x, float y) const 
   const std::array<uint32_t, 4> texels = {Texel(level, x0, y0), Texel(level, x1, y0),
                                           Texel(level, x0, y1), Texel(level, x1, y1)};
   const std::array<float, 4> weights = {(1 - tx) * (1 - ty), tx * (1 - ty), (1 - tx) * ty, tx * ty};
-  const std::array<float, 256>& linear = Tables().linear;
+  const std::array<float, 256>& linear = kTables.linear;
   Eigen::Array4f sum = Eigen::Array4f::Zero();
   for (int k = 0; k < 4; ++k) {
     const uint32_t t = texels[k];
@@ -248,17 +236,6 @@ Eigen::Array4f MipTexture::Sample(const Footprint& footprint) const {
     sum += Trilinear(x + along * axis.x(), y + along * axis.y(), lod);
   }
   return sum / static_cast<float>(probes);
-}
-
-uint8_t MipTexture::Alpha(const Eigen::Vector2f& uv) const {
-  const Level& base = levels_[0];
-  if (!uv.allFinite()) return 0;
-  const Eigen::Vector2f at = repeats_ ? (uv.array() - uv.array().floor()).matrix()
-                                      : uv.cwiseMax(0.0f).cwiseMin(1.0f).eval();
-  const int x = std::min(static_cast<int>(at.x() * static_cast<float>(base.width)), base.width - 1);
-  const int y =
-      std::min(static_cast<int>(at.y() * static_cast<float>(base.height)), base.height - 1);
-  return Channel(Texel(base, x, y), 3);
 }
 
 Eigen::Array3f MipTexture::Mean() const {

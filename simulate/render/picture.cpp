@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
+#include <span>
 
 #include "survey/parallel.h"
 
@@ -25,16 +25,19 @@ uint32_t TriangleOf(uint32_t mark) {
   return mark & kNothing;
 }
 
-// Eight places in a pixel, one in each row and column of an 8 x 8 grid (rooks that do not attack
-// each other), each quarter holding two.
-constexpr std::array<std::array<float, 2>, kLanes> kPlaces = {{{0.5625f, 0.0625f},
-                                                               {0.0625f, 0.1875f},
-                                                               {0.8125f, 0.3125f},
-                                                               {0.3125f, 0.4375f},
-                                                               {0.6875f, 0.5625f},
-                                                               {0.1875f, 0.6875f},
-                                                               {0.9375f, 0.8125f},
-                                                               {0.4375f, 0.9375f}}};
+// Places in a pixel, one in each row and column of a grid (rooks that do not attack each other).
+using Places = std::span<const Eigen::Vector2f>;
+const std::array<Eigen::Vector2f, kLanes> kEightPlaces = {{{0.5625f, 0.0625f},
+                                                           {0.0625f, 0.1875f},
+                                                           {0.8125f, 0.3125f},
+                                                           {0.3125f, 0.4375f},
+                                                           {0.6875f, 0.5625f},
+                                                           {0.1875f, 0.6875f},
+                                                           {0.9375f, 0.8125f},
+                                                           {0.4375f, 0.9375f}}};
+// Foliage is irregular: four do, and two pixels share a pack of rays.
+const std::array<Eigen::Vector2f, kLanes / 2> kFourPlaces = {
+    {{0.375f, 0.125f}, {0.875f, 0.375f}, {0.125f, 0.625f}, {0.625f, 0.875f}}};
 
 struct Tile {
   int left = 0, top = 0, right = 0, bottom = 0;
@@ -87,6 +90,11 @@ class Drawing {
     Place sum;
     int rays = 0;
   };
+  struct Traced {
+    std::array<ViewRay, kLanes> rays;
+    HitPack hits;
+    uint32_t sunlit = 0;  // bit i: ray i met something that the sun shines on
+  };
 
   size_t Pixels() const { return static_cast<size_t>(view_.width_px) * view_.height_px; }
   size_t Index(int x, int y) const { return static_cast<size_t>(y) * view_.width_px + x; }
@@ -96,13 +104,16 @@ class Drawing {
   void Put(size_t i, const Eigen::Array3f& colour) {
     Eigen::Map<Eigen::Array3f>(&picture_.rgb[3 * i]) = colour;
   }
-  // Bit i: ray i met something that the sun shines on.
-  uint32_t FindSunlit(const std::array<ViewRay, kLanes>& rays, const HitPack& hits,
-                      int count) const;
+  // Rays through `count` places of the picture.
+  Traced Trace(const std::array<Eigen::Vector2d, kLanes>& places, int count) const;
+  uint32_t FindSunlit(const Traced& traced, int count) const;
   bool Differ(size_t a, size_t b, int x, int y) const;
   bool IsEdge(int x, int y) const;
   bool LieOnOneSurface(int a, int b, int x, int y) const;
-  Eigen::Array3f Refined(int x, int y) const;
+  void Refine(std::span<const Eigen::Vector2i> pixels, Places places);
+  // The mean over the lanes of one pixel.
+  Eigen::Array3f Resolve(const Eigen::Vector2i& pixel, const Traced& traced, int first,
+                         int count) const;
 
   const View& view_;
   const Shader& shader_;
@@ -111,18 +122,17 @@ class Drawing {
   std::vector<uint8_t> edges_;
 };
 
-uint32_t Drawing::FindSunlit(const std::array<ViewRay, kLanes>& rays, const HitPack& hits,
-                             int count) const {
+uint32_t Drawing::FindSunlit(const Traced& traced, int count) const {
   RayPack to_sun;
   std::array<int, kLanes> lanes;
   int asked = 0;
   for (int i = 0; i < count; ++i) {
-    if (hits[i].triangle < 0) continue;
-    const Ray& ray = rays[i].ray;
-    if (!shader_.FacesSun(hits[i].triangle, ray.direction)) continue;
+    const Hit& hit = traced.hits[i];
+    const Ray& ray = traced.rays[i].ray;
+    if (hit.triangle < 0 || !shader_.FacesSun(hit.triangle, ray.direction)) continue;
     lanes[asked] = i;
     to_sun[asked++] =
-        shader_.ToSun(ray.origin + hits[i].at * ray.direction, hits[i].triangle, ray.direction);
+        shader_.ToSun(ray.origin + hit.at * ray.direction, hit.triangle, ray.direction);
   }
   if (asked == 0) return 0;
   const uint32_t blocked = shader_.scene->Blocked(to_sun, asked);
@@ -133,33 +143,44 @@ uint32_t Drawing::FindSunlit(const std::array<ViewRay, kLanes>& rays, const HitP
   return sunlit;
 }
 
+Drawing::Traced Drawing::Trace(const std::array<Eigen::Vector2d, kLanes>& places, int count) const {
+  Traced traced;
+  RayPack pack;
+  for (int i = 0; i < count; ++i) {
+    traced.rays[i] = RayAt(view_, places[i].x(), places[i].y());
+    pack[i] = traced.rays[i].ray;
+  }
+  traced.hits = shader_.scene->Nearest(pack, count, *shader_.left_out);
+  traced.sunlit = FindSunlit(traced, count);
+  return traced;
+}
+
 void Drawing::DrawCentres(const Tile& tile) {
   ForEachBlock(tile, [&](const std::array<Eigen::Vector2i, kLanes>& pixels, int count) {
-    std::array<ViewRay, kLanes> rays;
-    RayPack pack;
+    std::array<Eigen::Vector2d, kLanes> centres;
+    for (int i = 0; i < count; ++i) centres[i] = pixels[i].cast<double>().array() + 0.5;
+    const Traced traced = Trace(centres, count);
     for (int i = 0; i < count; ++i) {
-      rays[i] = RayAt(view_, pixels[i].x() + 0.5, pixels[i].y() + 0.5);
-      pack[i] = rays[i].ray;
-    }
-    const HitPack hits = shader_.scene->Nearest(pack, count, *shader_.left_out);
-    const uint32_t sunlit = FindSunlit(rays, hits, count);
-    for (int i = 0; i < count; ++i) {
-      if (!rays[i].valid) continue;
+      const ViewRay& ray = traced.rays[i];
+      if (!ray.valid) continue;
       const size_t at = Index(pixels[i].x(), pixels[i].y());
-      const Ray& ray = rays[i].ray;
-      const int triangle = hits[i].triangle;
-      if (triangle < 0) {
-        Put(at, Background(shader_.lighting.light, ray.direction.normalized()));
+      const Hit& hit = traced.hits[i];
+      if (hit.triangle < 0) {
+        Put(at, Background(shader_.lighting.light, ray.ray.direction.normalized()));
         continue;
       }
-      const bool in_sun = sunlit >> i & 1;
-      const Place place{triangle,   ray.origin + hits[i].at * ray.direction,
-                        hits[i].at, hits[i].b1,
-                        hits[i].b2, in_sun ? 1.0f : 0.0f};
-      Put(at, shader_.Radiance(rays[i], place));
-      const int material = shader_.scene->surface(triangle).material;
+      const bool in_sun = traced.sunlit >> i & 1;
+      Place place;
+      place.triangle = hit.triangle;
+      place.point = ray.ray.origin + hit.at * ray.ray.direction;
+      place.at = hit.at;
+      place.b1 = hit.b1;
+      place.b2 = hit.b2;
+      place.in_sun = in_sun ? 1.0f : 0.0f;
+      Put(at, shader_.Radiance(ray, place));
+      const int material = shader_.scene->surface(hit.triangle).material;
       const bool leaf = shader_.scene->scene().materials[material].cut_out;
-      marks_[at] = static_cast<uint32_t>(triangle) | (in_sun ? kInSun : 0) | (leaf ? kLeaf : 0);
+      marks_[at] = static_cast<uint32_t>(hit.triangle) | (in_sun ? kInSun : 0) | (leaf ? kLeaf : 0);
     }
   });
 }
@@ -207,41 +228,35 @@ bool Drawing::IsEdge(int x, int y) const {
          (y + 1 < view_.height_px && Differ(at, at + view_.width_px, x, y));
 }
 
-Eigen::Array3f Drawing::Refined(int x, int y) const {
-  std::array<ViewRay, kLanes> rays;
-  RayPack pack;
-  for (int i = 0; i < kLanes; ++i) {
-    rays[i] = RayAt(view_, x + kPlaces[i][0], y + kPlaces[i][1]);
-    pack[i] = rays[i].ray;
-  }
-  const HitPack hits = shader_.scene->Nearest(pack, kLanes, *shader_.left_out);
-  const uint32_t sunlit = FindSunlit(rays, hits, kLanes);
+Eigen::Array3f Drawing::Resolve(const Eigen::Vector2i& pixel, const Traced& traced, int first,
+                                int count) const {
   Eigen::Array3f sum = Eigen::Array3f::Zero();
   std::array<Group, kLanes> groups;
   int group_count = 0;
-  for (int i = 0; i < kLanes; ++i) {
-    if (!rays[i].valid) continue;
-    const Ray& ray = rays[i].ray;
-    if (hits[i].triangle < 0) {
+  for (int i = first; i < first + count; ++i) {
+    if (!traced.rays[i].valid) continue;
+    const Ray& ray = traced.rays[i].ray;
+    const Hit& hit = traced.hits[i];
+    if (hit.triangle < 0) {
       sum += Background(shader_.lighting.light, ray.direction.normalized());
       continue;
     }
     int g = 0;
-    while (g < group_count && groups[g].sum.triangle != hits[i].triangle) ++g;
-    if (g == group_count) {
-      groups[g].sum.triangle = hits[i].triangle;
-      groups[g].sum.point.setZero();
-      ++group_count;
-    }
+    while (g < group_count && groups[g].sum.triangle != hit.triangle) ++g;
     Place& place = groups[g].sum;
+    if (g == group_count) {
+      ++group_count;
+      place.triangle = hit.triangle;
+      place.point.setZero();
+    }
     ++groups[g].rays;
-    place.point += ray.origin + hits[i].at * ray.direction;
-    place.at += hits[i].at;
-    place.b1 += hits[i].b1;
-    place.b2 += hits[i].b2;
-    place.in_sun += static_cast<float>(sunlit >> i & 1);
+    place.point += ray.origin + hit.at * ray.direction;
+    place.at += hit.at;
+    place.b1 += hit.b1;
+    place.b2 += hit.b2;
+    place.in_sun += static_cast<float>(traced.sunlit >> i & 1);
   }
-  const ViewRay centre = RayAt(view_, x + 0.5, y + 0.5);
+  const ViewRay centre = RayAt(view_, pixel.x() + 0.5, pixel.y() + 0.5);
   for (int g = 0; g < group_count; ++g) {
     const auto rays_of = static_cast<float>(groups[g].rays);
     Place place = groups[g].sum;
@@ -250,10 +265,10 @@ Eigen::Array3f Drawing::Refined(int x, int y) const {
     place.b1 /= rays_of;
     place.b2 /= rays_of;
     place.in_sun /= rays_of;
-    place.pixel_side = std::sqrt(rays_of / kLanes);
+    place.pixel_side = std::sqrt(rays_of / static_cast<float>(count));
     sum += rays_of * shader_.Radiance(centre, place);
   }
-  return sum / kLanes;
+  return sum / static_cast<float>(count);
 }
 
 void Drawing::FindEdges(const Tile& tile) {
@@ -262,12 +277,42 @@ void Drawing::FindEdges(const Tile& tile) {
   }
 }
 
-void Drawing::RefineEdges(const Tile& tile) {
-  for (int y = tile.top; y < tile.bottom; ++y) {
-    for (int x = tile.left; x < tile.right; ++x) {
-      if (edges_[Index(x, y)]) Put(Index(x, y), Refined(x, y));
+void Drawing::Refine(std::span<const Eigen::Vector2i> pixels, Places places) {
+  std::array<Eigen::Vector2d, kLanes> all;
+  int count = 0;
+  for (const Eigen::Vector2i& pixel : pixels) {
+    for (const Eigen::Vector2f& place : places) {
+      all[count++] = pixel.cast<double>() + place.cast<double>();
     }
   }
+  const Traced traced = Trace(all, count);
+  const int each = static_cast<int>(places.size());
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    Put(Index(pixels[i].x(), pixels[i].y()),
+        Resolve(pixels[i], traced, static_cast<int>(i) * each, each));
+  }
+}
+
+void Drawing::RefineEdges(const Tile& tile) {
+  std::array<Eigen::Vector2i, 2> leaves;
+  size_t waiting = 0;
+  for (int y = tile.top; y < tile.bottom; ++y) {
+    for (int x = tile.left; x < tile.right; ++x) {
+      const size_t at = Index(x, y);
+      if (!edges_[at]) continue;
+      const Eigen::Vector2i pixel(x, y);
+      if (!(marks_[at] & kLeaf)) {
+        Refine({&pixel, 1}, kEightPlaces);
+        continue;
+      }
+      leaves[waiting++] = pixel;
+      if (waiting == leaves.size()) {
+        Refine(leaves, kFourPlaces);
+        waiting = 0;
+      }
+    }
+  }
+  if (waiting > 0) Refine({leaves.data(), waiting}, kFourPlaces);
 }
 
 }  // namespace

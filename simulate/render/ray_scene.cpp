@@ -141,12 +141,26 @@ void RayScene::MakeTextures() {
       if (!StaysInside(scene_.uv[vertex])) repeats[texture] = true;
     }
   }
+  std::vector<char> is_cut_out(scene_.textures.size(), false);
+  for (const Material& material : scene_.materials) {
+    if (material.cut_out && material.texture >= 0) is_cut_out[material.texture] = true;
+  }
   textures_.resize(scene_.textures.size());
+  masks_.resize(scene_.textures.size());
   constexpr int kAll = std::numeric_limits<int>::max();
   ParallelFor(textures_.size(), kAll, [&](size_t i) {
-    textures_[i] = std::make_unique<MipTexture>(scene_.textures[i], repeats[i]);
-    std::vector<uint8_t>().swap(scene_.textures[i].data);
+    Image& image = scene_.textures[i];
+    textures_[i] = std::make_unique<MipTexture>(image, repeats[i]);
+    if (is_cut_out[i]) masks_[i] = std::make_unique<AlphaMask>(image, repeats[i]);
+    std::vector<uint8_t>().swap(image.data);
   });
+}
+
+RayScene::Leaf RayScene::LeafOf(int triangle) const {
+  const Eigen::Vector3i& t = scene_.triangles[triangle];
+  const auto& uv = scene_.uv;
+  return {uv[t[0]], uv[t[1]] - uv[t[0]], uv[t[2]] - uv[t[0]],
+          masks_[scene_.materials[scene_.materials_of[triangle]].texture].get()};
 }
 
 void RayScene::MakeTree() {
@@ -162,6 +176,7 @@ void RayScene::MakeTree() {
     Part& part = parts_[material.cut_out && material.texture >= 0 ? kCutOutPart : 0];
     part.triangles.push_back(static_cast<int>(i));
     part.corners.push_back(scene_.triangles[i]);
+    if (&part == &parts_[kCutOutPart]) part.leaves.push_back(LeafOf(static_cast<int>(i)));
   }
   // Embree reads 16 bytes at each vertex.
   scene_.positions.emplace_back(Eigen::Vector3f::Zero());
@@ -198,19 +213,13 @@ void RayScene::AddPart(Part& part, bool cut_out) {
 
 void RayScene::PassThroughHoles(const RTCFilterFunctionNArguments* arguments) {
   const auto& part = *static_cast<const Part*>(arguments->geometryUserPtr);
-  const RayScene& scene = *part.scene;
   for (unsigned i = 0; i < arguments->N; ++i) {
     if (arguments->valid[i] != -1) continue;
-    const int triangle = part.triangles[RTCHitN_primID(arguments->hit, arguments->N, i)];
+    const Leaf& leaf = part.leaves[RTCHitN_primID(arguments->hit, arguments->N, i)];
     const float b1 = RTCHitN_u(arguments->hit, arguments->N, i);
     const float b2 = RTCHitN_v(arguments->hit, arguments->N, i);
-    const Eigen::Vector3i& t = scene.scene_.triangles[triangle];
-    const auto& uv = scene.scene_.uv;
-    const Eigen::Vector2f at = (1 - b1 - b2) * uv[t[0]] + b1 * uv[t[1]] + b2 * uv[t[2]];
-    constexpr uint8_t kHalf = 128;
-    if (scene.texture(scene.surfaces_[triangle].material)->Alpha(at) < kHalf) {
-      arguments->valid[i] = 0;
-    }
+    const Eigen::Vector2f at = leaf.uv + b1 * leaf.uv_first + b2 * leaf.uv_second;
+    if (!leaf.mask->IsOpaque(at)) arguments->valid[i] = 0;
   }
 }
 
@@ -227,7 +236,8 @@ void RayScene::PassLeftOut(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
-HitPack RayScene::Nearest(const RayPack& rays, int count, const std::vector<bool>& left_out) const {
+HitPack RayScene::Nearest(const RayPack& rays, int count, const std::vector<bool>& left_out,
+                          bool neighbours) const {
   alignas(32) std::array<int, kLanes> valid;
   for (int i = 0; i < kLanes; ++i) valid[i] = i < count ? -1 : 0;
   alignas(32) RTCRayHit8 pack;
@@ -237,7 +247,7 @@ HitPack RayScene::Nearest(const RayPack& rays, int count, const std::vector<bool
     pack.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   Context context;
-  Start(context, left_out, PassLeftOut, true);
+  Start(context, left_out, PassLeftOut, neighbours);
   rtcIntersect8(valid.data(), tree_, &context.base, &pack);
   HitPack hits;
   for (int i = 0; i < count; ++i) {

@@ -64,9 +64,10 @@ Eigen::Vector3f Reflected(const Eigen::Vector3f& direction, const Eigen::Vector3
 }  // namespace
 
 Lighting LightingOf(const Light& light, const Eigen::Array3f& mean_albedo) {
-  // What surfaces around a place send to it: some are in the sun, the others get part of the sky.
-  constexpr float kShareInSun = 0.4f;
-  constexpr float kShareOfSky = 0.5f;
+  // What surfaces around a place send to it: most are ground, largely in the sun, and all see part of
+  // the sky.
+  constexpr float kShareInSun = 0.65f;
+  constexpr float kShareOfSky = 0.7f;
   const float height = std::max(0.0f, static_cast<float>(light.to_sun.z()));
   return {light, mean_albedo *
                      (kShareInSun * height * light.sun.array() + kShareOfSky * light.sky.array())};
@@ -79,8 +80,11 @@ Eigen::Array3f Background(const Light& light, const Eigen::Vector3f& direction) 
   const float height = std::max(0.0f, static_cast<float>(light.to_sun.z()));
   const Eigen::Array3f land = kGroundAlbedo * Eigen::Array3f(0.9f, 1.0f, 0.75f) *
                               (height * light.sun.array() + light.sky.array());
-  // Seen from a few dozen metres up, land near the horizon is kilometres away and as pale as it.
-  const float near = 1 - std::exp(12 * direction.z());
+  // Land near the horizon, here seen from 40 m up, is kilometres away and as pale as the sky there.
+  constexpr float kHeight_m = 40;
+  constexpr float kClearAir_m = 10000;
+  const float haze_m = light.haze_m > 0 ? static_cast<float>(light.haze_m) : kClearAir_m;
+  const float near = std::exp(kHeight_m / (direction.z() * haze_m));
   return sky + near * (land - sky);
 }
 

@@ -6,7 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <ranges>
+#include <span>
+#include <utility>
 
 #include "survey/parallel.h"
 
@@ -18,6 +22,7 @@ constexpr double kMostValues =
     1.5e6;  // beyond that the spacing grows: time and memory stay bounded
 constexpr int kRays = 64;
 constexpr int kRaysForSmall = 32;  // triangles with a single value
+constexpr int kRaysForLeaves = 16;
 constexpr float kLift_m = 2e-3f;   // off the surface
 constexpr float kInset_m = 2e-2f;  // away from the triangle's border, where other walls stand
 // A place from which most rays meet the backs of surfaces lies in a solid, or its triangle is
@@ -71,7 +76,7 @@ Seen LookUp(const RayScene& scene, const Eigen::Vector3f& place, const Eigen::Ve
       pack[lane].direction = radius * std::cos(angle) * tangent + radius * std::sin(angle) * other +
                              std::sqrt(1 - s.x()) * normal;
     }
-    const HitPack hits = scene.Nearest(pack, kLanes, kNone);
+    const HitPack hits = scene.Nearest(pack, kLanes, kNone, /*neighbours=*/false);
     for (int lane = 0; lane < kLanes; ++lane) {
       const Eigen::Vector3f& direction = pack[lane].direction;
       if (hits[lane].triangle < 0) {
@@ -92,7 +97,7 @@ Seen LookUp(const RayScene& scene, const Eigen::Vector3f& place, const Eigen::Ve
 float SkyAt(const RayScene& scene, const Eigen::Vector3f& place, const Surface& surface, int rays) {
   // Leaves let light through: what counts is how open the sky above them is.
   if (scene.scene().materials[surface.material].cut_out) {
-    return LookUp(scene, place, Eigen::Vector3f::UnitZ(), rays).sky;
+    return LookUp(scene, place, Eigen::Vector3f::UnitZ(), kRaysForLeaves).sky;
   }
   const Seen front = LookUp(scene, place, surface.normal, rays);
   if (front.backs <= kMostlyBacks) return front.sky;
@@ -108,12 +113,20 @@ float Distance(const Scene& scene, const Eigen::Vector3i& triangle, int a, int b
 
 SkyLight::SkyLight(const RayScene& scene) {
   LayOut(scene);
-  constexpr size_t kTrianglesPerUnit = 256;
-  const size_t units = (grids_.size() + kTrianglesPerUnit - 1) / kTrianglesPerUnit;
+  // By rows, since one triangle may be the whole ground.
+  std::vector<std::pair<int, int>> rows;
+  for (size_t i = 0; i < grids_.size(); ++i) {
+    for (int row = 0; row <= grids_[i].rows; ++row) rows.emplace_back(static_cast<int>(i), row);
+  }
+  constexpr size_t kRowsPerUnit = 64;
+  const size_t units = (rows.size() + kRowsPerUnit - 1) / kRowsPerUnit;
   ParallelFor(units, std::numeric_limits<int>::max(), [&](size_t unit) {
-    const size_t end = std::min(grids_.size(), (unit + 1) * kTrianglesPerUnit);
-    for (size_t i = unit * kTrianglesPerUnit; i < end; ++i) Compute(scene, static_cast<int>(i));
+    const size_t end = std::min(rows.size(), (unit + 1) * kRowsPerUnit);
+    for (size_t i = unit * kRowsPerUnit; i < end; ++i) {
+      ComputeRow(scene, rows[i].first, rows[i].second);
+    }
   });
+  for (const Grid& grid : grids_) FillUnknown(grid);
 }
 
 void SkyLight::LayOut(const RayScene& scene) {
@@ -154,63 +167,65 @@ void SkyLight::LayOut(const RayScene& scene) {
   }
 }
 
-void SkyLight::Compute(const RayScene& scene, int triangle) {
+void SkyLight::ComputeRow(const RayScene& scene, int triangle, int row) {
   const Grid& grid = grids_[triangle];
   const Surface& surface = scene.surface(triangle);
   if (surface.normal.isZero()) return;  // without area: nobody sees it
   const Eigen::Vector3i& t = scene.scene().triangles[triangle];
   const auto corner = [&](int k) { return scene.scene().positions[t[(grid.apex + k) % 3]]; };
   const Eigen::Vector3f centre = (corner(0) + corner(1) + corner(2)) / 3;
+  float* values = &values_[grid.first + static_cast<size_t>(row) * (grid.columns + 1)];
   if (grid.columns == 0) {
-    values_[grid.first] = std::max(0.0f, SkyAt(scene, centre, surface, kRaysForSmall));
+    *values = SkyAt(scene, centre, surface, kRaysForSmall);
     return;
   }
-  const auto value = [&](int row, int column) -> float& {
-    return values_[grid.first + static_cast<size_t>(row) * (grid.columns + 1) + column];
-  };
-  for (int row = 0; row <= grid.rows; ++row) {
-    const float up = static_cast<float>(row) / static_cast<float>(grid.rows);
-    for (int column = 0; column <= grid.columns; ++column) {
-      if (row == grid.rows && column > 0) {  // all the same place: the apex
-        value(row, column) = value(row, 0);
-        continue;
-      }
-      const float along = static_cast<float>(column) / static_cast<float>(grid.columns);
-      const Eigen::Vector3f place =
-          up * corner(0) + (1 - up) * ((1 - along) * corner(1) + along * corner(2));
-      const Eigen::Vector3f inwards = centre - place;
-      const float inset = std::min(kInset_m, 0.25f * inwards.norm());
-      value(row, column) = SkyAt(scene, place + inset * inwards.normalized(), surface, kRays);
+  const float up = static_cast<float>(row) / static_cast<float>(grid.rows);
+  for (int column = 0; column <= grid.columns; ++column) {
+    if (row == grid.rows && column > 0) {  // all the same place: the apex
+      values[column] = values[0];
+      continue;
     }
+    const float along = static_cast<float>(column) / static_cast<float>(grid.columns);
+    const Eigen::Vector3f place =
+        up * corner(0) + (1 - up) * ((1 - along) * corner(1) + along * corner(2));
+    const Eigen::Vector3f inwards = centre - place;
+    const float inset = std::min(kInset_m, 0.25f * inwards.norm());
+    values[column] = SkyAt(scene, place + inset * inwards.normalized(), surface, kRays);
   }
-  // Places inside solids take over from their neighbours in the row and in the next ones.
-  bool unknown = true;
-  for (int round = 0; unknown && round < 4; ++round) {
-    unknown = false;
-    const auto first = values_.begin() + static_cast<std::ptrdiff_t>(grid.first);
-    const std::vector<float> before(
-        first, first + static_cast<std::ptrdiff_t>(grid.columns + 1) * (grid.rows + 1));
-    for (int row = 0; row <= grid.rows; ++row) {
-      for (int column = 0; column <= grid.columns; ++column) {
-        if (value(row, column) >= 0) continue;
+}
+
+// Places inside solids take over from the places around them, step by step; what is still unknown
+// then is dark.
+void SkyLight::FillUnknown(const Grid& grid) {
+  constexpr int kSteps = 4;
+  const int width = grid.columns + 1;
+  const int height = grid.rows + 1;
+  float* values = &values_[grid.first];
+  const auto unknown = [](float value) { return value < 0; };
+  for (int step = 0; step < kSteps; ++step) {
+    const std::span<const float> now(values, static_cast<size_t>(width) * height);
+    if (std::ranges::none_of(now, unknown)) return;
+    const std::vector<float> before(now.begin(), now.end());
+    for (int row = 0; row < height; ++row) {
+      for (int column = 0; column < width; ++column) {
+        if (!unknown(before[static_cast<size_t>(row) * width + column])) continue;
         float sum = 0;
         int known = 0;
-        for (int r = std::max(0, row - 1); r <= std::min<int>(grid.rows, row + 1); ++r) {
-          for (int c = std::max(0, column - 1); c <= std::min<int>(grid.columns, column + 1); ++c) {
-            const float neighbour = before[static_cast<size_t>(r) * (grid.columns + 1) + c];
-            if (neighbour < 0) continue;
+        for (int r = std::max(0, row - 1); r <= std::min(height - 1, row + 1); ++r) {
+          for (int c = std::max(0, column - 1); c <= std::min(width - 1, column + 1); ++c) {
+            const float neighbour = before[static_cast<size_t>(r) * width + c];
+            if (unknown(neighbour)) continue;
             sum += neighbour;
             ++known;
           }
         }
-        if (known > 0) value(row, column) = sum / static_cast<float>(known);
-        unknown |= known == 0;
+        if (known > 0) {
+          values[static_cast<size_t>(row) * width + column] = sum / static_cast<float>(known);
+        }
       }
     }
   }
-  for (size_t i = 0; i < static_cast<size_t>(grid.columns + 1) * (grid.rows + 1); ++i) {
-    values_[grid.first + i] = std::max(0.0f, values_[grid.first + i]);
-  }
+  for (int i = 0; i < width * height; ++i) values[i] = std::max(0.0f, values[i]);
 }
 
 float SkyLight::At(int triangle, float b1, float b2) const {

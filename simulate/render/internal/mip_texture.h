@@ -31,8 +31,6 @@ class MipTexture {
   // Linear colour and alpha, averaged over a footprint: trilinear probes along its longer axis
   // (McCormack et al., "Feline: fast elliptical lines for anisotropic texture mapping", 1999).
   Eigen::Array4f Sample(const Footprint& footprint) const;
-  // Alpha (0 to 255) of the nearest texel of the picture itself.
-  uint8_t Alpha(const Eigen::Vector2f& uv) const;
   Eigen::Array3f Mean() const;  // linear
 
  private:
@@ -55,7 +53,5 @@ class MipTexture {
   std::vector<Level> levels_;
   std::vector<uint32_t> texels_;  // R, G, B, A from the lowest byte on; sRGB
 };
-
-float LinearFromSrgb(uint8_t value);
 
 }  // namespace stucco::simulate::internal

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "simulate/render/internal/alpha_mask.h"
 #include "simulate/render/internal/mip_texture.h"
 #include "simulate/scene/scene.h"
 
@@ -56,8 +57,10 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  // `count` rays of the pack, which should be neighbours. Elements of `left_out` are not there.
-  HitPack Nearest(const RayPack& rays, int count, const std::vector<bool>& left_out) const;
+  // `count` rays of the pack; `neighbours` says that they run side by side, which is quicker then.
+  // Elements of `left_out` are not there.
+  HitPack Nearest(const RayPack& rays, int count, const std::vector<bool>& left_out,
+                  bool neighbours = true) const;
   // Bit i is set where something is on the way of ray i, wanted in the picture or not: light does
   // not know.
   uint32_t Blocked(const RayPack& rays, int count) const;
@@ -77,10 +80,16 @@ class RayScene {
   }
 
  private:
+  // What decides whether a ray passes a cut-out triangle, close together: it is asked often.
+  struct Leaf {
+    Eigen::Vector2f uv, uv_first, uv_second;  // at a corner, and along both edges from there
+    const AlphaMask* mask = nullptr;
+  };
   struct Part {  // one Embree geometry
     const RayScene* scene = nullptr;
     std::vector<int> triangles;  // of the scene
     std::vector<Eigen::Vector3i> corners;
+    std::vector<Leaf> leaves;  // one per triangle where the part is cut out
   };
 
   void CheckIndices() const;
@@ -88,13 +97,15 @@ class RayScene {
   void MakeTextures();
   void MakeTree();
   void AddPart(Part& part, bool cut_out);
+  Leaf LeafOf(int triangle) const;
   static void PassThroughHoles(const RTCFilterFunctionNArguments* arguments);
   static void PassLeftOut(const RTCFilterFunctionNArguments* arguments);
 
   Scene scene_;
   std::vector<Surface> surfaces_;
   std::vector<std::unique_ptr<MipTexture>> textures_;
-  std::array<Part, 2> parts_;  // solid, cut out; the index is Embree's geomID
+  std::vector<std::unique_ptr<AlphaMask>> masks_;  // of textures that are cut out
+  std::array<Part, 2> parts_;                      // solid, cut out; the index is Embree's geomID
   RTCDevice device_ = nullptr;
   RTCScene tree_ = nullptr;
 };

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "simulate/render/internal/ray_scene.h"
@@ -30,7 +31,8 @@ class SkyLight {
   };
 
   void LayOut(const RayScene& scene);
-  void Compute(const RayScene& scene, int triangle);
+  void ComputeRow(const RayScene& scene, int triangle, int row);
+  void FillUnknown(const Grid& grid);
 
   std::vector<Grid> grids_;
   std::vector<float> values_;
