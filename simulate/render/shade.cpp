@@ -64,8 +64,8 @@ Eigen::Vector3f Reflected(const Eigen::Vector3f& direction, const Eigen::Vector3
 }  // namespace
 
 Lighting LightingOf(const Light& light, const Eigen::Array3f& mean_albedo) {
-  // What surfaces around a place send to it: most are ground, largely in the sun, and all see part of
-  // the sky.
+  // What surfaces around a place send to it: most are ground, largely in the sun, and all see part
+  // of the sky.
   constexpr float kShareInSun = 0.65f;
   constexpr float kShareOfSky = 0.7f;
   const float height = std::max(0.0f, static_cast<float>(light.to_sun.z()));
