@@ -4,7 +4,7 @@
 """The whole loop in a made scene: plans, flies, reconstructs and measures it against truth.
 
   bench/loop.py OUT [--style hamlet] [--seed 1] [--method cocapture] [--scale 0.25]
-                [--plan-args "--altitude 30"] [--fly-args "--rtk true"] [--run-args "..."]
+                [--plan-args="--altitude 30"] [--fly-args="--rtk --held-out 5"] [--run-args "..."]
                 [--stucco PROGRAM]
 
 Scale is that of the camera's pixels: 0.25 gives photos a quarter as wide. What OUT already has is

@@ -45,6 +45,7 @@ void AddVerbs(CLI::App& app, stucco::Program& program) {
   stucco::AddStageVerbs(app, program);
   stucco::AddImport(app, program);
   stucco::AddExport(app, program);
+  stucco::AddEvaluate(app, program);
   stucco::AddLint(app, program);
   stucco::AddOptions(app, program);
   stucco::AddCompletion(app, program);

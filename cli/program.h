@@ -64,6 +64,7 @@ void AddStageVerbs(CLI::App& app, Program& program);
 void AddStatus(CLI::App& app, Program& program);
 void AddImport(CLI::App& app, Program& program);
 void AddExport(CLI::App& app, Program& program);
+void AddEvaluate(CLI::App& app, Program& program);
 void AddOptions(CLI::App& app, Program& program);
 void AddCompletion(CLI::App& app, Program& program);
 

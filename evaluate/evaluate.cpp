@@ -14,6 +14,7 @@
 #include "evaluate/geometry/moved.h"
 #include "evaluate/geometry/poses.h"
 #include "evaluate/geometry/seen.h"
+#include "evaluate/measure_pictures.h"
 #include "evaluate/plan_figures.h"
 #include "evaluate/truth.h"
 #include "simulate/scene/scene_folder.h"
@@ -116,8 +117,16 @@ class Evaluator {
     const bool has_cloud = Has(kCloudFile, "the cloud is");
     const bool has_mesh = fs::exists(request_.survey / kMeshFile);
     const bool has_proxy = Has(kFacetsFile, "the model is");
+    const bool has_textures = Has(kTexturesFile, "textures and views are") && has_proxy;
     if (!has_cloud && !has_mesh && !has_proxy) return;
-    const simulate::Scene scene = simulate::ReadScene(request_.scene);
+    simulate::Scene scene = simulate::ReadScene(request_.scene);
+    MeasureShapes(scene, has_cloud, has_mesh, has_proxy);
+    if (has_textures) {
+      MeasurePictures(request_, truth_, std::move(scene), *truth_from_world_, evaluation_);
+    }
+  }
+
+  void MeasureShapes(const simulate::Scene& scene, bool has_cloud, bool has_mesh, bool has_proxy) {
     const SceneShape shape = ShapeOf(scene, truth_, request_.threads);
     if (has_cloud) {
       evaluation_.dense = CompareCloud(request_.survey / kCloudFile, *truth_from_world_,

@@ -79,13 +79,13 @@ class Loop(WithStandIn):
     def test_goes_from_a_style_to_a_row(self):
         out = self.root / "out"
         table = self.call("loop.py", out, "--seed", "3", "--plan-args", "--altitude 30",
-                          "--fly-args=--rtk true").stdout
+                          "--fly-args=--rtk").stdout
         self.assertEqual(self.commands(), [
             "simulate city -o out/hamlet-3 --style hamlet --seed 3",
             "plan out/hamlet-3/map.geojson -o out/hamlet-3-cocapture-0.25 --method cocapture "
             "--terrain out/hamlet-3/terrain.tif --altitude 30",
             "simulate out/hamlet-3 out/hamlet-3-cocapture-0.25 -o out/hamlet-3-cocapture-0.25 "
-            "--scale 0.25 --rtk true",
+            "--scale 0.25 --rtk",
             "run out/hamlet-3-cocapture-0.25",
             "evaluate out/hamlet-3-cocapture-0.25 --truth out/hamlet-3"])
         self.assertIn("| hamlet-3 | cocapture | 46 | 45 / 46 | 12.3 | 1.50 | 0.0100 | 0.210 | "

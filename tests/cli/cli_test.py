@@ -14,7 +14,7 @@ import unittest
 import stucco
 
 VERBS = ["plan", "simulate", "lint", "init", "check", "run", "status", "ingest", "calib", "dense",
-         "proxy", "texture", "report", "import", "export", "options", "completion"]
+         "proxy", "texture", "report", "import", "export", "evaluate", "options", "completion"]
 STAGES = ["ingest", "calib", "dense", "proxy", "texture", "report"]
 
 
@@ -416,6 +416,19 @@ class ImportAndExport(stucco.TestCase):
         self.assertEqual(out.read_bytes(), b"glTF")
         self.refused(stucco.run("export", survey, "--format", "glb", "-o", out), 3, "--overwrite")
         self.check(stucco.run("export", survey, "--format", "glb", "-o", out, "--overwrite"))
+
+
+class Evaluate(stucco.TestCase):
+    """What measures right is tested in tests/evaluate."""
+
+    def test_refuses_what_has_no_truth(self):
+        survey = self.init(self.photo_folder(2))
+        self.refused(stucco.run("evaluate", survey), 2, "--truth")
+        self.refused(stucco.run("evaluate", survey, "--truth", self.root / "town"), 3, "town")
+        self.refused(stucco.run("evaluate", survey, "--truth", survey), 3, "scene.json")
+        self.refused(stucco.run("evaluate", survey, "--truth", survey, "--tolerance", "0"), 2,
+                     "--tolerance")
+        self.assertFalse((survey / "evaluation").exists())
 
 
 class Completion(stucco.TestCase):

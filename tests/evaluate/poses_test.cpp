@@ -114,6 +114,24 @@ TEST(ComparePoses, TurnedCamerasHaveTheAngle) {
   EXPECT_NEAR(found.figures.rotation_mean_deg, 2 + 3.0 / 13, 1e-5);
 }
 
+// What bench/eval_poses.py finds for the same cameras and errors.
+TEST(ComparePoses, AgreesWithAnIndependentProgram) {
+  const simulate::Flight flight = MadeFlight();
+  Reconstruction result = MadeReconstruction(flight);
+  int i = 0;
+  for (auto& [id, photo] : result.photos) {
+    Turn(0.05 * std::sin(5 * i), photo);
+    Shift(0.1 * Vector3d(std::sin(7 * i + 1), std::sin(11 * i + 2), std::sin(13 * i + 3)), photo);
+    ++i;
+  }
+  const PoseComparison found = ComparePoses(result, Enu(), flight, Enu());
+  EXPECT_NEAR(found.figures.position_mean_m, 0.08593279810578638, 1e-9);
+  EXPECT_NEAR(found.figures.position_max_m, 0.149177489112255, 1e-9);
+  EXPECT_NEAR(found.figures.rotation_mean_deg, 0.10092884726588422, 1e-7);
+  EXPECT_NEAR(found.figures.rotation_max_deg, 0.13929507755984072, 1e-7);
+  EXPECT_NEAR(found.truth_from_world->scale, 0.9992670062317204, 1e-9);
+}
+
 TEST(ComparePoses, CountsThePhotosThatTheSurveyWasGiven) {
   simulate::Flight flight = MadeFlight();
   flight.photos[1].lost = true;

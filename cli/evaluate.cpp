@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "evaluate/evaluate.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "cli/program.h"
+#include "survey/numbers.h"
+
+namespace stucco {
+namespace {
+
+using evaluate::Evaluation;
+using evaluate::PictureFigures;
+using evaluate::SurfaceFigures;
+
+std::string Metres(double value) {
+  return std::isfinite(value) ? fmt::format("{:.4f} m", value) : "-";
+}
+
+std::string PosesText(const evaluate::PoseFigures& poses) {
+  return fmt::format(
+      "poses       {} of {}; position mean {}, max {}; rotation mean {} deg, max {} deg\n"
+      "            as georeferenced: {}\n",
+      poses.posed, poses.total, Metres(poses.position_mean_m), Metres(poses.position_max_m),
+      Decimal(poses.rotation_mean_deg, 4), Decimal(poses.rotation_max_deg, 4),
+      Metres(poses.georeferenced_mean_m));
+}
+
+std::string SurfaceText(const char* name, const SurfaceFigures& figures) {
+  return fmt::format("{:<11} {:>12} {:>14} {:>14}\n", name, Metres(figures.error95_m),
+                     Percent(figures.completeness), Percent(figures.completeness_all));
+}
+
+std::string ProxyText(const evaluate::ProxyFigures& proxy) {
+  return fmt::format(
+      "buildings   {} (truth {}): {} watertight, {} manifold, {} cross themselves\n"
+      "facets      {} (truth {}); right facade id on {} of the walls\n",
+      proxy.buildings, proxy.truth_buildings, proxy.watertight, proxy.manifold,
+      proxy.self_intersecting, proxy.facets, proxy.truth_facets, Percent(proxy.facade_id_rate));
+}
+
+std::string PictureText(const char* name, const PictureFigures& figures) {
+  return fmt::format("{:<11} {:>7} {:>8} {:>7} {:>7} {:>7} {:>7}\n", name, Decimal(figures.ssim, 3),
+                     Decimal(figures.ms_ssim, 3), Decimal(figures.psnr, 2),
+                     Decimal(figures.gmsd, 3), Decimal(figures.flip, 3), Decimal(figures.lpips, 3));
+}
+
+std::string PlanText(const evaluate::PlanFigures& plan) {
+  return fmt::format(
+      "plan        {}: {} photos, {} hovers, {:.0f} m, {:.1f} min, {:.0f} % of a battery\n",
+      plan.method, plan.photos, plan.hovers, plan.length_m, plan.time_min, plan.battery_percent);
+}
+
+std::string Text(const Evaluation& evaluation) {
+  std::string text = evaluation.has_plan ? PlanText(evaluation.plan) : "";
+  text += PosesText(evaluation.poses);
+  text += fmt::format("\n{:<11} {:>12} {:>14} {:>14}\n", "", "95 % below", "complete: seen",
+                      "of everything");
+  text += SurfaceText("cloud", evaluation.dense);
+  if (std::isfinite(evaluation.mesh.error95_m)) text += SurfaceText("mesh", evaluation.mesh);
+  text += SurfaceText("model", evaluation.proxy.all) +
+          SurfaceText("  walls", evaluation.proxy.wall) +
+          SurfaceText("  roofs", evaluation.proxy.roof) +
+          SurfaceText("  ground", evaluation.proxy.ground);
+  text += fmt::format("(complete: within {:g} m)\n\n", evaluation.tolerance_m);
+  text += ProxyText(evaluation.proxy);
+  text += fmt::format("\n{:<11} {:>7} {:>8} {:>7} {:>7} {:>7} {:>7}\n", "", "SSIM", "MS-SSIM",
+                      "PSNR", "GMSD", "FLIP", "LPIPS");
+  text += PictureText("facades", evaluation.texture_mean) +
+          PictureText("held out", evaluation.views_mean);
+  text += fmt::format("misregistration {} px\n", Decimal(evaluation.misregistration_px, 2));
+  for (const std::string& note : evaluation.notes) text += "note: " + note + "\n";
+  return text;
+}
+
+int EvaluateAndPrint(const Program& program, evaluate::EvaluateRequest request) {
+  const CommonOptions& common = program.common;
+  request.survey = common.survey;
+  request.threads = common.threads;
+  if (request.output.empty()) request.output = request.survey / "evaluation";
+  const Evaluation evaluation = evaluate::Evaluate(request);
+  evaluate::WriteEvaluation(evaluation, request.output);
+  if (common.json) {
+    std::cout << evaluate::EvaluationJson(evaluation) << "\n";
+  } else if (!common.quiet) {
+    std::cout << Text(evaluation)
+              << fmt::format("Page: {}\n", (request.output / "evaluation.html").string());
+  }
+  return 0;
+}
+
+}  // namespace
+
+void AddEvaluate(CLI::App& app, Program& program) {
+  CLI::App& verb =
+      AddVerb(app, {"evaluate", "Measure a simulated survey against the truth of its scene",
+                    "stucco evaluate survey --truth town\n"
+                    "stucco evaluate survey --truth town --tolerance 0.2 --json",
+                    kEverydayGroup});
+  AddSurveyArgument(verb, program);
+  auto request = std::make_shared<evaluate::EvaluateRequest>();
+  verb.add_option("--truth", request->scene, "Scene folder that the survey was flown in")
+      ->type_name("SCENE")
+      ->required();
+  verb.add_option("--flight", request->flight,
+                  "Survey folder with the truth of the flight; default: the survey itself")
+      ->type_name("FOLDER");
+  verb.add_option("-o,--out", request->output,
+                  "Folder for figures, pictures and page; default: SURVEY/evaluation")
+      ->type_name("FOLDER");
+  verb.add_option("--tolerance", request->tolerance_m,
+                  "Truth counts as complete where the result lies within this distance (default "
+                  "0.1)")
+      ->type_name("METRES")
+      ->check(CLI::PositiveNumber.description(""));
+  verb.add_option("--lpips", request->lpips_model,
+                  "Network for LPIPS (ONNX); without it LPIPS is not measured")
+      ->type_name("FILE");
+  verb.callback([&program, request] {
+    program.action = [&program, request] { return EvaluateAndPrint(program, *request); };
+  });
+}
+
+}  // namespace stucco

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "evaluate/measure_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "evaluate/geometry/seen.h"
+#include "evaluate/means.h"
+#include "evaluate/picture/compare_textures.h"
+#include "survey/survey_folder.h"
+
+namespace stucco::evaluate {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The scale of the truth's own pictures; that of simulate city where it has none.
+double TruthTexel(const fs::path& scene) {
+  constexpr double kUsualTexelM = 0.01;
+  if (!fs::exists(scene / simulate::kTruthTextures)) return kUsualTexelM;
+  double finest = 0;
+  for (const TexturedFacet& facet : ReadTextureSet(scene / simulate::kTruthTextures).facets) {
+    const double texel = facet.metres_per_texel;
+    if (texel > 0 && !(finest > 0 && finest <= texel)) finest = texel;
+  }
+  return finest > 0 ? finest : kUsualTexelM;
+}
+
+simulate::Light MiddleLight(const simulate::Flight& flight) {
+  const auto photos = DeliveredPhotos(flight);
+  return photos.empty() ? simulate::Light{} : photos[photos.size() / 2]->light;
+}
+
+PictureFigures MeanOfViews(std::span<const HeldOutFigures> views) {
+  std::vector<WeightedPicture> pictures;
+  for (const HeldOutFigures& view : views) pictures.push_back({view.picture, 1});
+  return MeanFigures(pictures);
+}
+
+}  // namespace
+
+PictureFigures MeanOfFacades(std::span<const FacadeFigures> facades) {
+  std::vector<WeightedPicture> pictures;
+  for (const FacadeFigures& facade : facades) {
+    pictures.push_back({facade.picture, facade.area_m2 * facade.painted});
+  }
+  return MeanFigures(pictures);
+}
+
+double MedianMisregistration(std::span<const FacadeFigures> facades) {
+  std::vector<std::pair<double, double>> values;  // shift, area
+  double area = 0;
+  for (const FacadeFigures& facade : facades) {
+    const double painted_m2 = facade.area_m2 * facade.painted;
+    if (!std::isfinite(facade.misregistration_px) || !(painted_m2 > 0)) continue;
+    values.emplace_back(facade.misregistration_px, painted_m2);
+    area += painted_m2;
+  }
+  std::sort(values.begin(), values.end());
+  double below = 0;
+  for (const auto& [shift, painted_m2] : values) {
+    below += painted_m2;
+    if (below >= area / 2) return shift;
+  }
+  return kNotMeasured;
+}
+
+void MeasurePictures(const EvaluateRequest& request, const Truth& truth, simulate::Scene scene,
+                     const Similarity& truth_from_world, Evaluation& evaluation) {
+  const Proxy proxy = ReadProxy(request.survey / kFacetsFile);
+  const TextureSet textures = ReadTextureSet(request.survey / kTexturesFile);
+  std::vector<bool> occluders;
+  for (const std::string& element : scene.elements) {
+    occluders.push_back(element.starts_with(simulate::kOccluderPrefix));
+  }
+  const simulate::Renderer renderer(std::move(scene));
+  const fs::path flight = request.flight.empty() ? request.survey : request.flight;
+  const TextureComparison comparison{
+      .texture_folder = (request.survey / kTexturesFile).parent_path(),
+      .proxy = proxy,
+      .textures = textures,
+      .truth = truth.facets,
+      .scene = renderer,
+      .light = MiddleLight(truth.flight),
+      .occluders = std::move(occluders),
+      .truth_from_world = truth_from_world,
+      .truth_texel_m = TruthTexel(request.scene),
+      .output = request.output,
+      .lpips_model = request.lpips_model,
+      .threads = request.threads};
+  evaluation.facades = CompareFacades(comparison);
+  evaluation.texture_mean = MeanOfFacades(evaluation.facades);
+  evaluation.misregistration_px = MedianMisregistration(evaluation.facades);
+  evaluation.views = CompareViews(comparison, truth.flight, flight);
+  evaluation.views_mean = MeanOfViews(evaluation.views);
+  if (evaluation.views.empty()) {
+    evaluation.notes.emplace_back("views are not measured: no photo of the flight was held out");
+  }
+}
+
+}  // namespace stucco::evaluate

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "evaluate/evaluate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "simulate/flight/flight_folder.h"
+#include "simulate/scene/scene_folder.h"
+#include "survey/error.h"
+#include "survey/files.h"
+#include "tests/evaluate/made_survey.h"
+#include "tests/evaluate/made_truth.h"
+
+namespace stucco::evaluate {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+fs::path Root() {
+  return fs::path(::testing::TempDir()) / "stucco_evaluate_test";
+}
+
+EvaluateRequest RequestFor(const MadeSurvey& made) {
+  EvaluateRequest request;
+  request.survey = made.survey;
+  request.scene = made.scene;
+  request.tolerance_m = 0.25;
+  request.threads = 2;
+  return request;
+}
+
+void ExpectNoError(const Evaluation& found) {
+  EXPECT_EQ(found.poses.posed, 13);
+  EXPECT_NEAR(found.poses.position_max_m, 0, 1e-6);
+  EXPECT_NEAR(found.poses.rotation_max_deg, 0, 1e-4);
+  EXPECT_NEAR(found.dense.error95_m, 0, 1e-5);  // the model is in single precision
+  EXPECT_EQ(found.dense.completeness, 1);
+  EXPECT_NEAR(found.proxy.all.error95_m, 0, 1e-5);
+  EXPECT_EQ(found.proxy.all.completeness, 1);
+  EXPECT_EQ(found.proxy.watertight, 2);
+  EXPECT_NEAR(found.proxy.facade_id_rate, 1, 1e-6);
+}
+
+TEST(Evaluate, TruthHasNoErrorInAnyMeasure) {
+  const Evaluation found = Evaluate(RequestFor(WriteMadeSurvey(Root(), {})));
+  ExpectNoError(found);
+  EXPECT_NEAR(found.poses.georeferenced_mean_m, 0, 1e-6);
+  EXPECT_EQ(found.survey, "survey");
+  EXPECT_EQ(found.scene, "scene");
+  EXPECT_TRUE(found.has_plan);
+  EXPECT_EQ(found.plan.method, "cocapture");
+  EXPECT_EQ(found.plan.hovers, 9);
+  EXPECT_EQ(found.plan.q_u, 0.75);
+  EXPECT_TRUE(std::isnan(found.mesh.error95_m));
+}
+
+TEST(Evaluate, AnotherWorldIsBroughtBack) {
+  ExpectNoError(Evaluate(RequestFor(WriteMadeSurvey(Root(), AnySimilarity()))));
+}
+
+TEST(Evaluate, TheSameAtAnyNumberOfThreads) {
+  EvaluateRequest request = RequestFor(WriteMadeSurvey(Root(), AnySimilarity()));
+  const std::string two = EvaluationJson(Evaluate(request));
+  request.threads = 1;
+  EXPECT_EQ(two, EvaluationJson(Evaluate(request)));
+}
+
+TEST(Evaluate, AMeshCountsLikeACloud) {
+  const MadeSurvey made = WriteMadeSurvey(Root(), {});
+  WriteFile(made.survey / "dense/mesh.ply",
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+            "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+            "end_header\n0 0 6.2\n10 0 6.2\n10 8 6.2\n0 8 6.2\n4 0 1 2 3\n");
+  const Evaluation found = Evaluate(RequestFor(made));
+  EXPECT_NEAR(found.mesh.error95_m, 0.2, 1e-5);
+  EXPECT_GT(found.mesh.completeness_all, 0.02);
+}
+
+TEST(Evaluate, WhatIsNotThereIsNotedAndNotMeasured) {
+  const MadeSurvey made = WriteMadeSurvey(Root(), {});
+  fs::remove_all(made.survey / "dense");
+  fs::remove_all(made.survey / "plan");
+  Evaluation found = Evaluate(RequestFor(made));
+  EXPECT_TRUE(std::isnan(found.dense.error95_m));
+  EXPECT_FALSE(found.has_plan);
+  EXPECT_EQ(found.proxy.watertight, 2);
+  EXPECT_THAT(found.notes, Contains("the cloud is not measured: there is no dense/cloud.ply"));
+  EXPECT_THAT(found.notes, Contains("the plan is not measured: there is no plan/stats.json"));
+  fs::remove_all(made.survey / "calib");
+  found = Evaluate(RequestFor(made));
+  EXPECT_EQ(found.poses.posed, 0);
+  EXPECT_EQ(found.poses.total, 13);
+  EXPECT_TRUE(std::isnan(found.proxy.all.error95_m));
+  EXPECT_THAT(found.notes, Contains(HasSubstr("there is no calib/sparse/0")));
+}
+
+void ExpectRefused(const EvaluateRequest& request, ErrorKind kind, const std::string& reason) {
+  try {
+    Evaluate(request);
+    FAIL() << "was not refused: " << reason;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), kind);
+    EXPECT_THAT(error.what(), HasSubstr(reason));
+  }
+}
+
+TEST(Evaluate, RefusesWhatHasNoTruth) {
+  const MadeSurvey made = WriteMadeSurvey(Root(), {});
+  EvaluateRequest request = RequestFor(made);
+  request.scene = made.scene / "scene.glb";
+  ExpectRefused(request, ErrorKind::kBadInput, "no truth");
+  request = RequestFor(made);
+  request.scene = Root() / "nowhere";
+  ExpectRefused(request, ErrorKind::kBadInput, "nowhere");
+  request = RequestFor(made);
+  request.survey = Root() / "nowhere";
+  ExpectRefused(request, ErrorKind::kBadInput, "no such survey");
+  request = RequestFor(made);
+  request.tolerance_m = std::nan("");
+  ExpectRefused(request, ErrorKind::kUsage, "tolerance");
+  fs::remove(made.survey / simulate::kFlightFile);
+  ExpectRefused(RequestFor(made), ErrorKind::kBadInput, "flight.json");
+}
+
+TEST(Evaluate, RefusesAFlightInAnotherScene) {
+  const MadeSurvey made = WriteMadeSurvey(Root(), {});
+  simulate::Flight flight = simulate::ReadFlight(made.survey);
+  flight.photos[3].cam_from_world.translation.x() += 1e5;
+  simulate::WriteFlight(flight, made.survey);
+  ExpectRefused(RequestFor(made), ErrorKind::kBadInput, "was flown in");
+  const MadeSurvey again = WriteMadeSurvey(Root(), {});
+  const fs::path other = Root() / "other";
+  fs::copy(again.scene, other, fs::copy_options::recursive);
+  simulate::SceneInfo info = simulate::ReadSceneInfo(other);
+  info.seed = 8;
+  simulate::WriteSceneInfo(info, other);
+  EvaluateRequest request = RequestFor(again);
+  request.scene = other;
+  ExpectRefused(request, ErrorKind::kBadInput, "was flown in");
+}
+
+TEST(Evaluate, RefusesTruthOfAnotherVersion) {
+  const MadeSurvey made = WriteMadeSurvey(Root(), {});
+  const fs::path facets = made.scene / simulate::kTruthFacets;
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(ReadFile(facets));
+  json["version"] = 2;
+  WriteFile(facets, json.dump());
+  ExpectRefused(RequestFor(made), ErrorKind::kBadInput, "\"version\" is 2");
+}
+
+}  // namespace
+}  // namespace stucco::evaluate
