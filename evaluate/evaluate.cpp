@@ -11,7 +11,6 @@
 
 #include "evaluate/geometry/cloud.h"
 #include "evaluate/geometry/compare_proxy.h"
-#include "evaluate/geometry/moved.h"
 #include "evaluate/geometry/poses.h"
 #include "evaluate/geometry/seen.h"
 #include "evaluate/measure_pictures.h"
@@ -149,7 +148,7 @@ class Evaluator {
   void MeasureProxy(const SceneShape& shape) {
     const Proxy proxy = ReadProxy(request_.survey / kFacetsFile);
     const auto photos = DeliveredPhotos(truth_.flight);
-    evaluation_.proxy = CompareProxy(Moved(proxy, *truth_from_world_),
+    evaluation_.proxy = CompareProxy(proxy, *truth_from_world_,
                                      {truth_.facets, shape.relief, shape.everything, photos},
                                      tolerance(), threads());
   }

@@ -7,6 +7,7 @@
 
 #include "evaluate/geometry/cloud.h"
 #include "evaluate/geometry/match_facets.h"
+#include "evaluate/geometry/moved.h"
 #include "evaluate/geometry/seen.h"
 #include "evaluate/geometry/solid_check.h"
 
@@ -120,9 +121,9 @@ void CountBuildings(const Proxy& result, ProxyFigures& figures) {
   }
 }
 
-double FacadeIdRate(const Proxy& result, const Proxy& truth) {
+double FacadeIdRate(const std::vector<TruthFacet>& matched) {
   double named = 0, all = 0;
-  for (const TruthFacet& wall : MatchFacets(result, truth, {})) {
+  for (const TruthFacet& wall : matched) {
     if (wall.truth->facet_class != FacetClass::kWall) continue;
     double with_id = 0;
     for (const FacetMatch& match : wall.matches) {
@@ -154,8 +155,8 @@ Surface BuildingSurface(const Proxy& proxy) {
   return surface;
 }
 
-ProxyFigures CompareProxy(const Proxy& result, const ProxyTruth& truth, double tolerance_m,
-                          int threads) {
+ProxyFigures CompareProxy(const Proxy& result, const Similarity& truth_from_result,
+                          const ProxyTruth& truth, double tolerance_m, int threads) {
   ProxyFigures figures;
   CountBuildings(result, figures);
   for (const Building& building : truth.facets.buildings) {
@@ -163,8 +164,8 @@ ProxyFigures CompareProxy(const Proxy& result, const ProxyTruth& truth, double t
     ++figures.truth_buildings;
     figures.truth_facets += static_cast<int>(building.facets.size());
   }
-  MeasureSurfaces(result, truth, tolerance_m, threads, figures);
-  figures.facade_id_rate = FacadeIdRate(result, truth.facets);
+  MeasureSurfaces(Moved(result, truth_from_result), truth, tolerance_m, threads, figures);
+  figures.facade_id_rate = FacadeIdRate(MatchFacets(result, truth.facets, truth_from_result));
   return figures;
 }
 

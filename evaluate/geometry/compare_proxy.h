@@ -7,6 +7,7 @@
 #include "evaluate/evaluation.h"
 #include "evaluate/geometry/surface_index.h"
 #include "simulate/flight/flight_folder.h"
+#include "survey/pose.h"
 #include "survey/proxy.h"
 
 namespace stucco::evaluate {
@@ -19,10 +20,10 @@ struct ProxyTruth {
   std::span<const simulate::FlownPhoto* const> photos;
 };
 
-// `result` is in the frame of the truth (moved.h). The undersides of buildings, which nothing sees,
-// count for validity alone.
-ProxyFigures CompareProxy(const Proxy& result, const ProxyTruth& truth, double tolerance_m,
-                          int threads);
+// The undersides of buildings, which nothing sees, count for validity alone. Validity is that of the
+// coordinates as they are: in another frame they would be rounded.
+ProxyFigures CompareProxy(const Proxy& result, const Similarity& truth_from_result,
+                          const ProxyTruth& truth, double tolerance_m, int threads);
 
 // Whether a building of a proxy is the ground.
 bool IsGround(const Building& building);

@@ -25,7 +25,7 @@ ProxyFigures Compare(const Proxy& result, const Proxy& truth, double tolerance_m
       scene, [](const std::string& name) { return !name.starts_with(simulate::kOccluderPrefix); });
   const SurfaceIndex everything(SurfaceOf(scene, [](const std::string&) { return true; }));
   const auto photos = DeliveredPhotos(flight);
-  return CompareProxy(result, {truth, relief, everything, photos}, tolerance_m, threads);
+  return CompareProxy(result, {}, {truth, relief, everything, photos}, tolerance_m, threads);
 }
 
 Similarity Shift(const Vector3d& by) {
