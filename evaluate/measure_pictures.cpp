@@ -94,6 +94,10 @@ void MeasurePictures(const EvaluateRequest& request, const Truth& truth, simulat
   evaluation.facades = CompareFacades(comparison);
   evaluation.texture_mean = MeanOfFacades(evaluation.facades);
   evaluation.misregistration_px = MedianMisregistration(evaluation.facades);
+  if (textures.model_glb.empty()) {
+    evaluation.notes.emplace_back("views are not measured: the textures have no model");
+    return;
+  }
   evaluation.views = CompareViews(comparison, truth.flight, flight);
   evaluation.views_mean = MeanOfViews(evaluation.views);
   if (evaluation.views.empty()) {

@@ -129,7 +129,8 @@ double FacadeIdRate(const std::vector<TruthFacet>& matched) {
     for (const FacetMatch& match : wall.matches) {
       if (match.result->facade == wall.truth->facade) with_id += match.overlap_m2;
     }
-    named += std::min(with_id, wall.area_m2);
+    // Overlaps are sums of many pieces: what is all of it but for rounding is all of it.
+    named += with_id > (1 - 1e-9) * wall.area_m2 ? wall.area_m2 : with_id;
     all += wall.area_m2;
   }
   return all > 0 ? named / all : kNotMeasured;

@@ -20,8 +20,8 @@ struct ProxyTruth {
   std::span<const simulate::FlownPhoto* const> photos;
 };
 
-// The undersides of buildings, which nothing sees, count for validity alone. Validity is that of the
-// coordinates as they are: in another frame they would be rounded.
+// The undersides of buildings, which nothing sees, count for validity alone. Validity is that of
+// the coordinates as they are: in another frame they would be rounded.
 ProxyFigures CompareProxy(const Proxy& result, const Similarity& truth_from_result,
                           const ProxyTruth& truth, double tolerance_m, int threads);
 

@@ -46,7 +46,7 @@ TEST(CompareProxy, TruthHasNoError) {
     EXPECT_EQ(part.completeness, 1);
   }
   EXPECT_EQ(figures.wall.completeness_all, 1);
-  EXPECT_NEAR(figures.facade_id_rate, 1, 1e-9);
+  EXPECT_EQ(figures.facade_id_rate, 1);
 }
 
 TEST(CompareProxy, AShiftIsFoundInTheClassThatItMoves) {
