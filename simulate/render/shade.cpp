@@ -69,8 +69,10 @@ Lighting LightingOf(const Light& light, const Eigen::Array3f& mean_albedo) {
   constexpr float kShareInSun = 0.65f;
   constexpr float kShareOfSky = 0.7f;
   const float height = std::max(0.0f, static_cast<float>(light.to_sun.z()));
-  return {light, mean_albedo *
-                     (kShareInSun * height * light.sun.array() + kShareOfSky * light.sky.array())};
+  // Around a house there is more paving and wall than in a scene's mean, which may be all meadow.
+  const Eigen::Array3f albedo = (mean_albedo + mean_albedo.mean()) / 2;
+  return {light,
+          albedo * (kShareInSun * height * light.sun.array() + kShareOfSky * light.sky.array())};
 }
 
 Eigen::Array3f Background(const Light& light, const Eigen::Vector3f& direction) {
