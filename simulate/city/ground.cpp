@@ -146,7 +146,7 @@ CoveringDesign DesignOf(const Covering covering, const Vector2d& size, uint64_t 
           .seed = seed};
 }
 
-// The sheets of the patches, then that of the fields.
+// The sheets of the patches, then that of the fields, which go on in the tone of the last patch.
 std::vector<Sheet> MakeSheets(const Town& town, double finest_m, int element, CityModel& model) {
   std::vector<Sheet> sheets;
   const double texel = TexelOf(town, finest_m);
@@ -159,7 +159,7 @@ std::vector<Sheet> MakeSheets(const Town& town, double finest_m, int element, Ci
     const Vector2d size = fields ? Vector2d::Constant(kFieldPicture_m)
                                  : Vector2d(town.ground[i].high - town.ground[i].low);
     const auto design = DesignOf(fields ? Covering::kGrass : town.ground[i].covering, size,
-                                 Random(seed, 50 + i).Next());
+                                 Random(seed, 50 + std::min(i, town.ground.size() - 1)).Next());
     const double mpt = fields ? std::max(finest_m, kFieldTexel_m) : texel;
     Sheet sheet;
     sheet.element = element;

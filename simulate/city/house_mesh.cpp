@@ -22,6 +22,7 @@ using Eigen::Vector3d;
 
 constexpr double kTrim_m = 2;
 constexpr double kTrimTexel_m = 0.01;
+constexpr double kPartyTexels = 2;  // on their walls, in texels of facades
 constexpr float kPaneGloss = 0.9f;
 
 std::optional<PitchedRoof> RoofOf(const House& house) {
@@ -98,6 +99,21 @@ TexturedFacet TruthTexture(const std::string& id, const Sheet& sheet, double met
   return facet;
 }
 
+// The covering from `left_m` on.
+Image PaintPiece(CoveringDesign design, double left_m, double metres_per_texel) {
+  const int width = Texels(design.width_m, metres_per_texel);
+  const int left = static_cast<int>(std::lround(left_m / metres_per_texel));
+  design.width_m += left_m;
+  Image whole = PaintCovering(design, metres_per_texel);
+  if (left == 0) return whole;
+  Image piece{width, whole.height_px, whole.channels, {}};
+  for (int row = 0; row < piece.height_px; ++row) {
+    const uint8_t* from = whole.Pixel(left, row);
+    piece.data.insert(piece.data.end(), from, from + size_t{1} * width * piece.channels);
+  }
+  return piece;
+}
+
 class HouseBuilder {
  public:
   HouseBuilder(const House& house, double metres_per_texel, CityModel& model, TextureSet& truth)
@@ -111,10 +127,9 @@ class HouseBuilder {
     design.cladding = house.cladding;
     design.palette = house.palette;
     design.seed = house.seed;
-    trim_.size_m = kTrim_m;
-    trim_.material = AddPainted(
-        house.id + "-trim",
-        {[design] { return PaintTrim(design, kTrim_m, kTrim_m, kTrimTexel_m); }, ""}, model);
+    trim_ = MakeTrim(design, "-trim");
+    design.cladding = Cladding::kConcrete;
+    roof_trim_ = MakeTrim(design, "-roof-trim");
   }
 
   void Build(const std::vector<std::string>& facades) {
@@ -128,12 +143,22 @@ class HouseBuilder {
     }
     const auto roofs = RoofsBySize(solid_);
     for (size_t i = 0; i < roofs.size(); ++i) AddRoof(*roofs[i], static_cast<int>(i));
-    trim_.element = AddElement(house_.id + "/trim", model_);
-    AddRoofEdges(house_, solid_, trim_, model_);
-    AddRoofThings(house_, solid_, trim_, model_);
+    trim_.element = roof_trim_.element = AddElement(house_.id + "/trim", model_);
+    AddRoofEdges(house_, solid_, roof_trim_, model_);
+    const bool pitched = house_.roof != RoofShape::kFlat;
+    AddRoofThings(house_, solid_, pitched ? trim_ : roof_trim_, model_);
   }
 
  private:
+  Trim MakeTrim(const WallDesign& design, const char* name) {
+    Trim trim;
+    trim.size_m = kTrim_m;
+    trim.material = AddPainted(
+        house_.id + name,
+        {[design] { return PaintTrim(design, kTrim_m, kTrim_m, kTrimTexel_m); }, ""}, model_);
+    return trim;
+  }
+
   double ParapetOf() const { return house_.roof == RoofShape::kFlat ? house_.parapet_m : 0; }
 
   // The wall's outline with the parapet on top.
@@ -143,28 +168,45 @@ class HouseBuilder {
     return loop;
   }
 
+  // Blind; what rises above the neighbour is seen from afar only.
   void AddPartyWall(const Solid::Face& face) {
-    trim_.element = AddElement(fmt::format("{}/W{:02}", house_.id, face.edge), model_);
-    AddTrim(trim_, WallLoop(face), model_);
+    const Loop loop = WallLoop(face);
+    Sheet sheet;
+    const WallPlace place = LaySheet(face, loop, sheet);
+    const WallDesign design = DesignWall(house_, place);
+    const double texel = kPartyTexels * texel_;
+    const std::string id = fmt::format("{}/W{:02}", house_.id, face.edge);
+    sheet.element = AddElement(id, model_);
+    sheet.width_m = Texels(design.width_m, texel) * texel;
+    sheet.height_m = Texels(design.height_m, texel) * texel;
+    sheet.material =
+        AddPainted(id, {[design, texel] { return PaintWall(design, texel); }, ""}, model_);
+    AddConvex(sheet, loop, model_);
+  }
+
+  // Puts the picture's top-left corner and axes onto a wall.
+  WallPlace LaySheet(const Solid::Face& face, const Loop& loop, Sheet& sheet) const {
+    double top = loop[0].z();
+    for (const Vector3d& corner : loop) top = std::max(top, corner.z());
+    sheet.u = (loop[1] - loop[0]).normalized();
+    sheet.v = -Vector3d::UnitZ();
+    sheet.origin = {loop[0].x(), loop[0].y(), top};
+    WallPlace place;
+    place.edge = face.edge;
+    place.width_m = (loop[1] - loop[0]).norm();
+    place.top_m = top;
+    place.gable_rise_m = loop.size() == 5 ? top - loop[2].z() : 0;
+    return place;
   }
 
   void AddFacade(const Solid::Face& face, const std::string& id) {
     const Loop loop = WallLoop(face);
     WallShape shape;
     Sheet& sheet = shape.sheet;
-    double top = loop[0].z();
-    for (const Vector3d& corner : loop) top = std::max(top, corner.z());
-    sheet.u = (loop[1] - loop[0]).normalized();
-    sheet.v = -Vector3d::UnitZ();
-    sheet.origin = {loop[0].x(), loop[0].y(), top};
+    const WallPlace place = LaySheet(face, loop, sheet);
     for (const Vector3d& corner : loop) {
-      shape.outline.emplace_back((corner - loop[0]).dot(sheet.u), top - corner.z());
+      shape.outline.emplace_back((corner - loop[0]).dot(sheet.u), place.top_m - corner.z());
     }
-    WallPlace place;
-    place.edge = face.edge;
-    place.width_m = (loop[1] - loop[0]).norm();
-    place.top_m = top;
-    place.gable_rise_m = loop.size() == 5 ? top - loop[2].z() : 0;
     const WallDesign design = DesignWall(house_, place);
     sheet.element = AddElement(id, model_);
     sheet.width_m = Texels(design.width_m, texel_) * texel_;
@@ -208,17 +250,22 @@ class HouseBuilder {
     const std::string id = fmt::format("{}/R{}", house_.id, number);
     RoofSheet roof = LayRoofSheet(house_, solid_, face);
     Sheet& sheet = roof.sheet;
+    // The colour of metal comes with the seed: the faces are cut side by side out of one sheet.
+    const bool metal = house_.covering == Covering::kMetal;
+    const double left = metal ? std::ceil(roof_painted_m_ / texel_) * texel_ : 0;
+    roof_painted_m_ = left + sheet.width_m;
     const CoveringDesign design{.width_m = sheet.width_m,
                                 .height_m = sheet.height_m,
                                 .covering = house_.covering,
                                 .palette = house_.palette,
-                                .seed = Random(house_.seed, 10 + number).Next()};
+                                .seed = Random(house_.seed, 10 + (metal ? 0 : number)).Next()};
     sheet.element = AddElement(id, model_);
     sheet.width_m = Texels(design.width_m, texel_) * texel_;
     sheet.height_m = Texels(design.height_m, texel_) * texel_;
     const double texel = texel_;
     sheet.material = AddPainted(
-        id, {[design, texel] { return PaintCovering(design, texel); }, FileNameOf(id)}, model_);
+        id, {[design, left, texel] { return PaintPiece(design, left, texel); }, FileNameOf(id)},
+        model_);
     std::vector<Loop> holes;
     for (const std::vector<int>& hole : face.holes) holes.push_back(Corners(solid_, hole));
     AddPolygon(sheet, roof.drawn, holes, model_);
@@ -230,7 +277,9 @@ class HouseBuilder {
   const double texel_;
   CityModel& model_;
   TextureSet& truth_;
-  Trim trim_;
+  Trim trim_;       // in the material of the walls
+  Trim roof_trim_;  // edges of the roof and what stands on it
+  double roof_painted_m_ = 0;
 };
 
 }  // namespace

@@ -132,16 +132,19 @@ void AddStreets(const Perimeter& block, double street, Random& random, Town& tow
   const double x = block.width / 2;
   const double y = block.height / 2;
   const double k = kPavement_m;
-  const double far = x + street + 42;  // behind the building across the street
-  const double outer = std::max(x, y) + street + 12;
-  // Islands of pavement in a sea of asphalt; courtyards first.
-  town.ground.push_back({{block.depth - x + 2, block.depth - y + 2},
-                         {x - block.depth - 2, y - block.depth - 2},
-                         Covering::kGrass,
-                         0});
-  town.ground.push_back({{-x - k, -y - k}, {x + k, y + k}, Covering::kPaving, 0});
-  town.ground.push_back({{x + street - k, -28}, {far, 28}, Covering::kPaving, 0});
-  town.ground.push_back({{-outer, -outer}, {far + 12, outer}, Covering::kAsphalt, -0.12});
+  const double east = x + street + 42;          // behind the building across the street
+  const double a = std::max(y + street, 31.0);  // the far kerb in the north and south
+  const auto add = [&](const Vector2d& low, const Vector2d& high, Covering covering, double raise) {
+    town.ground.push_back({low, high, covering, raise});
+  };
+  // From the inside out: the courtyard, islands of pavement, streets, pavements across, a park.
+  const Vector2d court(x - block.depth - 2, y - block.depth - 2);
+  add(-court, court, Covering::kGrass, 0);
+  add({-x - k, -y - k}, {x + k, y + k}, Covering::kPaving, 0);
+  add({x + street - k, -28}, {east, 28}, Covering::kPaving, 0);
+  add({-x - street, -a}, {east + street, a}, Covering::kAsphalt, -0.12);
+  add({-x - street - k, -a - k}, {east + street + k, a + k}, Covering::kPaving, 0);
+  add({-x - street - 16, -a - 16}, {east + street + 16, a + 16}, Covering::kGrass, 0);
   ParkCars({-x, -y - k - 1.2}, {x, -y - k - 1.2}, 0.55, random, town);
   ParkCars({-x, y + k + 1.2}, {x, y + k + 1.2}, 0.55, random, town);
   ParkCars({-x - k - 1.2, -y}, {-x - k - 1.2, y}, 0.5, random, town);
@@ -163,10 +166,17 @@ Town LayOutBlock(Random random) {
   AddRows(block, random, town);
   AddPalace(block.width / 2 + street, random, town);
   AddStreets(block, street, random, town);
-  const Vector2d court(block.width / 2 - block.depth, block.height / 2 - block.depth);
+  const double x = block.width / 2;
+  const double y = block.height / 2;
+  const Vector2d court(x - block.depth, y - block.depth);
   PlantTrees(-court, court, 5, random, town);
-  const double row = block.height / 2 + street - 4;
-  PlantTrees({-block.width / 2, row}, {block.width / 2, row + 3}, 6, random, town);
+  const double park = std::max(y + street, 31.0) + kPavement_m;
+  PlantTrees({-x - street, park + 1}, {x + street, park + 13}, 9, random, town);
+  PlantTrees({-x - street, -park - 13}, {x + street, -park - 1}, 9, random, town);
+  PlantTrees({-x - street - 14, -y}, {-x - street - 4, y}, 6, random, town);
+  // Young trees at the kerb, before the facades.
+  PlantTrees({-x, -y - 2.4}, {x, -y - 2.2}, 5, random, town, {4, 5.2});
+  PlantTrees({-x - 2.4, -y}, {-x - 2.2, y}, 4, random, town, {4, 5.2});
   return town;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <thread>
 
 #include "simulate/city/city_model.h"
 #include "simulate/city/ground.h"
@@ -38,6 +39,11 @@ Georef GeorefOf(const CityOptions& options) {
           .up = Eigen::Vector3d::UnitZ(),
           .metric = true,
           .source = "scene"};
+}
+
+int ThreadsOf(const CityOptions& options) {
+  if (options.threads > 0) return options.threads;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 void Check(const CityOptions& options) {
@@ -148,7 +154,7 @@ CitySummary MakeCity(const CityOptions& options, const fs::path& scene_folder) {
   AddGround(town, grid, options.metres_per_texel, model);
   AddOccluders(town, options.seed, model);
   WriteTextureSet(textures, scene_folder / kTruthTextures);
-  internal::WriteGlbFile(model.scene, PaintAll(model, options.threads, scene_folder),
+  internal::WriteGlbFile(model.scene, PaintAll(model, ThreadsOf(options), scene_folder),
                          scene_folder / kSceneModel);
 
   CitySummary summary;

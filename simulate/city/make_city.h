@@ -16,7 +16,7 @@ struct CityOptions {
   double latitude_deg = 50.0875;   // of the origin
   double longitude_deg = 14.4213;
   double height_m = 200;  // of z = 0 above the ellipsoid
-  int threads = 0;
+  int threads = 0;        // 0: all
 };
 
 std::vector<std::string> CityStyles();

@@ -65,12 +65,12 @@ bool KeepsApart(const plan::Polygon& outline, const std::vector<House>& houses, 
 }
 
 void PlantTrees(const Eigen::Vector2d& low, const Eigen::Vector2d& high, int count, Random& random,
-                Town& town) {
+                Town& town, const TreeHeights& heights) {
   constexpr int kTries = 20;
   for (int i = 0; i < count * kTries && count > 0; ++i) {
     Tree tree;
     tree.position = {random.Uniform(low.x(), high.x()), random.Uniform(low.y(), high.y())};
-    tree.height_m = random.Uniform(5, 11);
+    tree.height_m = random.Uniform(heights.from_m, heights.to_m);
     tree.crown_m = tree.height_m * random.Uniform(0.22, 0.34);
     constexpr double kClearance_m = 0.6;
     const bool free =

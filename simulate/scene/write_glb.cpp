@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <thread>
 #include <utility>
 
 #include "simulate/scene/internal/glb.h"
@@ -238,7 +239,8 @@ void WriteGlbFile(const Scene& scene, const std::vector<EncodedImage>& textures,
 
 void WriteGlb(const Scene& scene, const std::filesystem::path& path) {
   std::vector<internal::EncodedImage> textures(scene.textures.size());
-  ParallelFor(textures.size(), /*threads=*/0,
+  const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  ParallelFor(textures.size(), threads,
               [&](size_t i) { textures[i] = internal::EncodeForGlb(scene.textures[i]); });
   internal::WriteGlbFile(scene, textures, path);
 }

@@ -429,6 +429,31 @@ class Evaluate(stucco.TestCase):
         self.refused(stucco.run("evaluate", survey, "--truth", survey, "--tolerance", "0"), 2,
                      "--tolerance")
         self.assertFalse((survey / "evaluation").exists())
+class SimulateCity(stucco.TestCase):
+    def test_makes_a_scene_that_can_be_planned(self):
+        scene = self.root / "scene"
+        result = json.loads(self.check(stucco.run(
+            "simulate", "city", "-o", scene, "--style", "terrain", "--seed", "4", "--texel", "0.3",
+            "--json")).stdout)
+        self.assertEqual(result["buildings"], 5)
+        self.assertGreater(result["facades"], 15)
+        self.assertEqual((scene / "scene.glb").read_bytes()[:4], b"glTF")
+        self.check(stucco.run("plan", result["map"], "-o", self.root / "survey", "--terrain",
+                              scene / "terrain.tif", "--quiet"))
+        facades = json.loads((self.root / "survey/plan/plan.json").read_text())["facades"]
+        walls = {facet["facade"] for building in json.loads(
+            (scene / "truth/facets.json").read_text())["buildings"] for facet in building["facets"]}
+        self.assertEqual({facade["id"] for facade in facades} - walls, set())
+        self.assertEqual(len(facades), result["facades"])
+
+    def test_refuses_what_it_does_not_know_and_folders_of_other_things(self):
+        self.refused(stucco.run("simulate", "city", "-o", self.root / "s", "--style", "castle"), 2,
+                     "castle", "hamlet")
+        self.assertFalse((self.root / "s").exists())
+        (self.root / "thesis").mkdir()
+        (self.root / "thesis/one.txt").write_text("years of work")
+        self.refused(stucco.run("simulate", "city", "-o", self.root / "thesis"), 3, "no scene")
+        self.assertEqual(os.listdir(self.root / "thesis"), ["one.txt"])
 
 
 class Completion(stucco.TestCase):

@@ -24,8 +24,12 @@ void MarkPartyWalls(std::vector<House>& houses);
 bool KeepsApart(const plan::Polygon& outline, const std::vector<House>& houses, double least_m);
 
 // Trees at random places of a rectangle, away from houses and from each other.
+struct TreeHeights {
+  double from_m = 5;
+  double to_m = 11;
+};
 void PlantTrees(const Eigen::Vector2d& low, const Eigen::Vector2d& high, int count, Random& random,
-                Town& town);
+                Town& town, const TreeHeights& heights = {});
 // Cars along a kerb from `from` to `to`, with gaps.
 void ParkCars(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double share, Random& random,
               Town& town);
