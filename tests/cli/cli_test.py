@@ -429,6 +429,8 @@ class Evaluate(stucco.TestCase):
         self.refused(stucco.run("evaluate", survey, "--truth", survey, "--tolerance", "0"), 2,
                      "--tolerance")
         self.assertFalse((survey / "evaluation").exists())
+
+
 class SimulateCity(stucco.TestCase):
     def test_makes_a_scene_that_can_be_planned(self):
         scene = self.root / "scene"
