@@ -1,23 +1,29 @@
 #!/bin/sh
 # SPDX-FileCopyrightText: 2026 the Stucco authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# From nothing to a finished survey: installs what is missing, builds, runs the sample survey in
-# build/demo/survey and prints the path of its report as the last line. Interrupted, it goes on
-# where it was; delete build/demo to see it from the start.
+# From nothing to a finished survey: installs what is missing, builds, makes a hamlet, plans its
+# survey, flies it with a virtual drone, reconstructs it, measures the result against the truth and
+# prints the path of the report as the last line. Interrupted, it goes on where it was; delete
+# build/demo to see it from the start.
 set -eu
 cd "$(dirname "$0")/.."
 scripts/setup.sh
 scripts/build.sh dev cli
 stucco=build/dev/cli/stucco
-survey=build/demo/survey
-mkdir -p build/demo
-# A copy, so that you can add and remove photos and run again without changing the repository. The
-# second step makes it whole or not there at all.
-[ -d build/demo/photos ] || {
-  rm -rf build/demo/photos.new
-  cp -r data/sample/photos build/demo/photos.new
-  mv build/demo/photos.new build/demo/photos
-}
-[ -f "$survey/survey.toml" ] || "$stucco" init "$survey" --photos build/demo/photos >&2
-"$stucco" run "$survey" >&2
-echo "$PWD/$survey/report/report.html"
+demo=build/demo
+survey=$demo/survey
+mkdir -p "$demo"
+[ -f "$demo/scene/scene.glb" ] || "$stucco" simulate city -o "$demo/scene" --style hamlet >&2
+# A small camera and a coarse grid of views from above: a quarter of an hour instead of hours.
+[ -f "$survey/plan/plan.json" ] || "$stucco" plan "$demo/scene/map.geojson" -o "$survey" \
+  --camera 17.3x13mm,12.29mm,1000x750 --gsd 0.035 --reconstructability 0.5 \
+  --forward-overlap 0.65 --side-overlap 0.65 >&2
+"$stucco" simulate "$demo/scene" "$survey" -o "$survey" --held-out 4 >&2
+"$stucco" run "$survey" --set calib.exhaustive_below=30 --set calib.neighbours=12 \
+  --set calib.max_features=5000 --set dense.max_sources=4 --set dense.max_image_px=640 >&2
+"$stucco" evaluate "$survey" --truth "$demo/scene" >&2
+report=$PWD/$survey/report/report.html
+if [ -n "${DISPLAY:-}" ] && command -v xdg-open > /dev/null; then
+  xdg-open "$report" > /dev/null 2>&1 &
+fi
+echo "$report"
