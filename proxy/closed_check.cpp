@@ -12,6 +12,7 @@
 #include <array>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "survey/triangulate.h"
 
@@ -22,31 +23,15 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-struct Soup {
+// Points as CGAL has them.
+std::vector<Kernel::Point_3> PointsOf(const TriangleSoup& soup) {
   std::vector<Kernel::Point_3> points;
-  std::vector<std::vector<size_t>> triangles;
-};
-
-Soup SoupOf(const std::vector<Facet>& facets) {
-  Soup soup;
-  std::map<std::array<double, 3>, size_t> numbers;
-  for (const Facet& facet : facets) {
-    const FacetTriangles triangulation = TriangulateFacet(facet);
-    for (const auto& triangle : triangulation.triangles) {
-      auto& indices = soup.triangles.emplace_back();
-      for (const uint32_t corner : triangle) {
-        const Eigen::Vector3d& p = triangulation.vertices[corner];
-        const auto [entry, added] = numbers.try_emplace({p.x(), p.y(), p.z()}, soup.points.size());
-        if (added) soup.points.emplace_back(p.x(), p.y(), p.z());
-        indices.push_back(entry->second);
-      }
-    }
-  }
-  return soup;
+  for (const Eigen::Vector3d& p : soup.points) points.emplace_back(p.x(), p.y(), p.z());
+  return points;
 }
 
 // Every directed edge once, and its opposite once.
-std::optional<std::string> FindEdgeProblem(const Soup& soup) {
+std::optional<std::string> FindEdgeProblem(const TriangleSoup& soup) {
   std::map<std::pair<size_t, size_t>, int> edges;
   for (const auto& t : soup.triangles) {
     for (size_t i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
@@ -64,12 +49,12 @@ std::optional<std::string> FindEdgeProblem(const Soup& soup) {
 }  // namespace
 
 std::optional<std::string> FindOpening(const std::vector<Facet>& facets) {
-  const Soup soup = SoupOf(facets);
+  const TriangleSoup soup = TriangulateFacets(facets);
   if (soup.triangles.size() < 4) return "fewer than four triangles";
   if (const auto problem = FindEdgeProblem(soup)) return problem;
   if (!pmp::is_polygon_soup_a_polygon_mesh(soup.triangles)) return "not 2-manifold";
   Mesh mesh;
-  pmp::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, mesh);
+  pmp::polygon_soup_to_polygon_mesh(PointsOf(soup), soup.triangles, mesh);
   // Parts that touch in a vertex only are one vertex of the soup and several of the mesh.
   if (mesh.number_of_vertices() != soup.points.size()) return "parts touch in a vertex";
   if (!CGAL::is_closed(mesh)) return "not closed";

@@ -8,6 +8,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <Eigen/Geometry>
+#include <map>
 #include <vector>
 
 namespace stucco {
@@ -86,6 +87,24 @@ FacetTriangles TriangulateFacet(const Facet& facet) {
     out.triangles.push_back(triangle);
   }
   return out;
+}
+
+TriangleSoup TriangulateFacets(std::span<const Facet> facets) {
+  TriangleSoup soup;
+  std::map<std::array<double, 3>, size_t> numbers;
+  for (const Facet& facet : facets) {
+    const FacetTriangles pieces = TriangulateFacet(facet);
+    for (const auto& corners : pieces.triangles) {
+      auto& triangle = soup.triangles.emplace_back();
+      for (size_t i = 0; i < 3; ++i) {
+        const Eigen::Vector3d& p = pieces.vertices[corners[i]];
+        const auto [entry, added] = numbers.try_emplace({p.x(), p.y(), p.z()}, soup.points.size());
+        if (added) soup.points.push_back(p);
+        triangle[i] = entry->second;
+      }
+    }
+  }
+  return soup;
 }
 
 }  // namespace stucco

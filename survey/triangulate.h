@@ -4,7 +4,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "survey/proxy.h"
@@ -20,5 +22,12 @@ struct FacetTriangles {
 // Constrained Delaunay triangulation of the polygon with holes. Rings that touch or cross are
 // resolved by the even-odd rule; new vertices at crossings are appended.
 FacetTriangles TriangulateFacet(const Facet& facet);
+
+// Triangles of several facets. Corners at the very same place are one point.
+struct TriangleSoup {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::array<size_t, 3>> triangles;
+};
+TriangleSoup TriangulateFacets(std::span<const Facet> facets);
 
 }  // namespace stucco

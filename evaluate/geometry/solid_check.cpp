@@ -24,43 +24,15 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-struct Soup {
-  std::vector<Kernel::Point_3> points;
-  std::vector<std::array<size_t, 3>> triangles;
-};
-
-Soup SoupOf(std::span<const Facet> facets) {
-  Soup soup;
-  std::map<std::array<double, 3>, size_t> numbers;
-  for (const Facet& facet : facets) {
-    const FacetTriangles pieces = TriangulateFacet(facet);
-    for (const auto& corners : pieces.triangles) {
-      std::array<size_t, 3> triangle{};
-      for (size_t i = 0; i < 3; ++i) {
-        const Eigen::Vector3d& p = pieces.vertices[corners[i]];
-        const auto [entry, added] = numbers.try_emplace({p.x(), p.y(), p.z()}, soup.points.size());
-        if (added) soup.points.emplace_back(p.x(), p.y(), p.z());
-        triangle[i] = entry->second;
-      }
-      soup.triangles.push_back(triangle);
-    }
-  }
-  return soup;
-}
-
 // Six times the volume, where the triangles enclose one and face out.
-double SignedVolume(const Soup& soup) {
+double SignedVolume(const TriangleSoup& soup) {
   double sum = 0;
-  const auto at = [&](size_t i) {
-    const auto& p = soup.points[i];
-    const auto& origin = soup.points[0];
-    return Eigen::Vector3d(p.x() - origin.x(), p.y() - origin.y(), p.z() - origin.z());
-  };
+  const auto at = [&](size_t i) -> Eigen::Vector3d { return soup.points[i] - soup.points[0]; };
   for (const auto& t : soup.triangles) sum += at(t[0]).dot(at(t[1]).cross(at(t[2])));
   return sum;
 }
 
-void CheckEdges(const Soup& soup, SolidCheck& check) {
+void CheckEdges(const TriangleSoup& soup, SolidCheck& check) {
   std::map<std::pair<size_t, size_t>, std::array<int, 2>> uses;  // by direction
   for (const auto& t : soup.triangles) {
     for (size_t i = 0; i < 3; ++i) {
@@ -82,14 +54,16 @@ void CheckEdges(const Soup& soup, SolidCheck& check) {
 
 SolidCheck CheckSolid(std::span<const Facet> facets) {
   SolidCheck check;
-  Soup soup = SoupOf(facets);
+  TriangleSoup soup = TriangulateFacets(facets);
   if (soup.triangles.empty()) return check;
   CheckEdges(soup, check);
   // Turns triangles so that they agree, and doubles corners where that makes a manifold of it.
-  const bool was_manifold = pmp::orient_polygon_soup(soup.points, soup.triangles);
+  std::vector<Kernel::Point_3> points;
+  for (const Eigen::Vector3d& p : soup.points) points.emplace_back(p.x(), p.y(), p.z());
+  const bool was_manifold = pmp::orient_polygon_soup(points, soup.triangles);
   check.manifold = check.manifold && was_manifold;
   Mesh mesh;
-  pmp::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, mesh);
+  pmp::polygon_soup_to_polygon_mesh(points, soup.triangles, mesh);
   check.crosses_itself = pmp::does_self_intersect(mesh);
   return check;
 }

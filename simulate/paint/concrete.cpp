@@ -27,6 +27,19 @@ Sheet SheetAt(float x, float y, float width_m, float height_m) {
   return sheet;
 }
 
+// How far sheets stray from the palette's mean: along its first two axes, and in tone.
+struct Spread {
+  float first = 0;
+  float second = 0;
+  float tone = 0;
+};
+
+Colour SheetColour(const WallLook& look, const Sheet& sheet, const Spread& spread) {
+  const auto draw = [&](int k) { return Normal(sheet.column, sheet.row, look.wall + k); };
+  return Pick(look.palette, spread.first * draw(1), spread.second * draw(2), draw(3)) *
+         Tone(spread.tone * draw(4));
+}
+
 // Blowholes: at most one bubble in a square of 6 cm.
 float Bubble(float x, float y, uint32_t seed, float texel_m) {
   constexpr float kCell_m = 0.06f;
@@ -68,9 +81,7 @@ void PaintConcrete(Tile& tile, const WallLook& look) {
       const Sheet sheet = SheetAt(x, y, width, height);
       if (sheet.column != last) {
         last = sheet.column;
-        const auto draw = [&](int k) { return Normal(sheet.column, sheet.row, look.wall + k); };
-        colour =
-            Pick(look.palette, 0.5f * draw(1), 0.7f * draw(2), draw(3)) * Tone(0.05f * draw(4));
+        colour = SheetColour(look, sheet, {0.5f, 0.7f, 0.05f});
       }
       const float white = Normal(tile.x0 + column, tile.y0 + row, look.wall + 3);
       float tone = 0.045f * cloud(column, row) + grain * white +
@@ -102,10 +113,8 @@ void PaintPanels(Tile& tile, const WallLook& look) {
       const Sheet sheet = SheetAt(x, y, width, height);
       if (sheet.column != last) {
         last = sheet.column;
-        const auto draw = [&](int k) { return Normal(sheet.column, sheet.row, look.wall + k); };
-        colour =
-            Pick(look.palette, 0.3f * draw(1), 0.4f * draw(2), draw(3)) * Tone(0.04f * draw(4));
-        tilt = 0.05f * draw(5);
+        colour = SheetColour(look, sheet, {0.3f, 0.4f, 0.04f});
+        tilt = 0.05f * Normal(sheet.column, sheet.row, look.wall + 5);
       }
       const float white = Normal(tile.x0 + column, tile.y0 + row, look.wall + 3);
       float tone = grain * white + tilt * (sheet.y / height - 0.5f);

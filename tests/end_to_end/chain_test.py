@@ -9,6 +9,7 @@ import shutil
 import statistics
 import unittest
 
+import sample_plan
 import stucco
 
 TRUTH = stucco.ROOT / "data/sample/truth"
@@ -30,19 +31,8 @@ def set_options(survey, sections):
 
 
 def camera_centres(images_txt):
-    """Name -> centre -R^T t, from COLMAP's images.txt."""
-    centres = {}
-    lines = [line for line in images_txt.read_text().splitlines() if not line.startswith("#")]
-    for line in lines[0::2]:
-        fields = line.split(maxsplit=9)
-        w, x, y, z = map(float, fields[1:5])
-        t = [float(value) for value in fields[5:8]]
-        rotation = [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
-        centres[fields[9]] = [-sum(rotation[k][i] * t[k] for k in range(3)) for i in range(3)]
-    return centres
+    """Name -> centre, from COLMAP's images.txt."""
+    return {name: centre for name, (centre, _) in sample_plan.cameras(images_txt).items()}
 
 
 def dot(a, b):

@@ -20,22 +20,12 @@ constexpr char kStats[] = R"({"version": 1, "method": "cocapture", "photos": 13,
  "length_m": 812.5, "time_min": 6.25, "battery_percent": 21.5,
  "mean_by_length": {"q_s": 0.5, "q_d": 0.25, "q_u": 0.75, "q_c": 1}})";
 
-Georef Enu() {
-  Georef georef;
-  georef.frame = "enu";
-  georef.origin_latitude_deg = 50;
-  georef.origin_longitude_deg = 14;
-  georef.origin_height_m = 200;
-  georef.metric = true;
-  return georef;
-}
-
 void WriteScene(const fs::path& folder) {
   fs::create_directories(folder / "truth");
   simulate::SceneInfo info;
   info.style = "hamlet";
   info.seed = 7;
-  info.georef = Enu();
+  info.georef = MadeGeoref();
   info.has_truth = true;
   simulate::WriteSceneInfo(info, folder);
   simulate::WriteGlb(MadeScene(MadeTruth()), folder / simulate::kSceneModel);
@@ -53,13 +43,13 @@ MadeSurvey WriteMadeSurvey(const fs::path& root, const Similarity& truth_from_wo
   WriteScene(made.scene);
   simulate::Flight flight = MadeFlight();
   flight.scene = made.scene.string();
-  flight.georef = Enu();
+  flight.georef = MadeGeoref();
   simulate::WriteFlight(flight, made.survey);
   const Similarity world_from_truth = truth_from_world.Inverse();
   Reconstruction result = MadeReconstruction(flight);
   Transform(world_from_truth, result);
   WriteColmapText(result, made.survey / kSparseFolder);
-  WriteGeoref(Enu(), made.survey / kGeorefFile);
+  WriteGeoref(MadeGeoref(), made.survey / kGeorefFile);
   Surface surface = BuildingSurface(MadeTruth());
   Append(MadeTruth().buildings.back().facets[0], 0, surface);
   PointCloud cloud;

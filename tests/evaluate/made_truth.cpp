@@ -144,6 +144,16 @@ Reconstruction MadeReconstruction(const simulate::Flight& flight) {
   return reconstruction;
 }
 
+Georef MadeGeoref() {
+  Georef georef;
+  georef.frame = "enu";
+  georef.origin_latitude_deg = 50;
+  georef.origin_longitude_deg = 14;
+  georef.origin_height_m = 200;
+  georef.metric = true;
+  return georef;
+}
+
 Similarity AnySimilarity() {
   return {
       .scale = 0.4,

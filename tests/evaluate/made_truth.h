@@ -8,6 +8,7 @@
 
 #include "simulate/flight/flight_folder.h"
 #include "simulate/scene/scene.h"
+#include "survey/georef.h"
 #include "survey/proxy.h"
 #include "survey/reconstruction.h"
 
@@ -34,6 +35,9 @@ simulate::Flight MadeFlight();
 
 // The delivered photos of a flight as calibration would find them without any error.
 Reconstruction MadeReconstruction(const simulate::Flight& flight);
+
+// Where the made world lies.
+Georef MadeGeoref();
 
 // A similarity with nothing simple about it.
 Similarity AnySimilarity();

@@ -18,16 +18,6 @@ using Eigen::Vector3d;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-Georef Enu() {
-  Georef georef;
-  georef.frame = "enu";
-  georef.origin_latitude_deg = 50;
-  georef.origin_longitude_deg = 14;
-  georef.origin_height_m = 200;
-  georef.metric = true;
-  return georef;
-}
-
 void Turn(double angle_deg, PosedPhoto& photo) {
   const Vector3d centre = photo.cam_from_world.Center();
   photo.cam_from_world.rotation =
@@ -42,7 +32,8 @@ void Shift(const Vector3d& by, PosedPhoto& photo) {
 
 TEST(ComparePoses, TruthHasNoError) {
   const simulate::Flight flight = MadeFlight();
-  const PoseComparison found = ComparePoses(MadeReconstruction(flight), Enu(), flight, Enu());
+  const PoseComparison found =
+      ComparePoses(MadeReconstruction(flight), MadeGeoref(), flight, MadeGeoref());
   EXPECT_EQ(found.figures.posed, 13);
   EXPECT_EQ(found.figures.total, 13);
   EXPECT_NEAR(found.figures.position_mean_m, 0, 1e-9);
@@ -57,7 +48,7 @@ TEST(ComparePoses, NeitherDoesItInAnotherFrame) {
   Reconstruction result = MadeReconstruction(flight);
   Transform(AnySimilarity(), result);
   Georef arbitrary;
-  const PoseComparison found = ComparePoses(result, arbitrary, flight, Enu());
+  const PoseComparison found = ComparePoses(result, arbitrary, flight, MadeGeoref());
   EXPECT_NEAR(found.figures.position_max_m, 0, 1e-9);
   EXPECT_NEAR(found.figures.rotation_max_deg, 0, 1e-5);
   EXPECT_TRUE(std::isnan(found.figures.georeferenced_mean_m));
@@ -72,22 +63,22 @@ TEST(ComparePoses, AShiftIsSeenInTheFramesAsTheyAre) {
   Reconstruction result = MadeReconstruction(flight);
   Transform({.scale = 1, .rotation = Eigen::Quaterniond::Identity(), .translation = {3, 4, 0}},
             result);
-  const PoseComparison found = ComparePoses(result, Enu(), flight, Enu());
+  const PoseComparison found = ComparePoses(result, MadeGeoref(), flight, MadeGeoref());
   EXPECT_NEAR(found.figures.position_max_m, 0, 1e-9);
   EXPECT_NEAR(found.figures.georeferenced_mean_m, 5, 1e-6);
 }
 
 TEST(ComparePoses, FramesWithOtherOriginsMeet) {
   const simulate::Flight flight = MadeFlight();
-  Georef survey = Enu();
+  Georef survey = MadeGeoref();
   survey.origin_latitude_deg += 0.001;
   survey.origin_height_m -= 30;
   Reconstruction result = MadeReconstruction(flight);
   for (auto& [id, photo] : result.photos) {
     const Vector3d centre = photo.cam_from_world.Center();
-    Shift(BetweenFrames(Enu(), survey, centre) - centre, photo);
+    Shift(BetweenFrames(MadeGeoref(), survey, centre) - centre, photo);
   }
-  const PoseComparison found = ComparePoses(result, survey, flight, Enu());
+  const PoseComparison found = ComparePoses(result, survey, flight, MadeGeoref());
   EXPECT_NEAR(found.figures.georeferenced_mean_m, 0, 1e-6);
 }
 
@@ -95,7 +86,7 @@ TEST(ComparePoses, OneWrongPositionIsReportedAndSpoilsNoOther) {
   const simulate::Flight flight = MadeFlight();
   Reconstruction result = MadeReconstruction(flight);
   Shift({0, 0, 7}, result.photos.begin()->second);
-  const PoseComparison found = ComparePoses(result, Enu(), flight, Enu());
+  const PoseComparison found = ComparePoses(result, MadeGeoref(), flight, MadeGeoref());
   EXPECT_NEAR(found.figures.position_max_m, 7, 1e-9);
   EXPECT_NEAR(found.figures.position_mean_m, 7.0 / 13, 1e-9);
   EXPECT_NEAR(found.figures.georeferenced_mean_m, 7.0 / 13, 1e-6);
@@ -108,7 +99,7 @@ TEST(ComparePoses, TurnedCamerasHaveTheAngle) {
   Reconstruction result = MadeReconstruction(flight);
   for (auto& [id, photo] : result.photos) Turn(2, photo);
   Turn(3, result.photos.begin()->second);
-  const PoseComparison found = ComparePoses(result, Enu(), flight, Enu());
+  const PoseComparison found = ComparePoses(result, MadeGeoref(), flight, MadeGeoref());
   EXPECT_NEAR(found.figures.position_max_m, 0, 1e-9);
   EXPECT_NEAR(found.figures.rotation_max_deg, 5, 1e-5);
   EXPECT_NEAR(found.figures.rotation_mean_deg, 2 + 3.0 / 13, 1e-5);
@@ -124,7 +115,7 @@ TEST(ComparePoses, AgreesWithAnIndependentProgram) {
     Shift(0.1 * Vector3d(std::sin(7 * i + 1), std::sin(11 * i + 2), std::sin(13 * i + 3)), photo);
     ++i;
   }
-  const PoseComparison found = ComparePoses(result, Enu(), flight, Enu());
+  const PoseComparison found = ComparePoses(result, MadeGeoref(), flight, MadeGeoref());
   EXPECT_NEAR(found.figures.position_mean_m, 0.08593279810578638, 1e-9);
   EXPECT_NEAR(found.figures.position_max_m, 0.149177489112255, 1e-9);
   EXPECT_NEAR(found.figures.rotation_mean_deg, 0.10092884726588422, 1e-7);
@@ -138,7 +129,7 @@ TEST(ComparePoses, CountsThePhotosThatTheSurveyWasGiven) {
   flight.photos[2].held_out = true;
   Reconstruction result = MadeReconstruction(flight);
   result.photos.erase(result.photos.begin());
-  const PoseComparison found = ComparePoses(result, Enu(), flight, Enu());
+  const PoseComparison found = ComparePoses(result, MadeGeoref(), flight, MadeGeoref());
   EXPECT_EQ(found.figures.posed, 10);
   EXPECT_EQ(found.figures.total, 11);
 }
@@ -148,21 +139,21 @@ TEST(ComparePoses, FindsPhotosThatWereMovedToAnotherFolder) {
   Reconstruction result = MadeReconstruction(flight);
   for (auto& [id, photo] : result.photos)
     photo.name = "flight 1/" + photo.name.substr(photo.name.rfind('/') + 1);
-  EXPECT_EQ(ComparePoses(result, Enu(), flight, Enu()).figures.posed, 13);
+  EXPECT_EQ(ComparePoses(result, MadeGeoref(), flight, MadeGeoref()).figures.posed, 13);
 }
 
 TEST(ComparePoses, SaysWhatCannotBeMeasured) {
   const simulate::Flight flight = MadeFlight();
   Reconstruction result = MadeReconstruction(flight);
   for (auto& [id, photo] : result.photos) photo.name += ".png";
-  PoseComparison found = ComparePoses(result, Enu(), flight, Enu());
+  PoseComparison found = ComparePoses(result, MadeGeoref(), flight, MadeGeoref());
   EXPECT_EQ(found.figures.posed, 0);
   EXPECT_TRUE(std::isnan(found.figures.position_mean_m));
   EXPECT_FALSE(found.truth_from_world);
   EXPECT_EQ(found.notes.size(), 2u);
   result = MadeReconstruction(flight);
   while (result.photos.size() > 2) result.photos.erase(result.photos.begin());
-  found = ComparePoses(result, Enu(), flight, Enu());
+  found = ComparePoses(result, MadeGeoref(), flight, MadeGeoref());
   EXPECT_EQ(found.figures.posed, 2);
   EXPECT_FALSE(found.truth_from_world);
   EXPECT_NEAR(found.figures.georeferenced_mean_m, 0, 1e-6);
