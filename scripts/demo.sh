@@ -14,10 +14,9 @@ demo=build/demo
 survey=$demo/survey
 mkdir -p "$demo"
 [ -f "$demo/scene/scene.glb" ] || "$stucco" simulate city -o "$demo/scene" --style hamlet >&2
-# A small camera and a coarse grid of views from above: a quarter of an hour instead of hours.
+# A small camera, and few pairs and small pictures below: a quarter of an hour instead of hours.
 [ -f "$survey/plan/plan.json" ] || "$stucco" plan "$demo/scene/map.geojson" -o "$survey" \
-  --camera 17.3x13mm,12.29mm,1000x750 --gsd 0.035 --reconstructability 0.5 \
-  --forward-overlap 0.65 --side-overlap 0.65 >&2
+  --camera 17.3x13mm,12.29mm,1000x750 --gsd 0.05 --altitude 25 >&2
 "$stucco" simulate "$demo/scene" "$survey" -o "$survey" --held-out 4 >&2
 "$stucco" run "$survey" --set calib.exhaustive_below=30 --set calib.neighbours=12 \
   --set calib.max_features=5000 --set dense.max_sources=4 --set dense.max_image_px=640 >&2
