@@ -9,20 +9,11 @@
 #include <opencv2/imgproc.hpp>
 
 #include "survey/error.h"
+#include "survey/internal/decode.h"
 #include "survey/internal/jpeg.h"
 
 namespace stucco {
 namespace {
-
-cv::Mat DecodeByOpenCv(std::string_view bytes) {
-  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1,
-                        const_cast<char*>(bytes.data()));  // only read from
-  try {
-    return cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    return {};
-  }
-}
 
 // OpenCV has B G R (A), and 16 bits where the file has.
 cv::Mat ToRgb8(const cv::Mat& pixels) {
@@ -38,11 +29,22 @@ cv::Mat ToRgb8(const cv::Mat& pixels) {
 
 }  // namespace
 
+cv::Mat internal::DecodeByOpenCv(std::string_view bytes) {
+  if (bytes.empty()) return {};
+  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1,
+                        const_cast<char*>(bytes.data()));  // only read from
+  try {
+    return cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
 Image DecodeImage(std::string_view bytes, const std::string& name) {
   if (internal::LooksLikeJpeg(bytes)) {
     return internal::DecodeJpeg(bytes, name, /*channels=*/0, /*max_side_px=*/0);
   }
-  const cv::Mat pixels = bytes.empty() ? cv::Mat() : ToRgb8(DecodeByOpenCv(bytes));
+  const cv::Mat pixels = ToRgb8(internal::DecodeByOpenCv(bytes));
   if (pixels.empty()) {
     throw Error(
         ErrorKind::kBadInput,

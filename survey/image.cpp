@@ -13,6 +13,7 @@
 
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/internal/decode.h"
 #include "survey/internal/jpeg.h"
 
 namespace stucco {
@@ -62,14 +63,7 @@ Image FromOpenCv(const cv::Mat& pixels) {
 }
 
 Image DecodePng(const std::string& bytes, const std::string& name) {
-  cv::Mat pixels;
-  try {
-    const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1,
-                          const_cast<char*>(bytes.data()));
-    pixels = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    pixels.release();  // as for damage that OpenCV reports by an empty matrix
-  }
+  const cv::Mat pixels = internal::DecodeByOpenCv(bytes);
   if (pixels.empty()) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: damaged PNG", name),
                 "run the stage that writes this file again");
