@@ -5,48 +5,135 @@
 
   bench/loop.py OUT [--style hamlet] [--seed 1] [--method cocapture] [--scale 0.25]
                 [--plan-args="--altitude 30"] [--fly-args="--rtk --held-out 5"] [--run-args "..."]
-                [--stucco PROGRAM]
+                [--again plan|fly|run|evaluate] [--stucco PROGRAM]
 
-Scale is that of the camera's pixels: 0.25 gives photos a quarter as wide. What OUT already has is
-not made again. Printed is a row for docs/benchmarks.md; the figures of every loop are added to
-OUT/figures.ndjson as one line of JSON.
+Scale is that of the camera's pixels: 0.25 gives photos a quarter as wide. Printed are tables for
+docs/benchmarks.md: cost of the flight, poses and surfaces, pictures, and time. OUT/figures has all
+figures as JSON, OUT/logs what each step printed and cost. A step that is finished is not run again
+with the same words, but with --again from that step on; one that was stopped goes on. Times with a
+≥ are of such a step, after it went on.
 """
 import argparse
 import json
 import pathlib
 import shlex
+import shutil
 import sys
 
+import steps
 import surveys
 
-HEAD = ["scene", "method", "photos", "posed", "position (mm)", "georeferenced (m)", "rotation (deg)",
-        "cloud error, m", "complete", "model error, m", "complete", "walls, m", "watertight",
-        "facets / truth", "ids", "SSIM", "FLIP", "misregistration (px)", "run (s)"]
+STEPS = ("plan", "fly", "run", "evaluate")
+FLIGHT = ["scene", "method", "photos", "hovers", "length (m)", "time (min)", "battery (%)",
+          "Q_s", "Q_d", "Q_u", "Q_c"]
+GEOMETRY = ["scene", "method", "posed", "position (mm)", "rotation (deg)", "georeferenced (m)",
+            "cloud error (m)", "complete: seen", "all", "model error (m)", "complete: seen", "all",
+            "walls (m)", "complete: seen", "watertight", "facets / truth", "ids"]
+PICTURES = ["scene", "method", "painted", "SSIM", "MS-SSIM", "PSNR", "GMSD", "FLIP", "LPIPS",
+            "misregistration (px)", "held out SSIM", "held out PSNR", "held out FLIP"]
+TIMES = ["scene", "method", "photos", "seconds", "plan", "fly", *surveys.STAGES, "evaluate", "all"]
 
 
 def percent(value):
     return "-" if value is None else f"{100 * value:.1f} %"
 
 
-def row(scene, figures):
-    """The cells of HEAD."""
+def flight_cells(figures):
+    plan = figures.get("plan") or {}
+    return [plan.get("photos", "-"), plan.get("hovers", "-"),
+            surveys.number(plan.get("length_m"), 0), surveys.number(plan.get("time_min"), 1),
+            surveys.number(plan.get("battery_percent"), 0),
+            *(surveys.number(plan.get(name)) for name in ("q_s", "q_d", "q_u", "q_c"))]
+
+
+def geometry_cells(figures):
     poses, dense, proxy = figures["poses"], figures["dense"], figures["proxy"]
-    texture, plan = figures["texture"], figures.get("plan") or {}
     position = poses["position_mean_m"]
-    walls = [cost["wall_s"] for cost in figures["stages"].values()
-             if cost["wall_s"] is not None]
-    return [scene, plan.get("method", "-"), plan.get("photos", "-"),
-            f"{poses['posed']} / {poses['total']}",
+    return [f"{poses['posed']} / {poses['total']}",
             surveys.number(None if position is None else 1000 * position, 1),
-            surveys.number(poses["georeferenced_mean_m"]),
             surveys.number(poses["rotation_mean_deg"], 4),
+            surveys.number(poses["georeferenced_mean_m"]),
             surveys.number(dense["error95_m"], 3), percent(dense["completeness"]),
+            percent(dense["completeness_all"]),
             surveys.number(proxy["error95_m"], 3), percent(proxy["completeness"]),
-            surveys.number(proxy["wall_error95_m"], 3),
+            percent(proxy["completeness_all"]),
+            surveys.number(proxy["wall_error95_m"], 3), percent(proxy["wall_completeness"]),
             f"{proxy['watertight']} / {proxy['truth_buildings']}",
-            f"{proxy['facets']} / {proxy['truth_facets']}", percent(proxy["facade_id_rate"]),
-            surveys.number(texture["ssim_mean"], 3), surveys.number(texture["flip_mean"], 3),
-            surveys.number(texture["misregistration_px"]), surveys.number(sum(walls) if walls else None, 0)]
+            f"{proxy['facets']} / {proxy['truth_facets']}", percent(proxy["facade_id_rate"])]
+
+
+def painted_share(facades):
+    """Of the walls' area."""
+    area = sum(facade["area_m2"] for facade in facades)
+    return sum(f["area_m2"] * f["painted"] for f in facades) / area if area > 0 else None
+
+
+def picture_cells(figures):
+    texture, views = figures["texture"], figures["views"]
+    return [percent(texture["painted"]),
+            *(surveys.number(texture[name + "_mean"], 2 if name == "psnr" else 3)
+              for name in ("ssim", "ms_ssim", "psnr", "gmsd", "flip", "lpips")),
+            surveys.number(texture["misregistration_px"]), surveys.number(views["ssim_mean"], 3),
+            surveys.number(views["psnr_mean"]), surveys.number(views["flip_mean"], 3)]
+
+
+def total(costs, which):
+    """Of steps or stages, as one cost; nothing where one of them is unknown."""
+    known = [cost[which] for cost in costs if cost.get(which) is not None]
+    return {which: sum(known) if costs and len(known) == len(costs) else None,
+            "in_part": any(cost["in_part"] for cost in costs)}
+
+
+def time_rows(figures):
+    """Wall and CPU seconds. The planner's and the drone's are not those of the survey, whose stages
+    add up to "all"."""
+    costs, stages = figures["steps"], figures["stages"]
+    photos = figures["poses"]["total"]
+    return [[photos, label, *(surveys.seconds(costs.get(step), which) for step in ("plan", "fly")),
+             *(surveys.seconds(stages.get(stage), which) for stage in surveys.STAGES),
+             surveys.seconds(costs.get("evaluate"), which),
+             surveys.seconds(total(list(stages.values()), which), which)]
+            for label, which in (("wall", "wall_s"), ("CPU", "cpu_s"))]
+
+
+def tables(flown):
+    """Markdown for (scene, method, figures) of one or more loops."""
+    kinds = ((FLIGHT, lambda f: [flight_cells(f)]), (GEOMETRY, lambda f: [geometry_cells(f)]),
+             (PICTURES, lambda f: [picture_cells(f)]), (TIMES, time_rows))
+    texts = [surveys.markdown_table(head, [[scene, method, *cells] for scene, method, figures in flown
+                                           for cells in rows(figures)]) for head, rows in kinds]
+    commits = dict.fromkeys(name for _, _, figures in flown for name in figures["commits"])
+    if commits:
+        texts.append("Commit " + ", ".join(commits) + ".")
+    return "\n\n".join(texts)
+
+
+def figures_of(survey, chain):
+    """evaluation.json without its lists, and what all of it cost."""
+    evaluation = json.loads((survey / "evaluation/evaluation.json").read_text())
+    evaluation["texture"]["painted"] = painted_share(evaluation["texture"].pop("facades", []))
+    evaluation["views"].pop("photos", None)
+    return {"name": survey.name, **evaluation, "stages": surveys.stage_costs(survey),
+            "steps": chain.costs(), "commits": chain.commits()}
+
+
+def make_scene(program, folder, style, seed):
+    """A scene folder OUT/STYLE-SEED, made unless it is there."""
+    scene = folder / f"{style}-{seed}"
+    if not (scene / "scene.json").exists():
+        part = folder / f"{scene.name}.part"
+        shutil.rmtree(part, ignore_errors=True)  # of one that was stopped
+        chain = steps.Chain(folder / "logs", scene.name, ("city",), again="city")
+        chain.run("city", [program, "simulate", "city", "-o", part, "--style", style,
+                           "--seed", seed], part / "scene.json")
+        part.rename(scene)
+    return scene
+
+
+def plan_command(program, scene, survey, method, args):
+    terrain = scene / "terrain.tif"
+    return [program, "plan", scene / "map.geojson", "-o", survey, "--method", method,
+            *(["--terrain", terrain] if terrain.exists() else []), *args]
 
 
 def add_loop_arguments(parser):
@@ -57,29 +144,42 @@ def add_loop_arguments(parser):
     parser.add_argument("--scale", default="0.25")
     for step in ("plan", "fly", "run"):
         parser.add_argument(f"--{step}-args", type=shlex.split, default=[], metavar="WORDS")
+    parser.add_argument("--again", choices=STEPS)
     parser.add_argument("--stucco", default=str(surveys.PROGRAM))
 
 
 def fly(arguments, method):
-    """One loop; its survey is OUT/STYLE-SEED-METHOD-SCALE."""
-    scene = surveys.make_scene(arguments.stucco, arguments.out, arguments.style, arguments.seed)
+    """One loop; its survey is OUT/STYLE-SEED-METHOD-SCALE. A run whose stages fail in part is
+    measured as far as it came. Returns the scene's name and the figures."""
+    program = arguments.stucco
+    scene = make_scene(program, arguments.out, arguments.style, arguments.seed)
     survey = arguments.out / f"{scene.name}-{method}-{arguments.scale}"
-    options = {"method": method, "scale": arguments.scale, "plan": arguments.plan_args,
-               "fly": arguments.fly_args, "run": arguments.run_args}
-    figures = surveys.fly_loop(arguments.stucco, scene, survey, options)
-    with open(arguments.out / "figures.ndjson", "a", encoding="utf-8") as log:
-        log.write(json.dumps({"name": survey.name, "scale": arguments.scale, **figures}) + "\n")
+    chain = steps.Chain(arguments.out / "logs", survey.name, STEPS, again=arguments.again)
+    chain.run("plan", plan_command(program, scene, survey, method, arguments.plan_args),
+              survey / "plan/plan.json")
+    chain.run("fly", [program, "simulate", scene, survey, "-o", survey, "--scale", arguments.scale,
+                      *arguments.fly_args], survey / "truth/flight.json", goes_on=True)
+    try:
+        chain.run("run", [program, "run", survey, *arguments.run_args], survey / ".stucco",
+                  goes_on=True)
+    except steps.Failed as failure:
+        print(f"{survey.name}: {failure}", file=sys.stderr)
+    chain.run("evaluate", [program, "evaluate", survey, "--truth", scene],
+              survey / "evaluation/evaluation.json")
+    figures = figures_of(survey, chain)
+    steps.write_whole(arguments.out / f"figures/{survey.name}.json", json.dumps(figures) + "\n")
     return scene.name, figures
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     add_loop_arguments(parser)
     parser.add_argument("--method", default="cocapture")
     arguments = parser.parse_args()
     try:
-        print(surveys.markdown_table(HEAD, [row(*fly(arguments, arguments.method))]))
-    except (OSError, surveys.Failed) as error:
+        scene, figures = fly(arguments, arguments.method)
+        print(tables([(scene, arguments.method, figures)]))
+    except (OSError, steps.Failed) as error:
         sys.exit(f"loop: {error}")
 
 

@@ -12,6 +12,7 @@ one's, and key_figures.py tells those of all.
 import json
 import os
 import pathlib
+import signal
 import sys
 import time
 
@@ -22,7 +23,18 @@ def measure(command, output=None):
                                          (os.POSIX_SPAWN_DUP2, output, 2)]
     start = time.monotonic()
     pid = os.posix_spawnp(command[0], command, os.environ, file_actions=actions)
-    _, status, usage = os.wait4(pid, 0)
+    def stop(*_):
+        os.kill(pid, signal.SIGTERM)
+        sys.exit(128 + signal.SIGTERM)
+
+    before = signal.signal(signal.SIGTERM, stop)
+    try:
+        _, status, usage = os.wait4(pid, 0)
+    except BaseException:  # ours was stopped, and the command with it: Ctrl-C goes to both
+        os.wait4(pid, 0)
+        raise
+    finally:
+        signal.signal(signal.SIGTERM, before)
     return {"exit_code": os.waitstatus_to_exitcode(status),
             "wall_s": round(time.monotonic() - start, 2),
             "cpu_s": round(usage.ru_utime + usage.ru_stime, 2),

@@ -8,8 +8,6 @@ import pathlib
 import subprocess
 import sys
 
-import measure
-
 PROGRAM = pathlib.Path(__file__).parents[1] / "build/dev/cli/stucco"
 
 
@@ -63,80 +61,30 @@ def computed_twice(lines):
 STAGES = ("ingest", "calib", "dense", "proxy", "texture", "report")
 
 
-class Failed(Exception):
-    """A command that a benchmark needs has failed; the message names its log."""
-
-
-def run_step(command, log):
-    """Runs a command with its output in `log`. Returns what it cost (measure.py)."""
-    log.parent.mkdir(parents=True, exist_ok=True)
-    words = [str(word) for word in command]
-    with open(log, "wb") as output:
-        cost = measure.measure(words, output.fileno())
-    if cost["exit_code"] != 0:
-        raise Failed(f"{' '.join(words[:3])} ... ended with {cost['exit_code']}; see {log}")
-    return cost
-
-
-def make_scene(program, folder, style, seed, args=()):
-    """A scene folder OUT/STYLE-SEED, made unless it is there."""
-    scene = folder / f"{style}-{seed}"
-    if not (scene / "scene.json").exists():
-        run_step([program, "simulate", "city", "-o", scene, "--style", style, "--seed", seed,
-                  *args], folder / f"logs/{scene.name}.log")
-    return scene
-
-
-def plan_command(program, scene, survey, method, args=()):
-    terrain = scene / "terrain.tif"
-    return [program, "plan", scene / "map.geojson", "-o", survey, "--method", method,
-            *(["--terrain", terrain] if terrain.exists() else []), *args]
-
-
-def fly_loop(program, scene, survey, options):
-    """Plans, flies, reconstructs and measures one survey, each step unless its result is there.
-
-    `options` has "method", "scale" and, where wanted, lists of arguments "plan", "fly" and "run".
-    Returns figures(survey). A run whose stages fail in part is measured as far as it came."""
-    logs = survey.parent / "logs"
-    if not (survey / "plan/plan.json").exists():
-        run_step(plan_command(program, scene, survey, options["method"], options.get("plan", ())),
-                 logs / f"{survey.name}-plan.log")
-    if not (survey / "truth/flight.json").exists():
-        run_step([program, "simulate", scene, survey, "-o", survey, "--scale", options["scale"],
-                  *options.get("fly", ())], logs / f"{survey.name}-fly.log")
-    try:
-        run_step([program, "run", survey, *options.get("run", ())], logs / f"{survey.name}-run.log")
-    except Failed as failure:
-        print(f"{survey.name}: {failure}", file=sys.stderr)
-    run_step([program, "evaluate", survey, "--truth", scene], logs / f"{survey.name}-evaluate.log")
-    return figures(survey)
-
-
 def stage_costs(survey):
-    """Wall and CPU seconds and peak memory of the stages that have results."""
+    """Wall and CPU seconds and peak memory of the stages that have results. A stage that was stopped
+    and went on says what its last part cost: "in_part"."""
     costs = {}
     for stage in STAGES:
         path = survey / f".stucco/manifests/{stage}.json"
         if path.exists():
-            usage = json.loads(path.read_text()).get("usage") or {}
+            manifest = json.loads(path.read_text())
+            usage, units = manifest.get("usage") or {}, manifest.get("units") or {}
             costs[stage] = {name: usage.get(name) for name in ("wall_s", "cpu_s", "peak_memory_mb")}
+            costs[stage]["in_part"] = any(kind.get("reused", 0) > 0 for kind in units.values())
     return costs
-
-
-def figures(survey):
-    """evaluation.json without its lists, and what the stages cost."""
-    evaluation = json.loads((survey / "evaluation/evaluation.json").read_text())
-    evaluation.get("texture", {}).pop("facades", None)
-    evaluation.get("views", {}).pop("photos", None)
-    evaluation["stages"] = stage_costs(survey)
-    return evaluation
 
 
 def number(value, decimals=2):
     """For a table; what was not measured is a dash."""
     known = isinstance(value, (int, float)) and math.isfinite(value)
     return f"{value:.{decimals}f}" if known else "-"
+
+
+def seconds(cost, which, decimals=0):
+    """For a table: "wall_s" or "cpu_s" of a step or stage, with a ≥ where that is not all of it."""
+    text = number((cost or {}).get(which), decimals)
+    return "≥ " + text if cost and cost["in_part"] and text != "-" else text
 
 
 def markdown_row(cells):
