@@ -118,6 +118,38 @@ TEST(FacadeIds, APlanOfAnotherPlaceMatchesNothing) {
   EXPECT_FALSE(FindShift(Street(), {{{1, 1}, {1, 1}}}));
 }
 
+// Houses 6 m wide and 6 m apart: moved by 12 m, all but one stand where another does.
+std::vector<WallLine> RowOfHouses(int count) {
+  std::vector<WallLine> lines;
+  for (int i = 0; i < count; ++i) {
+    const double x = 12.0 * i;
+    Append(Walls({{x, 0}, {x + 6, 0}, {x + 6, 9}, {x, 9}}), lines);
+  }
+  return lines;
+}
+
+TEST(FacadeIds, AHouseOfARegularRowIsNotItsNeighbour) {
+  for (const int houses : {2, 5, 20}) {
+    const std::vector<WallLine> facades = RowOfHouses(houses);
+    for (const Vector2d& shift : {Vector2d(8, 0), Vector2d(-8, 3)}) {
+      const std::vector<WallLine> walls = Moved(facades, shift);
+      const auto found = FindShift(walls, facades);
+      ASSERT_TRUE(found);
+      EXPECT_NEAR((*found - shift).norm(), 0, 1e-6) << houses << " houses";
+      EXPECT_EQ(MatchWalls(walls, facades, *found), Numbers(facades.size()));
+    }
+  }
+}
+
+// Of a row that goes on on both sides nothing else says which houses the survey has.
+TEST(FacadeIds, TheLeastShiftIsTakenWhereSeveralExplainTheSurvey) {
+  const std::vector<WallLine> facades = RowOfHouses(9);
+  const std::vector<WallLine> walls(facades.begin() + 12, facades.begin() + 20);
+  const auto found = FindShift(Moved(walls, {4, 0}), facades);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR((*found - Vector2d(4, 0)).norm(), 0, 1e-6);
+}
+
 TEST(FacadeIds, ASurveyOfPartOfThePlanMatches) {
   const std::vector<WallLine> facades = Street();
   const std::vector<WallLine> walls(facades.begin(), facades.begin() + 4);
