@@ -82,6 +82,7 @@ Json SemanticsOf(const Facet& facet, const Eigen::Vector3d& up) {
   Json surface = {{"type", ceiling ? "OuterCeilingSurface" : CityGmlName(facet.facet_class)}};
   surface["id"] = facet.id;
   surface["facade"] = facet.facade;
+  surface["other_facades"] = facet.other_facades;
   surface["area"] = facet.area;
   surface["rms"] = facet.rms;
   surface["seen"] = facet.seen;

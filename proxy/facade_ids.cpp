@@ -5,8 +5,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <set>
+#include <utility>
 
 #include "survey/plan_frame.h"
 
@@ -40,11 +41,15 @@ struct Candidate {
 
   Eigen::Vector2d Outwards() const { return {along.y(), -along.x()}; }
   double Distance(const Eigen::Vector2d& shift) const { return outside_m - Outwards().dot(shift); }
+  // Where the wall is beside the facade, from the wall's start.
+  Interval Stretch(const Eigen::Vector2d& shift) const {
+    const double moved = along.dot(shift);
+    return {std::max(from_m, moved) - from_m, std::min(to_m, length_m + moved) - from_m};
+  }
   // Metres of the wall beside the facade, fewer the farther they are apart; 0: not a part of it.
   double Fit(const Eigen::Vector2d& shift) const {
     const double share = Distance(shift) / kReach_m;
-    const double moved = along.dot(shift);
-    const double overlap = std::min(to_m, length_m + moved) - std::max(from_m, moved);
+    const double overlap = Stretch(shift).length_m();
     if (!(std::abs(share) < 1) || overlap < kLeastOverlap * std::min(to_m - from_m, length_m)) {
       return 0;
     }
@@ -77,18 +82,37 @@ std::vector<Candidate> FindCandidates(const std::vector<WallLine>& walls,
   return candidates;
 }
 
-// The best candidate of each wall, nullptr for none.
-std::vector<const Candidate*> BestOf(const std::vector<Candidate>& candidates, size_t walls,
-                                     const Eigen::Vector2d& shift) {
-  std::vector<const Candidate*> best(walls, nullptr);
-  std::vector<double> fit(walls, 0);
-  for (const Candidate& candidate : candidates) {
-    const double own = candidate.Fit(shift);
-    if (!(own > fit[candidate.wall])) continue;
-    fit[candidate.wall] = own;
-    best[candidate.wall] = &candidate;
+using Matches = std::vector<const Candidate*>;
+
+// Whether most of the candidate's stretch is beside none of these facades.
+bool IsApart(const Candidate& candidate, const Matches& taken, const Eigen::Vector2d& shift) {
+  const Interval own = candidate.Stretch(shift);
+  double shared = 0;
+  for (const Candidate* other : taken) {
+    const Interval theirs = other->Stretch(shift);
+    shared += std::max(0.0, std::min(own.to_m, theirs.to_m) - std::max(own.from_m, theirs.from_m));
   }
-  return best;
+  return shared < own.length_m() / 2;
+}
+
+// For each wall the candidates that it is a part of or spans, the best first: one after the other
+// along it, as of facades that stand behind each other the wall is only one.
+std::vector<Matches> MatchesOf(const std::vector<Candidate>& candidates, size_t walls,
+                               const Eigen::Vector2d& shift) {
+  std::vector<Matches> fitting(walls);
+  for (const Candidate& candidate : candidates) {
+    if (candidate.Fit(shift) > 0) fitting[candidate.wall].push_back(&candidate);
+  }
+  for (Matches& of_wall : fitting) {
+    std::ranges::stable_sort(of_wall, std::greater(),
+                             [&](const Candidate* match) { return match->Fit(shift); });
+    Matches taken;
+    for (const Candidate* match : of_wall) {
+      if (IsApart(*match, taken, shift)) taken.push_back(match);
+    }
+    of_wall = std::move(taken);
+  }
+  return fitting;
 }
 
 // Log-likelihood of a shift: of what walls find there, and of GPS being that far off. A sum, so
@@ -131,12 +155,13 @@ Eigen::Vector2d Refined(const std::vector<Candidate>& candidates, size_t walls,
     Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
     Eigen::Vector2d right = Eigen::Vector2d::Zero();
     double total = 0;
-    for (const Candidate* match : BestOf(candidates, walls, shift)) {
-      if (match == nullptr) continue;
-      const double distance = match->Distance(shift);
+    for (const Matches& matches : MatchesOf(candidates, walls, shift)) {
+      if (matches.empty()) continue;
+      const Candidate& best = *matches.front();
+      const double distance = best.Distance(shift);
       const double share = distance / kReach_m;
-      const double weight = (match->to_m - match->from_m) * std::pow(1 - share * share, 2);
-      const Eigen::Vector2d outwards = match->Outwards();
+      const double weight = (best.to_m - best.from_m) * std::pow(1 - share * share, 2);
+      const Eigen::Vector2d outwards = best.Outwards();
       normal += weight * outwards * outwards.transpose();
       right += weight * distance * outwards;
       total += weight;
@@ -150,16 +175,16 @@ Eigen::Vector2d Refined(const std::vector<Candidate>& candidates, size_t walls,
 
 // Whether enough walls find a facade, or enough facades a wall, to believe that the plan is of
 // this place.
-bool IsOfThisPlace(const std::vector<const Candidate*>& matches, const std::vector<WallLine>& walls,
+bool IsOfThisPlace(const std::vector<Matches>& matches, const std::vector<WallLine>& walls,
                    const std::vector<WallLine>& facades) {
   std::set<int> found;
   double walls_found = 0;
   double walls_all = 0;
   for (size_t w = 0; w < walls.size(); ++w) {
     walls_all += walls[w].length_m();
-    if (matches[w] == nullptr) continue;
+    if (matches[w].empty()) continue;
     walls_found += walls[w].length_m();
-    found.insert(matches[w]->facade);
+    for (const Candidate* match : matches[w]) found.insert(match->facade);
   }
   double facades_found = 0;
   double facades_all = 0;
@@ -195,18 +220,21 @@ std::optional<Eigen::Vector2d> FindShift(const std::vector<WallLine>& walls,
   if (candidates.empty()) return std::nullopt;
   const Eigen::Vector2d shift =
       Refined(candidates, walls.size(), BestOnGrid(candidates, walls.size()));
-  if (!IsOfThisPlace(BestOf(candidates, walls.size(), shift), walls, facades)) return std::nullopt;
+  if (!IsOfThisPlace(MatchesOf(candidates, walls.size(), shift), walls, facades))
+    return std::nullopt;
   return shift;
 }
 
-std::vector<int> MatchWalls(const std::vector<WallLine>& walls,
-                            const std::vector<WallLine>& facades, const Eigen::Vector2d& shift) {
+std::vector<std::vector<int>> MatchWalls(const std::vector<WallLine>& walls,
+                                         const std::vector<WallLine>& facades,
+                                         const Eigen::Vector2d& shift) {
   const std::vector<Candidate> candidates = FindCandidates(walls, facades);
-  std::vector<int> facade_of_wall;
-  for (const Candidate* match : BestOf(candidates, walls.size(), shift)) {
-    facade_of_wall.push_back(match == nullptr ? -1 : match->facade);
+  std::vector<std::vector<int>> facades_of_walls;
+  for (const Matches& matches : MatchesOf(candidates, walls.size(), shift)) {
+    auto& numbers = facades_of_walls.emplace_back();
+    for (const Candidate* match : matches) numbers.push_back(match->facade);
   }
-  return facade_of_wall;
+  return facades_of_walls;
 }
 
 FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy) {
@@ -227,12 +255,15 @@ FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy) {
   FacadeNaming naming{
       .walls = walls.size(), .named = 0, .facades = 0, .shift_m = FindShift(walls, facades)};
   if (!naming.shift_m) return naming;
-  const std::vector<int> facade_of_wall = MatchWalls(walls, facades, *naming.shift_m);
+  const std::vector<std::vector<int>> matches = MatchWalls(walls, facades, *naming.shift_m);
   std::set<int> found;
   for (size_t w = 0; w < facets.size(); ++w) {
-    if (facade_of_wall[w] < 0) continue;
-    facets[w]->facade = plan.facades[facade_of_wall[w]].id;
-    found.insert(facade_of_wall[w]);
+    if (matches[w].empty()) continue;
+    facets[w]->facade = plan.facades[matches[w].front()].id;
+    for (size_t i = 1; i < matches[w].size(); ++i) {
+      facets[w]->other_facades.push_back(plan.facades[matches[w][i]].id);
+    }
+    found.insert(matches[w].begin(), matches[w].end());
     ++naming.named;
   }
   naming.facades = found.size();

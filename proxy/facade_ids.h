@@ -30,9 +30,11 @@ WallLine LineOf(const Facet& wall);
 std::optional<Eigen::Vector2d> FindShift(const std::vector<WallLine>& walls,
                                          const std::vector<WallLine>& facades);
 
-// For every wall the facade that it is a part of once the facades are moved, -1 for none.
-std::vector<int> MatchWalls(const std::vector<WallLine>& walls,
-                            const std::vector<WallLine>& facades, const Eigen::Vector2d& shift);
+// For every wall the facades that it is a part of or spans once the facades are moved, the one it
+// has most of first.
+std::vector<std::vector<int>> MatchWalls(const std::vector<WallLine>& walls,
+                                         const std::vector<WallLine>& facades,
+                                         const Eigen::Vector2d& shift);
 
 // What naming came to.
 struct FacadeNaming {
@@ -42,8 +44,9 @@ struct FacadeNaming {
   std::optional<Eigen::Vector2d> shift_m;
 };
 
-// Gives walls of the proxy the plan's facade ids (`facade`; `id` stays); the other facets, and the
-// walls of a survey that is not where the plan is, keep their own. Requires an "enu" georef.
+// Gives walls of the proxy the plan's facade ids (`facade` and `other_facades`; `id` stays); the
+// other facets, and the walls of a survey that is not where the plan is, keep their own. Requires
+// an "enu" georef.
 FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy);
 
 }  // namespace stucco

@@ -252,10 +252,14 @@ std::vector<std::string> MissingFacades(const SurveyData& data,
                                         const std::vector<FacadeRow>& rows) {
   std::vector<std::string> missing;
   if (!data.plan) return missing;
-  std::set<const PlannedFacade*> found;
-  for (const FacadeRow& row : rows) found.insert(row.planned);
+  std::set<std::string> found;
+  for (const FacadeRow& row : rows) {
+    if (row.planned == nullptr) continue;
+    found.insert(row.planned->id);
+    found.insert(row.facet->other_facades.begin(), row.facet->other_facades.end());
+  }
   for (const PlannedFacade& facade : data.plan->facades) {
-    if (!found.contains(&facade)) missing.push_back(facade.id);
+    if (!found.contains(facade.id)) missing.push_back(facade.id);
   }
   return missing;
 }

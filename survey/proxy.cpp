@@ -111,6 +111,7 @@ template <typename Archive, internal::Is<Facet> T>
 static void Fields(Archive& archive, T& facet) {
   archive.Required("id", facet.id);
   archive.Required("facade", facet.facade);
+  archive.Optional("other_facades", facet.other_facades);
   std::string name = CityGmlName(facet.facet_class);
   archive.Required("class", name);
   if constexpr (Archive::kReads) {

@@ -18,7 +18,8 @@ std::string CityGmlName(FacetClass facet_class);  // "WallSurface", "RoofSurface
 // points to, holes clockwise; vertices are in world coordinates and within 1e-6 of the plane.
 struct Facet {
   std::string id;      // "B0001/W03", "B0001/R0", "G0"
-  std::string facade;  // planner's facade id, when there is a map; else the id
+  std::string facade;  // the plan's id of the facade that it is a part of; without one, the id
+  std::vector<std::string> other_facades;  // of the plan, that it spans besides
   FacetClass facet_class = FacetClass::kWall;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit, outwards
   double offset = 0;                                  // normal . x = offset

@@ -25,7 +25,10 @@ void KnowPlan(const Plan& plan, const std::map<std::string, CapturedPhoto>& capt
 bool IsPlannedFor(const Facet& facet, const TexturePhoto& photo) {
   // A wall that is no part of the plan has its own id there.
   if (facet.facade == facet.id) return false;
-  return std::ranges::find(photo.facades, facet.facade) != photo.facades.end();
+  return std::ranges::any_of(photo.facades, [&](const std::string& facade) {
+    return facade == facet.facade ||
+           std::ranges::find(facet.other_facades, facade) != facet.other_facades.end();
+  });
 }
 
 std::vector<float> PriorCosts(const Facet& facet, std::span<const TexturePhoto> photos,

@@ -25,7 +25,7 @@ inline constexpr float kUnplannedCost = 0.05f;
 void KnowPlan(const Plan& plan, const std::map<std::string, CapturedPhoto>& captures,
               std::span<TexturePhoto> photos);
 
-// Whether the plan means the photo for the facade that the facet is a part of.
+// Whether the plan means the photo for a facade that the facet is a part of or spans.
 bool IsPlannedFor(const Facet& facet, const TexturePhoto& photo);
 
 // For each of the photos what it costs more on the facet: nothing for planned ones, nor for any

@@ -41,9 +41,11 @@ std::vector<WallLine> Moved(std::vector<WallLine> lines, const Vector2d& shift) 
   return lines;
 }
 
-std::vector<int> Numbers(size_t count) {
-  std::vector<int> numbers(count);
-  for (size_t i = 0; i < count; ++i) numbers[i] = static_cast<int>(i);
+using Numbers = std::vector<std::vector<int>>;  // of facades, by wall
+
+Numbers OneEach(size_t count) {
+  Numbers numbers;
+  for (size_t i = 0; i < count; ++i) numbers.push_back({static_cast<int>(i)});
   return numbers;
 }
 
@@ -54,7 +56,7 @@ TEST(FacadeIds, FindsAnExactShift) {
     const auto found = FindShift(walls, facades);
     ASSERT_TRUE(found);
     EXPECT_NEAR((*found - shift).norm(), 0, 1e-6);
-    EXPECT_EQ(MatchWalls(walls, facades, *found), Numbers(facades.size()));
+    EXPECT_EQ(MatchWalls(walls, facades, *found), OneEach(facades.size()));
   }
 }
 
@@ -74,9 +76,9 @@ TEST(FacadeIds, SurvivesNoiseAndWallsThatAreNotThere) {
   const auto found = FindShift(walls, facades);
   ASSERT_TRUE(found);
   EXPECT_NEAR((*found - Vector2d(3, 4)).norm(), 0, 0.3);
-  std::vector<int> expected = Numbers(facades.size());
+  Numbers expected = OneEach(facades.size());
   expected.erase(expected.begin());
-  expected.resize(walls.size(), -1);
+  expected.resize(walls.size());
   EXPECT_EQ(MatchWalls(walls, facades, *found), expected);
 }
 
@@ -94,16 +96,25 @@ TEST(FacadeIds, WallsMayShareAFacadeAndFacadesAWall) {
   // second.
   const std::vector<WallLine> walls = {
       {{0, 0}, {9, 0}}, {{9, 0.5}, {19, 0.5}}, {{16, 0}, {50, 0}}, {{50, 0}, {50, 9}}};
-  EXPECT_EQ(MatchWalls(walls, facades, {0, 0}), (std::vector<int>{0, 0, 1, 2}));
+  EXPECT_EQ(MatchWalls(walls, facades, {0, 0}), (Numbers{{0}, {0}, {1}, {2}}));
+}
+
+TEST(FacadeIds, AWallOfATerraceSpansTheFacadesOfItsHouses) {
+  const std::vector<WallLine> facades = {
+      {{0, 0}, {6, 0}}, {{6, 0.3}, {14, 0.3}}, {{14, 0}, {20, 0}}, {{20, 0}, {31, 0}}};
+  EXPECT_EQ(MatchWalls({{{0, 0}, {22, 0}}}, facades, {0, 0}), (Numbers{{1, 0, 2}}));
+  // The back of a recess stands behind the front, and is not beside another part of the wall.
+  const std::vector<WallLine> recess = {{{0, 0}, {30, 0}}, {{8, 1.2}, {14, 1.2}}};
+  EXPECT_EQ(MatchWalls({{{0, 0}, {30, 0}}}, recess, {0, 0}), (Numbers{{0}}));
 }
 
 TEST(FacadeIds, TheBackOfAThinWallIsNotItsFront) {
   const std::vector<WallLine> facades = {{{0, 0}, {20, 0}}};
-  EXPECT_EQ(MatchWalls({{{20, 0.3}, {0, 0.3}}}, facades, {0, 0}), std::vector<int>{-1});
+  EXPECT_EQ(MatchWalls({{{20, 0.3}, {0, 0.3}}}, facades, {0, 0}), Numbers{{}});
   // Nor is a wall that stands off it, beside it or across it.
-  EXPECT_EQ(MatchWalls({{{0, 2.5}, {20, 2.5}}}, facades, {0, 0}), std::vector<int>{-1});
-  EXPECT_EQ(MatchWalls({{{14, 0}, {34, 0}}}, facades, {0, 0}), std::vector<int>{-1});
-  EXPECT_EQ(MatchWalls({{{0, -1}, {12, 6}}}, facades, {0, 0}), std::vector<int>{-1});
+  EXPECT_EQ(MatchWalls({{{0, 2.5}, {20, 2.5}}}, facades, {0, 0}), Numbers{{}});
+  EXPECT_EQ(MatchWalls({{{14, 0}, {34, 0}}}, facades, {0, 0}), Numbers{{}});
+  EXPECT_EQ(MatchWalls({{{0, -1}, {12, 6}}}, facades, {0, 0}), Numbers{{}});
 }
 
 TEST(FacadeIds, APlanOfAnotherPlaceMatchesNothing) {
@@ -136,7 +147,7 @@ TEST(FacadeIds, AHouseOfARegularRowIsNotItsNeighbour) {
       const auto found = FindShift(walls, facades);
       ASSERT_TRUE(found);
       EXPECT_NEAR((*found - shift).norm(), 0, 1e-6) << houses << " houses";
-      EXPECT_EQ(MatchWalls(walls, facades, *found), Numbers(facades.size()));
+      EXPECT_EQ(MatchWalls(walls, facades, *found), OneEach(facades.size()));
     }
   }
 }
@@ -213,6 +224,18 @@ TEST(FacadeIds, NamesTheWallsOfAProxy) {
     EXPECT_EQ(facets[i].facade, "B0012/F0" + std::to_string(3 - i));
   }
   EXPECT_EQ(facets[4].facade, "B0001/R0");
+
+  // The front is of two houses.
+  PlannedFacade half = plan.facades[0];
+  half.id = "B0013/F00";
+  half.b_m = plan.facades[0].a_m + Vector2d(5, 0);
+  plan.facades[0].a_m = half.b_m;
+  plan.facades.push_back(half);
+  Proxy terrace = MadeProxy(lines);
+  EXPECT_EQ(NameFacades(plan, georef, terrace).facades, 5u);
+  EXPECT_EQ(terrace.buildings[0].facets[0].facade, "B0012/F03");
+  EXPECT_EQ(terrace.buildings[0].facets[0].other_facades, std::vector<std::string>{"B0013/F00"});
+  EXPECT_TRUE(terrace.buildings[0].facets[1].other_facades.empty());
 
   plan.origin.latitude_deg += 10;
   Proxy elsewhere = MadeProxy(lines);

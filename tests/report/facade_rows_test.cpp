@@ -87,6 +87,14 @@ TEST(MakeFacadeRows, PartsOfAPlannedFacadeKnowIt) {
   EXPECT_THAT(MissingFacades(data, rows), testing::ElementsAre("B0007/F00"));
 }
 
+TEST(MakeFacadeRows, AFacadeThatAWallSpansBesidesIsNotMissing) {
+  SurveyData data = PlannedWalls();
+  data.proxy->buildings[0].facets[1].other_facades = {"B0007/F00"};
+  const auto rows = MakeFacadeRows(data, {});
+  EXPECT_EQ(rows[1].Name(), "B0007/F01");
+  EXPECT_THAT(MissingFacades(data, rows), IsEmpty());
+}
+
 TEST(MakeFacadeRows, AnOwnIdIsNotThePlansEvenWhereItLooksLikeOne) {
   SurveyData data = PlannedWalls();
   data.plan->facades[0].id = "B0001/W03";

@@ -24,6 +24,7 @@ Facet MakeWall() {
   Facet wall;
   wall.id = "B0001/W00";
   wall.facade = "B0001/F03";
+  wall.other_facades = {"B0002/F00", "B0003/F01"};
   wall.normal = -Eigen::Vector3d::UnitY();
   wall.offset = -y;
   wall.outer = {{0, y, 0}, {4, y, 0}, {4, y, 3}, {0, y, 3}};
@@ -69,6 +70,7 @@ TEST(Proxy, ReadsBackWhatItWrote) {
   const Facet expected = MakeWall();
   EXPECT_EQ(wall.id, expected.id);
   EXPECT_EQ(wall.facade, expected.facade);
+  EXPECT_EQ(wall.other_facades, expected.other_facades);
   EXPECT_EQ(wall.facet_class, FacetClass::kWall);
   EXPECT_EQ(wall.normal, expected.normal);
   EXPECT_EQ(wall.offset, expected.offset);

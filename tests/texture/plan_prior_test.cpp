@@ -50,6 +50,18 @@ TEST(PlanPrior, PhotosKnowWhatTheyAreFor) {
   EXPECT_TRUE(PriorCosts(wall, photos, {}).empty());
 }
 
+TEST(PlanPrior, PhotosOfEveryFacadeThatAWallSpansAreMeantForIt) {
+  std::vector<TexturePhoto> photos = Photos({"a.jpg", "b.jpg"});
+  photos[0].facades = {"B0007/F02"};
+  photos[1].facades = {"B0008/F00"};
+  Facet wall = testing::MakeWall(4, 3);
+  wall.facade = "B0007/F02";
+  EXPECT_FALSE(IsPlannedFor(wall, photos[1]));
+  wall.other_facades = {"B0008/F00"};
+  EXPECT_TRUE(IsPlannedFor(wall, photos[0]));
+  EXPECT_TRUE(IsPlannedFor(wall, photos[1]));
+}
+
 TEST(PlanPrior, AWallThatIsNotInThePlanHasNoPlannedPhotos) {
   std::vector<TexturePhoto> photos = Photos({"a.jpg"});
   Facet wall = testing::MakeWall(4, 3);
