@@ -70,7 +70,8 @@ struct PlannedFacade {
   bool top_known = false;
   std::vector<std::string> views;  // meant for it, in order of capture
   FacadeQuality predicted;
-  std::vector<Interval> unobservable_m;  // along the wall: no allowed position sees it
+  std::vector<Interval> unobservable_m;  // along the wall: no view from between the
+                                         // buildings captures it (cocapture only)
 };
 
 struct PlannedFootprint {
