@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/internal/polygons.h"
+#include "plan/polygons.h"
 
 namespace stucco::plan::internal {
 namespace {

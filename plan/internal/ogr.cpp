@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "plan/internal/polygons.h"
+#include "plan/polygons.h"
 #include "survey/error.h"
 
 namespace stucco::plan::internal {

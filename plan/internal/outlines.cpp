@@ -6,8 +6,8 @@
 
 #include "plan/internal/noding.h"
 #include "plan/internal/ogr.h"
-#include "plan/internal/polygons.h"
 #include "plan/map/facades.h"
+#include "plan/polygons.h"
 
 namespace stucco::plan::internal {
 namespace {

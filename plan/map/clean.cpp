@@ -15,13 +15,11 @@
 #include "plan/internal/noding.h"
 #include "plan/internal/ogr.h"
 #include "plan/internal/outlines.h"
-#include "plan/internal/polygons.h"
 #include "plan/map/facades.h"
+#include "plan/polygons.h"
 
 namespace stucco::plan {
 namespace {
-
-using internal::Area;
 
 constexpr double kSame = 0.9;     // shared share of both of two buildings that are one
 constexpr double kInside = 0.95;  // shared share of a building that lies in another
@@ -44,7 +42,7 @@ internal::BoxGrid GridOf(const std::vector<Footprint>& footprints) {
   std::vector<Eigen::AlignedBox2d> boxes;
   boxes.reserve(footprints.size());
   for (const Footprint& footprint : footprints) {
-    boxes.push_back(internal::BoundsOf(footprint.outline));
+    boxes.push_back(BoundsOf(footprint.outline));
   }
   return {boxes, kCell_m};
 }
@@ -80,7 +78,7 @@ class PartAssigner {
     const Polygon& outline = footprints_[part].outline;
     double most = kMostOfIt * Area(outline);
     int host = -1;
-    for (const int near : grid_.Touching(internal::BoundsOf(outline))) {
+    for (const int near : grid_.Touching(BoundsOf(outline))) {
       if (is_loose_part_[near]) continue;
       const double shared = internal::SharedArea(outline, footprints_[near].outline);
       if (shared <= most) continue;
@@ -123,7 +121,7 @@ class OverlapCutter {
     const internal::BoxGrid grid = GridOf(footprints_);
     const std::vector<bool> known_apart = KnownApart();
     for (size_t i = 0; i < footprints_.size(); ++i) {
-      const auto box = internal::BoundsOf(footprints_[i].outline);
+      const auto box = BoundsOf(footprints_[i].outline);
       for (const int j : grid.Touching(box)) {
         if (j <= static_cast<int>(i) || dropped_[i] || dropped_[j]) continue;
         if (known_apart[i] && known_apart[j]) continue;
@@ -322,7 +320,7 @@ void DropIdleCorners(std::vector<Footprint>& footprints) {
         constexpr double kStraight = 0.999;  // a bend that snapping makes, not one of a round wall
         const double ahead = (ring[i] - last).normalized().dot((next - ring[i]).normalized());
         const bool idle = uses.at(ring[i]) == 1 && ahead > kStraight &&
-                          internal::DistanceToSegment(ring[i], last, next) <= kSnap_m;
+                          DistanceToSegment(ring[i], last, next) <= kSnap_m;
         if (!idle) kept.push_back(ring[i]);
       }
       if (kept.size() >= 3) ring = std::move(kept);

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "plan/internal/box_grid.h"
-#include "plan/internal/polygons.h"
+#include "plan/polygons.h"
 
 namespace stucco::plan {
 namespace {
@@ -38,7 +38,7 @@ bool IsStraight(const Eigen::Vector2d& before, const Eigen::Vector2d& corner,
                 const Eigen::Vector2d& after) {
   constexpr double kAhead = 0.98;
   return (corner - before).normalized().dot((after - corner).normalized()) > kAhead &&
-         internal::DistanceToSegment(corner, before, after) <= kSnap_m;
+         DistanceToSegment(corner, before, after) <= kSnap_m;
 }
 
 std::vector<Edge> EdgesOf(const std::vector<Footprint>& footprints) {

@@ -7,7 +7,7 @@
 #include <map>
 #include <numbers>
 
-#include "plan/internal/polygons.h"
+#include "plan/polygons.h"
 
 namespace stucco::plan {
 namespace {
@@ -34,7 +34,7 @@ Grid CeilingGrid(const Site& site) {
   const double steps = std::ceil(kCeilingReach_m / step) + 1;
   Eigen::AlignedBox2d bounds(terrain.corner, terrain.corner + size);
   for (const Footprint& footprint : site.footprints) {
-    bounds.extend(internal::BoundsOf(footprint.outline));
+    bounds.extend(BoundsOf(footprint.outline));
   }
   // Samples of the ceiling lie over samples of the ground.
   const Eigen::Vector2d reach(steps * step + site.d_min_m, steps * step + site.d_min_m);
@@ -87,7 +87,7 @@ Terrain CeilingOf(const Site& site) {
   }
   const double beside = site.d_min_m + std::numbers::sqrt2 * step;
   for (const Footprint& footprint : site.footprints) {
-    const Eigen::AlignedBox2d box = internal::BoundsOf(footprint.outline);
+    const Eigen::AlignedBox2d box = BoundsOf(footprint.outline);
     const Eigen::Array2d low = ((box.min() - ceiling.corner).array() - beside) / step;
     const Eigen::Array2d high = ((box.max() - ceiling.corner).array() + beside) / step;
     for (int row = std::max(0.0, low.y()); row <= std::min(ceiling.rows - 1.0, high.y()); ++row) {
@@ -95,7 +95,7 @@ Terrain CeilingOf(const Site& site) {
            ++column) {
         float& at = z[index(column, row)];
         if (at >= footprint.blocked_to_m) continue;
-        if (internal::Distance(footprint.outline, grid.At(column, row)) > beside) continue;
+        if (Distance(footprint.outline, grid.At(column, row)) > beside) continue;
         at = rounded_up(footprint.blocked_to_m);
       }
     }
@@ -120,10 +120,10 @@ Interval GroundUnder(const Polygon& polygon, const Terrain& terrain) {
       for (int k = 0; k < steps; ++k) add(ring[i] + k * along / steps);
     }
   }
-  const Eigen::AlignedBox2d box = internal::BoundsOf(polygon);
+  const Eigen::AlignedBox2d box = BoundsOf(polygon);
   for (double y = box.min().y(); y < box.max().y(); y += terrain.step_m) {
     for (double x = box.min().x(); x < box.max().x(); x += terrain.step_m) {
-      if (internal::Contains(polygon, {x, y})) add({x, y});
+      if (Contains(polygon, {x, y})) add({x, y});
     }
   }
   return ground;

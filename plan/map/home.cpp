@@ -10,7 +10,7 @@
 #include <regex>
 
 #include "plan/internal/box_grid.h"
-#include "plan/internal/polygons.h"
+#include "plan/polygons.h"
 #include "survey/error.h"
 
 namespace stucco::plan {
@@ -26,12 +26,12 @@ class Hazards {
 
   std::string At(const Eigen::Vector2d& position) const {
     for (const Polygon& zone : site_.no_fly) {
-      if (internal::Distance(zone, position) <= 0) return "inside a no-fly zone";
-      if (internal::Distance(zone, position) < kMargin_m) return "at the border of a no-fly zone";
+      if (Distance(zone, position) <= 0) return "inside a no-fly zone";
+      if (Distance(zone, position) < kMargin_m) return "at the border of a no-fly zone";
     }
     for (const int index : grid_.Touching({position, position})) {
       const Footprint& footprint = site_.footprints[index];
-      const double distance = internal::Distance(footprint.outline, position);
+      const double distance = Distance(footprint.outline, position);
       if (distance < site_.d_min_m + kMargin_m) {
         return fmt::format("{:.0f} m from building {}, where nothing may fly", distance,
                            footprint.building);
@@ -45,7 +45,7 @@ class Hazards {
     std::vector<Eigen::AlignedBox2d> boxes;
     const double reach = site.d_min_m + kMargin_m;
     for (const Footprint& footprint : site.footprints) {
-      const Eigen::AlignedBox2d box = internal::BoundsOf(footprint.outline);
+      const Eigen::AlignedBox2d box = BoundsOf(footprint.outline);
       boxes.emplace_back(box.min().array() - reach, box.max().array() + reach);
     }
     return boxes;
@@ -58,7 +58,7 @@ class Hazards {
 Eigen::AlignedBox2d Captured(const Site& site) {
   Eigen::AlignedBox2d bounds;
   for (const Footprint& footprint : site.footprints) {
-    if (footprint.in_area) bounds.extend(internal::BoundsOf(footprint.outline));
+    if (footprint.in_area) bounds.extend(BoundsOf(footprint.outline));
   }
   return bounds;
 }

@@ -13,7 +13,7 @@
 
 #include "plan/internal/attributes.h"
 #include "plan/internal/ogr.h"
-#include "plan/internal/polygons.h"
+#include "plan/polygons.h"
 #include "survey/error.h"
 #include "survey/files.h"
 

@@ -12,7 +12,6 @@
 
 #include "plan/internal/ogr.h"
 #include "plan/internal/outlines.h"
-#include "plan/internal/polygons.h"
 #include "plan/map/clean.h"
 #include "plan/map/crs.h"
 #include "plan/map/facades.h"
@@ -20,6 +19,7 @@
 #include "plan/map/home.h"
 #include "plan/map/read_dem.h"
 #include "plan/map/read_map.h"
+#include "plan/polygons.h"
 #include "survey/error.h"
 #include "survey/plan_frame.h"
 
@@ -33,13 +33,13 @@ constexpr double kSurroundings_m = 300;
 
 Eigen::AlignedBox2d BoundsOf(const MapFeature& feature) {
   Eigen::AlignedBox2d bounds;
-  for (const Polygon& polygon : feature.polygons) bounds.extend(internal::BoundsOf(polygon));
+  for (const Polygon& polygon : feature.polygons) bounds.extend(BoundsOf(polygon));
   return bounds;
 }
 
 Eigen::AlignedBox2d BoundsOf(const std::vector<Polygon>& polygons) {
   Eigen::AlignedBox2d bounds;
-  for (const Polygon& polygon : polygons) bounds.extend(internal::BoundsOf(polygon));
+  for (const Polygon& polygon : polygons) bounds.extend(BoundsOf(polygon));
   return bounds;
 }
 
@@ -172,7 +172,7 @@ void MarkArea(const SiteInputs& inputs, const std::vector<Polygon>& area, Site& 
   std::set<std::string> touched;
   for (const Footprint& footprint : site.footprints) {
     const bool meets = std::any_of(area.begin(), area.end(), [&](const Polygon& polygon) {
-      return internal::BoundsOf(polygon).intersects(internal::BoundsOf(footprint.outline)) &&
+      return BoundsOf(polygon).intersects(BoundsOf(footprint.outline)) &&
              internal::InteriorsMeet(polygon, footprint.outline);
     });
     if (meets) touched.insert(footprint.building);
@@ -276,9 +276,9 @@ Polygon AreaAround(const Site& site, double margin_m) {
 
 // Returns the ground as it is, where `site.terrain` is the one to keep clear of.
 Terrain AddTerrain(const std::filesystem::path& dem, Site& site, RepairLog& repairs) {
-  Eigen::AlignedBox2d bounds = internal::BoundsOf(site.area);
+  Eigen::AlignedBox2d bounds = BoundsOf(site.area);
   for (const Footprint& footprint : site.footprints) {
-    if (footprint.in_area) bounds.extend(internal::BoundsOf(footprint.outline));
+    if (footprint.in_area) bounds.extend(BoundsOf(footprint.outline));
   }
   const ReadTerrain read = ReadDem(dem, site.origin, bounds);
   site.terrain = read.terrain;

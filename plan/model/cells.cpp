@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "plan/internal/polygons.h"
+#include "plan/polygons.h"
 
 namespace stucco::plan {
 namespace {
@@ -89,8 +89,7 @@ std::vector<Cell> CellsNear(const Polygon& polygon, double size_m, double reach_
         for (int32_t column = CellOf(low.x(), size_m); column <= CellOf(high.x(), size_m);
              ++column) {
           const Cell cell{row, column};
-          if (internal::DistanceToSegment(CenterOf(cell, size_m), a, b) <= reach_m)
-            out.push_back(cell);
+          if (DistanceToSegment(CenterOf(cell, size_m), a, b) <= reach_m) out.push_back(cell);
         }
       }
     }

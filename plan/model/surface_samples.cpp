@@ -9,8 +9,8 @@
 #include <map>
 #include <string>
 
-#include "plan/internal/polygons.h"
 #include "plan/model/cells.h"
+#include "plan/polygons.h"
 
 namespace stucco::plan {
 namespace {
@@ -56,7 +56,7 @@ bool BuiltOver(const Site& site, const std::vector<size_t>& parts, size_t self,
   return std::ranges::any_of(parts, [&](size_t other) {
     const Footprint& above = site.footprints[other];
     return other != self && above.z_m.from_m <= z + kSameHeight_m &&
-           above.z_m.to_m > z + kSameHeight_m && internal::Contains(above.outline, at);
+           above.z_m.to_m > z + kSameHeight_m && Contains(above.outline, at);
   });
 }
 
@@ -74,7 +74,7 @@ Eigen::Vector2d PointInside(const Polygon& polygon) {
   int longest = 0, run = 0;
   for (int i = 0; i < steps; ++i) {
     const double x = low.x() + (i + 0.5) / steps * (high.x() - low.x());
-    run = internal::Contains(polygon, {x, y}) ? run + 1 : 0;
+    run = Contains(polygon, {x, y}) ? run + 1 : 0;
     if (run <= longest) continue;
     longest = run;
     best = {x - 0.5 * (run - 1) / steps * (high.x() - low.x()), y};
@@ -127,7 +127,7 @@ void SampleGround(const Site& site, const SampleOptions& options, std::vector<Su
   near.erase(std::unique(near.begin(), near.end()), near.end());
   for (const Cell& cell : Without(near, std::move(built))) {
     const Eigen::Vector2d at = CenterOf(cell, size);
-    if (!internal::Contains(site.area, at)) continue;
+    if (!Contains(site.area, at)) continue;
     out.push_back({{at.x(), at.y(), site.terrain.HeightAt(at)},
                    Eigen::Vector3d::UnitZ(),
                    SurfaceKind::kGround,

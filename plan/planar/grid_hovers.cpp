@@ -9,8 +9,8 @@
 #include <limits>
 #include <numbers>
 
-#include "plan/internal/polygons.h"
 #include "plan/model/cells.h"
+#include "plan/polygons.h"
 #include "plan/space/obstacles.h"
 #include "survey/error.h"
 
@@ -91,8 +91,7 @@ std::vector<Hover> GridHovers(const Site& site, const CameraPreset& camera,
       const Eigen::Vector2d at =
           (x0 + column * step.forward_m) * frame.u + (y0 + line * step.side_m) * frame.v;
       const Eigen::Vector3d position(at.x(), at.y(), site.CeilingAt(at));
-      if (internal::Contains(site.area, at) && obstacles.IsFree(position))
-        out.push_back({position, shots});
+      if (Contains(site.area, at) && obstacles.IsFree(position)) out.push_back({position, shots});
     }
   }
   return out;

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "plan/internal/polygons.h"
+#include "plan/polygons.h"
 #include "survey/error.h"
 #include "survey/parallel.h"
 
@@ -138,8 +138,7 @@ bool Mover::Move(uint32_t number, Hover& hover) {
     const Eigen::Vector2d at = hover.position.head<2>() + steps[k];
     Place place;
     place.position = {at.x(), at.y(), setting_.obstacles.site().CeilingAt(at)};
-    if (!internal::Contains(setting_.obstacles.site().area, at) ||
-        !setting_.obstacles.IsFree(place.position))
+    if (!Contains(setting_.obstacles.site().area, at) || !setting_.obstacles.IsFree(place.position))
       return;
     place.sightings = SightingsOf(view_, {place.position, hover.shots});
     place.shares = graph_.SharesFrom(place.position, place.sightings);

@@ -13,8 +13,8 @@
 #include <stdexcept>
 
 #include "plan/internal/ogr.h"
-#include "plan/internal/polygons.h"
 #include "plan/map/crs.h"
+#include "plan/polygons.h"
 #include "survey/error.h"
 #include "survey/files.h"
 

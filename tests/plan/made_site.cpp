@@ -9,9 +9,9 @@
 #include <numbers>
 #include <random>
 
-#include "plan/internal/polygons.h"
 #include "plan/map/facades.h"
 #include "plan/map/ground.h"
+#include "plan/polygons.h"
 
 namespace stucco::plan {
 namespace {
@@ -39,7 +39,7 @@ Ring RandomShape(std::mt19937_64& random) {
 
 Eigen::AlignedBox2d Bounds(const std::vector<Polygon>& footprints) {
   Eigen::AlignedBox2d bounds;
-  for (const Polygon& footprint : footprints) bounds.extend(internal::BoundsOf(footprint));
+  for (const Polygon& footprint : footprints) bounds.extend(BoundsOf(footprint));
   return bounds;
 }
 

@@ -9,10 +9,10 @@
 
 #include "plan/internal/noding.h"
 #include "plan/internal/ogr.h"
-#include "plan/internal/polygons.h"
 #include "plan/map/clean.h"
 #include "plan/map/facades.h"
 #include "plan/map/ground.h"
+#include "plan/polygons.h"
 #include "tests/plan/made_site.h"
 
 namespace stucco::plan {
@@ -37,7 +37,7 @@ MapFeature Part(const std::string& name, const Ring& ring, double low, double hi
 double AreaOf(const CleanedMap& map, const std::string& building) {
   double area = 0;
   for (const Footprint& footprint : map.footprints) {
-    if (footprint.building == building) area += internal::Area(footprint.outline);
+    if (footprint.building == building) area += Area(footprint.outline);
   }
   return area;
 }
@@ -55,7 +55,7 @@ void ExpectClean(const CleanedMap& map) {
   for (const Footprint& a : map.footprints) {
     for (size_t r = 0; r < a.outline.rings.size(); ++r) {
       const Ring& ring = a.outline.rings[r];
-      EXPECT_EQ(internal::SignedArea(ring) > 0, r == 0);
+      EXPECT_EQ(SignedArea(ring) > 0, r == 0);
       for (const Eigen::Vector2d& corner : ring) {
         EXPECT_NEAR(corner.x() * 1000, std::round(corner.x() * 1000), 1e-6);
         for (const Footprint& b : map.footprints) {
@@ -65,7 +65,7 @@ void ExpectClean(const CleanedMap& map) {
               const Eigen::Vector2d& p = other[i];
               const Eigen::Vector2d& q = other[(i + 1) % other.size()];
               if (corner == p || corner == q) continue;
-              EXPECT_GT(internal::DistanceToSegment(corner, p, q), 0.03)
+              EXPECT_GT(DistanceToSegment(corner, p, q), 0.03)
                   << a.building << " at a wall of " << b.building;
             }
           }
@@ -109,8 +109,7 @@ TEST(Simplified, KeepsWithinTheTolerance) {
   for (const Eigen::Vector2d& corner : circle) {
     double nearest = 1;
     for (size_t i = 0; i < few.size(); ++i) {
-      nearest =
-          std::min(nearest, internal::DistanceToSegment(corner, few[i], few[(i + 1) % few.size()]));
+      nearest = std::min(nearest, DistanceToSegment(corner, few[i], few[(i + 1) % few.size()]));
     }
     EXPECT_LE(nearest, 0.05);
   }
@@ -202,7 +201,7 @@ TEST(CleanMap, PartsTakeThePlaceOfTheOutline) {
   std::vector<std::string> names;
   for (const Footprint& footprint : map.footprints) names.push_back(footprint.building);
   EXPECT_THAT(names, ElementsAre("B0001", "B0001", "B0001", "B0001", "B0010"));
-  EXPECT_NEAR(internal::Area(map.footprints[0].outline), 100, 1e-6);  // 20 to 30 m
+  EXPECT_NEAR(Area(map.footprints[0].outline), 100, 1e-6);  // 20 to 30 m
   EXPECT_EQ(map.footprints[3].z_m, (Interval{8, 15}));
   EXPECT_THAT(map.repairs.Lines(),
               ElementsAre("B0010: a part outside any building; taken as a building"));
@@ -230,11 +229,11 @@ TEST(CleanMap, PartsThatBeginHigherUpStandOnOthers) {
   ExpectClean(map);
   ASSERT_EQ(map.footprints.size(), 3u);
   EXPECT_EQ(map.footprints[0].outline.rings.size(), 1u);
-  EXPECT_NEAR(internal::Area(map.footprints[0].outline), 200, 1e-6);
+  EXPECT_NEAR(Area(map.footprints[0].outline), 200, 1e-6);
   EXPECT_EQ(map.footprints[1].z_m, (Interval{8, 12}));
-  EXPECT_NEAR(internal::Area(map.footprints[1].outline), 10, 1e-6);
+  EXPECT_NEAR(Area(map.footprints[1].outline), 10, 1e-6);
   EXPECT_EQ(map.footprints[2].z_m, (Interval{10, 12}));
-  EXPECT_NEAR(internal::Area(map.footprints[2].outline), 15, 1e-6);
+  EXPECT_NEAR(Area(map.footprints[2].outline), 15, 1e-6);
 }
 
 TEST(CleanMap, PartyWallsMeetAgainDespiteCentimetres) {

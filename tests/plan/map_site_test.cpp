@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "plan/internal/polygons.h"
 #include "plan/map/home.h"
 #include "plan/map/read_dem.h"
 #include "plan/map/read_site.h"
+#include "plan/polygons.h"
 #include "survey/files.h"
 #include "tests/plan/made_map.h"
 #include "tests/plan/made_site.h"
@@ -81,9 +81,9 @@ TEST_F(ReadSiteTest, FillsInEverything) {
   EXPECT_TRUE(site.repairs.empty());
   EXPECT_NEAR(In(site, 70, 6).norm(), 0, 1);
   // The hull of the houses, 20 m (H) wider.
-  EXPECT_NEAR(internal::Area(site.area), 140 * 12 + 20 * 2 * 152 + M_PI * 400, 15);
-  EXPECT_TRUE(internal::Contains(site.area, In(site, 70, 31)));
-  EXPECT_FALSE(internal::Contains(site.area, In(site, 70, 33)));
+  EXPECT_NEAR(Area(site.area), 140 * 12 + 20 * 2 * 152 + M_PI * 400, 15);
+  EXPECT_TRUE(Contains(site.area, In(site, 70, 31)));
+  EXPECT_FALSE(Contains(site.area, In(site, 70, 33)));
 }
 
 TEST_F(ReadSiteTest, SameFileSameSite) {
@@ -132,7 +132,7 @@ TEST_F(ReadSiteTest, AreaOfInterestLeavesObstacles) {
   ASSERT_EQ(site.facades.size(), 4u);
   EXPECT_EQ(site.facades[0].id, "B0002/F00");
   // Views stay around the one house that is wanted.
-  EXPECT_NEAR(internal::Area(site.area), 20 * 12 + 20 * 2 * 32 + M_PI * 400, 15);
+  EXPECT_NEAR(Area(site.area), 20 * 12 + 20 * 2 * 32 + M_PI * 400, 15);
   EXPECT_THAT(site.repairs, testing::ElementsAre("1 buildings far from the area left out"));
 }
 
@@ -185,7 +185,7 @@ TEST_F(ReadSiteTest, NoFlyZonesAreJoined) {
   const Site site = Read(Row());
   ASSERT_EQ(site.no_fly.size(), 2u);
   double area = 0;
-  for (const Polygon& zone : site.no_fly) area += internal::Area(zone);
+  for (const Polygon& zone : site.no_fly) area += Area(zone);
   EXPECT_NEAR(area, 1600 + 600 + 400, 0.1);
 }
 
@@ -196,10 +196,10 @@ TEST_F(ReadSiteTest, DefaultHomeIsSafeAndSouth) {
   inputs_.no_fly = Areas("zones.geojson", {Rectangle(-100, -100, 240, -2)});
   const Site site = Read(Row());
   for (const Polygon& zone : site.no_fly) {
-    EXPECT_GE(internal::Distance(zone, site.home.head<2>()), 1);
+    EXPECT_GE(Distance(zone, site.home.head<2>()), 1);
   }
   for (const Footprint& footprint : site.footprints) {
-    EXPECT_GE(internal::Distance(footprint.outline, site.home.head<2>()), 11);
+    EXPECT_GE(Distance(footprint.outline, site.home.head<2>()), 11);
   }
   EXPECT_LT((site.home - open.home).norm(), 60);
 }

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "plan/internal/polygons.h"
 #include "plan/model/cells.h"
+#include "plan/polygons.h"
 #include "tests/plan/made_site.h"
 
 namespace stucco::plan {
@@ -29,7 +29,7 @@ TEST(Cells, InsideAreThoseWhoseCentreIs) {
   for (int32_t row = -20; row < 40; ++row) {
     for (int32_t column = -20; column < 40; ++column) {
       const Cell cell{row, column};
-      EXPECT_EQ(Has(cells, cell), internal::Contains(polygon, CenterOf(cell, 1.3)));
+      EXPECT_EQ(Has(cells, cell), Contains(polygon, CenterOf(cell, 1.3)));
     }
   }
 }
@@ -42,9 +42,8 @@ TEST(Cells, NearAreThoseWithinReachOfABorder) {
       double nearest = 1e9;
       for (const Ring& ring : polygon.rings) {
         for (size_t i = 0; i < ring.size(); ++i) {
-          nearest =
-              std::min(nearest, internal::DistanceToSegment(CenterOf({row, column}, 1.3), ring[i],
-                                                            ring[(i + 1) % ring.size()]));
+          nearest = std::min(nearest, DistanceToSegment(CenterOf({row, column}, 1.3), ring[i],
+                                                        ring[(i + 1) % ring.size()]));
         }
       }
       EXPECT_EQ(Has(cells, {row, column}), nearest <= 5);

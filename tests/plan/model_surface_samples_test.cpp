@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "plan/internal/polygons.h"
 #include "plan/model/surface_samples.h"
+#include "plan/polygons.h"
 #include "tests/plan/made_site.h"
 
 namespace stucco::plan {
@@ -60,7 +60,7 @@ TEST(SurfaceSamples, TheSmallestRoofHasOne) {
   const auto samples = SampleSurface(site, {.spacing_m = 5});
   ASSERT_EQ(Count(samples, SurfaceKind::kRoof), 1U);
   const auto roof = std::ranges::find(samples, SurfaceKind::kRoof, &SurfaceSample::kind);
-  EXPECT_TRUE(internal::Contains({{thin}}, roof->position.head<2>()));
+  EXPECT_TRUE(Contains({{thin}}, roof->position.head<2>()));
 }
 
 TEST(SurfaceSamples, GroundIsAroundTheBuildingsAndInsideTheArea) {
@@ -74,9 +74,9 @@ TEST(SurfaceSamples, GroundIsAroundTheBuildingsAndInsideTheArea) {
   for (const SurfaceSample& sample : samples) {
     if (sample.kind != SurfaceKind::kGround) continue;
     const Eigen::Vector2d at = sample.position.head<2>();
-    EXPECT_FALSE(internal::Contains(site.footprints[0].outline, at));
-    EXPECT_LE(internal::Distance(site.footprints[0].outline, at), 20);
-    EXPECT_TRUE(internal::Contains(site.area, at));
+    EXPECT_FALSE(Contains(site.footprints[0].outline, at));
+    EXPECT_LE(Distance(site.footprints[0].outline, at), 20);
+    EXPECT_TRUE(Contains(site.area, at));
     EXPECT_EQ(sample.position.z(), 0);
   }
   EXPECT_EQ(Count(samples, SurfaceKind::kRoof), 100U);

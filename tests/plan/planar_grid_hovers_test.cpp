@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "plan/internal/polygons.h"
 #include "plan/planar/grid_hovers.h"
+#include "plan/polygons.h"
 #include "survey/error.h"
 #include "tests/plan/made_site.h"
 
@@ -66,8 +66,8 @@ TEST(GridHovers, StayInTheAreaAndOutOfNoFlyPolygons) {
   site.no_fly.clear();
   EXPECT_LT(hovers.size(), GridHovers(site, FindCamera("mavic-3e"), {}).size());
   for (const Hover& hover : hovers) {
-    EXPECT_TRUE(internal::Contains(site.area, hover.position.head<2>()));
-    EXPECT_FALSE(internal::Contains({{tower}}, hover.position.head<2>()));
+    EXPECT_TRUE(Contains(site.area, hover.position.head<2>()));
+    EXPECT_FALSE(Contains({{tower}}, hover.position.head<2>()));
   }
 }
 

@@ -8,10 +8,10 @@
 #include <numbers>
 
 #include "plan/evaluate/evaluate_facades.h"
-#include "plan/internal/polygons.h"
 #include "plan/planar/move_hovers.h"
 #include "plan/planar/reconstructability.h"
 #include "plan/planar/thin_out.h"
+#include "plan/polygons.h"
 #include "plan/space/obstacles.h"
 #include "survey/error.h"
 #include "tests/plan/made_site.h"
@@ -132,7 +132,7 @@ TEST(PlanarViews, AreSafeAndInTheArea) {
   for (const Hover& hover :
        PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, 1, SilentProgress())) {
     EXPECT_TRUE(obstacles.IsFree(hover.position));
-    EXPECT_TRUE(internal::Contains(site.area, hover.position.head<2>()));
+    EXPECT_TRUE(Contains(site.area, hover.position.head<2>()));
     EXPECT_EQ(hover.shots.size(), 5U);
   }
 }

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "plan/internal/polygons.h"
 #include "plan/map/ground.h"
+#include "plan/polygons.h"
 #include "tests/plan/made_site.h"
 
 namespace stucco::plan {
@@ -68,7 +68,7 @@ TEST(Site, CeilingStaysAboveGroundNearbyAndBlockedBuildings) {
     // a building without a height does.
     double bound = site.terrain.HighestAround(p, 60) + 50;
     for (const Footprint& footprint : site.footprints) {
-      const double distance = internal::Distance(footprint.outline, p);
+      const double distance = Distance(footprint.outline, p);
       if (distance <= site.d_min_m) {
         EXPECT_GE(ceiling, footprint.blocked_to_m);
       }
@@ -105,12 +105,12 @@ TEST(RandomTown, IsTheSameForASeedAndBuildingsKeepApart) {
   EXPECT_NE(town, RandomTown(8, 50));
   double built = 0;
   for (size_t i = 0; i < town.size(); ++i) {
-    EXPECT_GT(internal::SignedArea(town[i]), 20);
-    built += internal::SignedArea(town[i]);
+    EXPECT_GT(SignedArea(town[i]), 20);
+    built += SignedArea(town[i]);
     for (size_t k = 0; k < town.size(); ++k) {
       if (k == i) continue;
       for (const Eigen::Vector2d& corner : town[k]) {
-        EXPECT_GT(internal::Distance({{town[i]}}, corner), 0.1);
+        EXPECT_GT(Distance({{town[i]}}, corner), 0.1);
       }
     }
   }

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/internal/polygons.h"
+#include "plan/polygons.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace stucco::plan::internal {
+namespace stucco::plan {
 namespace {
 
 // visit(a, b) for every edge.
@@ -71,4 +71,4 @@ double Distance(const Polygon& polygon, const Eigen::Vector2d& p) {
   return nearest;
 }
 
-}  // namespace stucco::plan::internal
+}  // namespace stucco::plan

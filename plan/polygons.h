@@ -6,7 +6,7 @@
 
 #include "plan/site.h"
 
-namespace stucco::plan::internal {
+namespace stucco::plan {
 
 double SignedArea(const Ring& ring);  // positive when counter-clockwise
 double Area(const Polygon& polygon);
@@ -18,4 +18,4 @@ double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
 // 0 inside.
 double Distance(const Polygon& polygon, const Eigen::Vector2d& p);
 
-}  // namespace stucco::plan::internal
+}  // namespace stucco::plan
