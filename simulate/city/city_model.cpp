@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "survey/proxy.h"
 #include "survey/triangulate.h"
 
 namespace stucco::simulate {
@@ -26,14 +25,6 @@ void AddTriangle(const Sheet& sheet, const Eigen::Vector3i& corners, Scene& scen
   scene.triangles.push_back(corners);
   scene.materials_of.push_back(sheet.material);
   scene.elements_of.push_back(sheet.element);
-}
-
-Vector3d NormalOf(const Loop& corners) {
-  Vector3d sum = Vector3d::Zero();
-  for (size_t i = 1; i + 1 < corners.size(); ++i) {
-    sum += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
-  }
-  return sum.normalized();
 }
 
 }  // namespace
@@ -73,12 +64,7 @@ void AddConvex(const Sheet& sheet, const Loop& corners, CityModel& model) {
 
 void AddPolygon(const Sheet& sheet, const Loop& outer, const std::vector<Loop>& holes,
                 CityModel& model) {
-  Facet facet;
-  facet.normal = NormalOf(outer);
-  facet.offset = facet.normal.dot(outer[0]);
-  facet.outer = outer;
-  facet.holes = holes;
-  const FacetTriangles shape = TriangulateFacet(facet);
+  const FacetTriangles shape = TriangulateFacet(ExactFacet(FacetClass::kWall, outer, holes));
   const int first = static_cast<int>(model.scene.positions.size());
   for (const Vector3d& vertex : shape.vertices) AddVertex(sheet, vertex, model.scene);
   for (const auto& t : shape.triangles) {
@@ -99,7 +85,7 @@ Sheet TrimSheet(const Trim& trim, const Vector3d& normal) {
 }
 
 void AddTrim(const Trim& trim, const Loop& corners, CityModel& model) {
-  AddConvex(TrimSheet(trim, NormalOf(corners)), corners, model);
+  AddConvex(TrimSheet(trim, AreaVector(corners).normalized()), corners, model);
 }
 
 void AddPrism(const Trim& trim, const std::vector<Vector2d>& corners, double low_m, double high_m,

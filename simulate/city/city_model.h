@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "simulate/city/facets.h"
 #include "simulate/scene/scene.h"
 #include "survey/image.h"
 
@@ -43,8 +44,6 @@ struct Sheet {
 
   Eigen::Vector3d normal() const;  // towards the viewer: v x u
 };
-
-using Loop = std::vector<Eigen::Vector3d>;
 
 // Corners counter-clockwise seen from outside. Convex polygons become fans; others are
 // triangulated.

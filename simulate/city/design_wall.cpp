@@ -30,7 +30,6 @@ struct Manner {
 
 constexpr double kMargin_m = 0.7;    // from the end of a wall to a window
 constexpr double kRailing_m = 1.05;  // above the floor
-constexpr double kSlab_m = 0.18;
 
 Manner MannerOf(const House& house) {
   Random random(house.seed, 1);
@@ -152,15 +151,17 @@ class Designer {
 
   void AddBalcony(int storey, double x) {
     const double floor = FloorOf(storey);
-    const double width = std::min(manner_.bay_m + 0.35, 3.2);
     Add(PartKind::kBalconyDoor, x, std::min(1.6, manner_.window_width_m + 0.3), floor + 0.04,
         floor + std::min(2.3, house_.storey_m - 0.5), -manner_.recess_m);
-    Add(PartKind::kBalcony, x, width, floor - kSlab_m, floor + kRailing_m, manner_.balcony_m);
+    Add(PartKind::kBalcony, x, BalconyWidth(), floor - kBalconySlab_m, floor + kRailing_m,
+        manner_.balcony_m);
   }
+
+  double BalconyWidth() const { return std::min(manner_.bay_m + 0.35, 3.2); }
 
   bool HasBalcony(int storey, int bay) const {
     if (manner_.balcony_m == 0 || storey == 0) return false;
-    const double reach = std::min(manner_.bay_m + 0.35, 3.2) / 2;
+    const double reach = BalconyWidth() / 2;
     if (X(bay) - reach < 0.1 || X(bay) + reach > place_.width_m - 0.1) return false;
     const bool wanted =
         house_.use == HouseUse::kTower || !IsFront() || house_.use == HouseUse::kTenement;

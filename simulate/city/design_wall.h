@@ -7,7 +7,7 @@
 
 namespace stucco::simulate {
 
-// A wall of a house, upright from `foot_m` to `top_m`.
+// A wall of a house, upright from the house's foot.
 struct WallPlace {
   int edge = 0;
   double width_m = 0;

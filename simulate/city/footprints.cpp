@@ -7,24 +7,17 @@
 #include <cmath>
 #include <limits>
 
+#include "plan/polygons.h"
+#include "plan/space/plane.h"
+
 namespace stucco::simulate {
 namespace {
 
 using Eigen::Vector2d;
 
-double Cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 plan::Polygon Centred(plan::Ring ring, double width, double depth) {
   for (Vector2d& corner : ring) corner -= Vector2d(width / 2, depth / 2);
   return {{std::move(ring)}};
-}
-
-double DistanceToSegment(const Vector2d& point, const Vector2d& a, const Vector2d& b) {
-  const Vector2d ab = b - a;
-  const double t = std::clamp((point - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
-  return (a + t * ab - point).norm();
 }
 
 bool SegmentsCross(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
@@ -32,30 +25,21 @@ bool SegmentsCross(const Vector2d& a, const Vector2d& b, const Vector2d& c, cons
                         const Vector2d& s) {
     constexpr double kTouch_m = 1e-3;
     const Vector2d u = (q - p).normalized();
-    const double left = Cross(u, r - p);
-    const double right = Cross(u, s - p);
+    const double left = plan::Cross(u, r - p);
+    const double right = plan::Cross(u, s - p);
     return (left > kTouch_m && right < -kTouch_m) || (left < -kTouch_m && right > kTouch_m);
   };
   return sides(a, b, c, d) && sides(c, d, a, b);
 }
 
-template <typename Visit>
-void ForEdges(const plan::Polygon& polygon, const Visit& visit) {
-  for (const plan::Ring& ring : polygon.rings) {
-    for (size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
-  }
-}
-
 // Whether a point of `a` just inside one of its walls lies inside `b`.
 bool ReachesInto(const plan::Polygon& a, const plan::Polygon& b) {
   constexpr double kInside_m = 2e-3;
-  bool reaches = false;
-  ForEdges(a, [&](const Vector2d& p, const Vector2d& q) {
-    const Vector2d u = (q - p).normalized();
-    const Vector2d inside = (p + q) / 2 + kInside_m * Vector2d(-u.y(), u.x());
-    reaches = reaches || (Contains(b, inside) && DistanceToOutline(b, inside) > kInside_m / 2);
+  const std::vector<OutlineEdge> edges = EdgesOf(a);
+  return std::any_of(edges.begin(), edges.end(), [&](const OutlineEdge& edge) {
+    const Vector2d inside = (edge.a + edge.b) / 2 - kInside_m * edge.outward();
+    return plan::Contains(b, inside) && DistanceToOutline(b, inside) > kInside_m / 2;
   });
-  return reaches;
 }
 
 }  // namespace
@@ -137,47 +121,38 @@ plan::Polygon Mirrored(plan::Polygon polygon) {
   return polygon;
 }
 
-double AreaOf(const plan::Ring& ring) {
-  double twice = 0;
-  for (size_t i = 0; i < ring.size(); ++i) twice += Cross(ring[i], ring[(i + 1) % ring.size()]);
-  return twice / 2;
-}
-
-double AreaOf(const plan::Polygon& polygon) {
-  double area = 0;
-  for (const plan::Ring& ring : polygon.rings) area += AreaOf(ring);
-  return area;
-}
-
-bool Contains(const plan::Polygon& polygon, const Vector2d& point) {
-  bool inside = false;
-  ForEdges(polygon, [&](const Vector2d& a, const Vector2d& b) {
-    if ((a.y() > point.y()) == (b.y() > point.y())) return;
-    const double x = a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-    if (point.x() < x) inside = !inside;
-  });
-  return inside;
+std::vector<OutlineEdge> EdgesOf(const plan::Polygon& outline) {
+  std::vector<OutlineEdge> edges;
+  for (const plan::Ring& ring : outline.rings) {
+    const int start = static_cast<int>(edges.size());
+    const int n = static_cast<int>(ring.size());
+    for (int i = 0; i < n; ++i) {
+      edges.push_back({ring[i], ring[(i + 1) % n], start + (i + n - 1) % n, start + (i + 1) % n});
+    }
+  }
+  return edges;
 }
 
 double DistanceToOutline(const plan::Polygon& polygon, const Vector2d& point) {
   double least = std::numeric_limits<double>::infinity();
-  ForEdges(polygon, [&](const Vector2d& a, const Vector2d& b) {
-    least = std::min(least, DistanceToSegment(point, a, b));
-  });
+  for (const OutlineEdge& edge : EdgesOf(polygon)) {
+    least = std::min(least, plan::DistanceToSegment(point, edge.a, edge.b));
+  }
   return least;
 }
 
 double Gap(const plan::Polygon& a, const plan::Polygon& b) {
-  bool crosses = ReachesInto(a, b) || ReachesInto(b, a);
+  if (ReachesInto(a, b) || ReachesInto(b, a)) return -1;
+  const std::vector<OutlineEdge> theirs = EdgesOf(b);
   double least = std::numeric_limits<double>::infinity();
-  ForEdges(a, [&](const Vector2d& p, const Vector2d& q) {
-    least = std::min(least, DistanceToOutline(b, p));
-    ForEdges(b, [&](const Vector2d& r, const Vector2d& s) {
-      least = std::min(least, DistanceToSegment(r, p, q));
-      crosses = crosses || SegmentsCross(p, q, r, s);
-    });
-  });
-  return crosses ? -1 : least;
+  for (const OutlineEdge& edge : EdgesOf(a)) {
+    for (const OutlineEdge& other : theirs) {
+      if (SegmentsCross(edge.a, edge.b, other.a, other.b)) return -1;
+      least = std::min({least, plan::DistanceToSegment(edge.a, other.a, other.b),
+                        plan::DistanceToSegment(other.a, edge.a, edge.b)});
+    }
+  }
+  return least;
 }
 
 plan::Ring Offset(const plan::Ring& ring, const std::vector<double>& distances) {

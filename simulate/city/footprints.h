@@ -26,13 +26,26 @@ plan::Polygon CrossShape(double width, double depth, double notch);
 
 // Turned by `radians` counter-clockwise, then moved.
 plan::Polygon Placed(plan::Polygon polygon, double radians, const Eigen::Vector2d& position);
-// The same, mirrored in x first where asked; the rings keep their senses.
+// Mirrored in x; the rings keep their senses.
 plan::Polygon Mirrored(plan::Polygon polygon);
 
-double AreaOf(const plan::Ring& ring);  // positive for counter-clockwise rings
-double AreaOf(const plan::Polygon& polygon);
-bool Contains(const plan::Polygon& polygon, const Eigen::Vector2d& point);
-// The smallest distance between a point and the outline.
+// A wall of an outline, which is its right side. Corners and edges are counted over the rings: edge
+// i starts at corner i.
+struct OutlineEdge {
+  Eigen::Vector2d a = Eigen::Vector2d::Zero();
+  Eigen::Vector2d b = Eigen::Vector2d::Zero();
+  int before = 0;  // its neighbours in the ring
+  int after = 0;
+
+  Eigen::Vector2d along() const { return (b - a).normalized(); }
+  Eigen::Vector2d outward() const {
+    const Eigen::Vector2d u = along();
+    return {u.y(), -u.x()};
+  }
+};
+std::vector<OutlineEdge> EdgesOf(const plan::Polygon& outline);
+
+// The smallest distance between a point, inside or outside, and the outline.
 double DistanceToOutline(const plan::Polygon& polygon, const Eigen::Vector2d& point);
 // The smallest distance between two outlines, negative where their interiors meet by more than a
 // millimetre; walls in common count as distance zero.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 
+#include "plan/polygons.h"
 #include "simulate/city/footprints.h"
 #include "simulate/city/internal/loops.h"
 #include "simulate/paint/paint.h"
@@ -67,16 +68,6 @@ std::vector<double> Lines(const Town& town, int axis) {
       std::unique(lines.begin(), lines.end(), [](double a, double b) { return b - a < kSame_m; }),
       lines.end());
   return lines;
-}
-
-int PatchAt(const Town& town, const Vector2d& at) {
-  for (size_t i = 0; i < town.ground.size(); ++i) {
-    const GroundPatch& patch = town.ground[i];
-    if ((at.array() >= patch.low.array()).all() && (at.array() <= patch.high.array()).all()) {
-      return static_cast<int>(i);
-    }
-  }
-  return static_cast<int>(town.ground.size());
 }
 
 double RaiseOf(const Town& town, int patch) {
@@ -171,32 +162,11 @@ std::vector<Sheet> MakeSheets(const Town& town, double finest_m, int element, Ci
     sheet.origin = {north_west.x(), north_west.y(), 0};
     sheet.u = {east.x(), east.y(), 0};
     sheet.v = {south.x(), south.y(), 0};
-    sheet.width_m = std::ceil(size.x() / mpt - 1e-9) * mpt;
-    sheet.height_m = std::ceil(size.y() / mpt - 1e-9) * mpt;
+    sheet.width_m = Texels(size.x(), mpt) * mpt;
+    sheet.height_m = Texels(size.y(), mpt) * mpt;
     sheets.push_back(sheet);
   }
   return sheets;
-}
-
-Facet MakeFacet(const Loop& outer, std::vector<Loop> holes) {
-  Facet facet;
-  facet.facet_class = FacetClass::kGround;
-  Vector3d area = Vector3d::Zero();
-  const auto add = [&](const Loop& loop) {
-    for (size_t i = 1; i + 1 < loop.size(); ++i) {
-      area += (loop[i] - loop[0]).cross(loop[i + 1] - loop[0]) / 2;
-    }
-  };
-  add(outer);
-  facet.normal = area.normalized();
-  for (const Loop& hole : holes) add(hole);
-  facet.offset = facet.normal.dot(outer[0]);
-  facet.area = area.norm();
-  facet.outer = outer;
-  facet.holes = std::move(holes);
-  facet.seen = 1;
-  facet.source = "model";
-  return facet;
 }
 
 std::vector<Facet> SlopeFacets(const Town& town, const GroundGrid& grid) {
@@ -210,10 +180,10 @@ std::vector<Facet> SlopeFacets(const Town& town, const GroundGrid& grid) {
         const bool hidden =
             std::any_of(town.houses.begin(), town.houses.end(), [&](const House& house) {
               return std::all_of(half.begin(), half.end(), [&](const Vector3d& corner) {
-                return Contains(house.outline, corner.head<2>());
+                return plan::Contains(house.outline, corner.head<2>());
               });
             });
-        if (!hidden) facets.push_back(MakeFacet(half, {}));
+        if (!hidden) facets.push_back(ExactFacet(FacetClass::kGround, half, {}));
       }
     }
   }
@@ -266,7 +236,8 @@ std::vector<Facet> LevelFacets(const Town& town, const GroundGrid& grid) {
       for (size_t i = 1; i < polygon.rings.size(); ++i) {
         holes.push_back(AtHeight(polygon.rings[i], raise));
       }
-      facets.push_back(MakeFacet(AtHeight(polygon.rings[0], raise), std::move(holes)));
+      facets.push_back(
+          ExactFacet(FacetClass::kGround, AtHeight(polygon.rings[0], raise), std::move(holes)));
     }
   }
   return facets;
@@ -299,7 +270,7 @@ void AddGround(const Town& town, const GroundGrid& grid, double metres_per_texel
   kerb.width_m = kerb.height_m = 2;
   kerb.cladding = Cladding::kConcrete;
   const int material =
-      AddPainted("kerb", {[kerb] { return PaintTrim(kerb, 2, 2, kKerbTexel_m); }, ""}, model);
+      AddPainted("kerb", {[kerb] { return PaintTrim(kerb, kKerbTexel_m); }, ""}, model);
   builder.AddKerbs({element, material, 2}, model);
 }
 

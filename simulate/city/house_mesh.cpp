@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plan/space/plane.h"
 #include "simulate/city/design_wall.h"
+#include "simulate/city/footprints.h"
 #include "simulate/city/roof_mesh.h"
 #include "simulate/city/wall_mesh.h"
 #include "simulate/paint/paint.h"
@@ -30,35 +32,14 @@ std::optional<PitchedRoof> RoofOf(const House& house) {
   return MakePitchedRoof(house.outline, house.roof, house.slope, house.party);
 }
 
-Loop Corners(const Solid& solid, const std::vector<int>& ring) {
-  Loop loop;
-  for (const int corner : ring) loop.push_back(solid.vertices[corner]);
-  return loop;
-}
-
-Vector3d AreaVector(const Loop& loop) {
-  Vector3d area = Vector3d::Zero();
-  for (size_t i = 1; i + 1 < loop.size(); ++i) {
-    area += (loop[i] - loop[0]).cross(loop[i + 1] - loop[0]) / 2;
-  }
-  return area;
+std::vector<Loop> Holes(const Solid& solid, const Solid::Face& face) {
+  std::vector<Loop> holes;
+  for (const std::vector<int>& hole : face.holes) holes.push_back(Corners(solid, hole));
+  return holes;
 }
 
 Facet FacetOf(const Solid& solid, const Solid::Face& face) {
-  Facet facet;
-  facet.facet_class = face.facet_class;
-  facet.outer = Corners(solid, face.outer);
-  Vector3d area = AreaVector(facet.outer);
-  facet.normal = area.normalized();
-  for (const std::vector<int>& hole : face.holes) {
-    facet.holes.push_back(Corners(solid, hole));
-    area += AreaVector(facet.holes.back());
-  }
-  facet.offset = facet.normal.dot(facet.outer[0]);
-  facet.area = area.norm();
-  facet.seen = 1;
-  facet.source = "model";
-  return facet;
+  return ExactFacet(face.facet_class, Corners(solid, face.outer), Holes(solid, face));
 }
 
 // The roofs of a solid by falling area, as R0, R1 ...; the walls and the floor in their order.
@@ -78,9 +59,10 @@ std::string FileNameOf(std::string id) {
   return id + ".jpg";
 }
 
-// Whole texels; the last row and column may reach over the wall's edge.
-int Texels(double length_m, double metres_per_texel) {
-  return std::max(1, static_cast<int>(std::ceil(length_m / metres_per_texel - 1e-9)));
+// A picture has whole texels, so that its sheet may reach over the right and lower edges.
+void RoundUpToTexels(double metres_per_texel, Sheet& sheet) {
+  sheet.width_m = Texels(sheet.width_m, metres_per_texel) * metres_per_texel;
+  sheet.height_m = Texels(sheet.height_m, metres_per_texel) * metres_per_texel;
 }
 
 TexturedFacet TruthTexture(const std::string& id, const Sheet& sheet, double metres_per_texel) {
@@ -97,21 +79,6 @@ TexturedFacet TruthTexture(const std::string& id, const Sheet& sheet, double met
   facet.painted = 1;
   facet.gsd_m = metres_per_texel;
   return facet;
-}
-
-// The covering from `left_m` on.
-Image PaintPiece(CoveringDesign design, double left_m, double metres_per_texel) {
-  const int width = Texels(design.width_m, metres_per_texel);
-  const int left = static_cast<int>(std::lround(left_m / metres_per_texel));
-  design.width_m += left_m;
-  Image whole = PaintCovering(design, metres_per_texel);
-  if (left == 0) return whole;
-  Image piece{width, whole.height_px, whole.channels, {}};
-  for (int row = 0; row < piece.height_px; ++row) {
-    const uint8_t* from = whole.Pixel(left, row);
-    piece.data.insert(piece.data.end(), from, from + size_t{1} * width * piece.channels);
-  }
-  return piece;
 }
 
 class HouseBuilder {
@@ -153,9 +120,8 @@ class HouseBuilder {
   Trim MakeTrim(const WallDesign& design, const char* name) {
     Trim trim;
     trim.size_m = kTrim_m;
-    trim.material = AddPainted(
-        house_.id + name,
-        {[design] { return PaintTrim(design, kTrim_m, kTrim_m, kTrimTexel_m); }, ""}, model_);
+    trim.material = AddPainted(house_.id + name,
+                               {[design] { return PaintTrim(design, kTrimTexel_m); }, ""}, model_);
     return trim;
   }
 
@@ -177,8 +143,7 @@ class HouseBuilder {
     const double texel = kPartyTexels * texel_;
     const std::string id = fmt::format("{}/W{:02}", house_.id, face.edge);
     sheet.element = AddElement(id, model_);
-    sheet.width_m = Texels(design.width_m, texel) * texel;
-    sheet.height_m = Texels(design.height_m, texel) * texel;
+    RoundUpToTexels(texel, sheet);
     sheet.material =
         AddPainted(id, {[design, texel] { return PaintWall(design, texel); }, ""}, model_);
     AddConvex(sheet, loop, model_);
@@ -196,6 +161,8 @@ class HouseBuilder {
     place.width_m = (loop[1] - loop[0]).norm();
     place.top_m = top;
     place.gable_rise_m = loop.size() == 5 ? top - loop[2].z() : 0;
+    sheet.width_m = place.width_m;
+    sheet.height_m = top - loop[0].z();
     return place;
   }
 
@@ -209,15 +176,17 @@ class HouseBuilder {
     }
     const WallDesign design = DesignWall(house_, place);
     sheet.element = AddElement(id, model_);
-    sheet.width_m = Texels(design.width_m, texel_) * texel_;
-    sheet.height_m = Texels(design.height_m, texel_) * texel_;
+    RoundUpToTexels(texel_, sheet);
     const double texel = texel_;
     sheet.material = AddPainted(
         id, {[design, texel] { return PaintWall(design, texel); }, FileNameOf(id)}, model_);
-    Material pane = model_.scene.materials[sheet.material];
-    pane.name += "-pane";
-    pane.gloss = kPaneGloss;
-    shape.pane_material = AddMaterial(pane, model_);
+    shape.pane_material = sheet.material;
+    if (std::any_of(design.parts.begin(), design.parts.end(), HasPane)) {
+      Material pane = model_.scene.materials[sheet.material];
+      pane.name += "-pane";
+      pane.gloss = kPaneGloss;
+      shape.pane_material = AddMaterial(pane, model_);
+    }
     trim_.element = sheet.element;
     shape.trim = trim_;
     shape.corner_left = TurnsAway(face.edge, /*at_end=*/false);
@@ -228,47 +197,29 @@ class HouseBuilder {
 
   // Whether the house has an outer corner at an end of an edge, with a free wall beyond it.
   bool TurnsAway(int edge, bool at_end) const {
-    int start = 0;
-    for (const plan::Ring& ring : house_.outline.rings) {
-      const int n = static_cast<int>(ring.size());
-      if (edge >= start + n) {
-        start += n;
-        continue;
-      }
-      const int i = edge - start;
-      const int other = at_end ? (i + 1) % n : (i + n - 1) % n;
-      if (house_.party[start + other]) return false;
-      const Vector2d u = ring[(i + 1) % n] - ring[i];
-      const Vector2d w = ring[(other + 1) % n] - ring[other];
-      const double turn = u.x() * w.y() - u.y() * w.x();
-      return at_end ? turn > 0 : turn < 0;
-    }
-    return false;
+    const std::vector<OutlineEdge> edges = EdgesOf(house_.outline);
+    const int first = at_end ? edge : edges[edge].before;
+    const int second = edges[first].after;
+    const bool free = !house_.party[first] && !house_.party[second];
+    return free && plan::Cross(edges[first].along(), edges[second].along()) > 0;
   }
 
   void AddRoof(const Solid::Face& face, int number) {
     const std::string id = fmt::format("{}/R{}", house_.id, number);
     RoofSheet roof = LayRoofSheet(house_, solid_, face);
     Sheet& sheet = roof.sheet;
-    // The colour of metal comes with the seed: the faces are cut side by side out of one sheet.
-    const bool metal = house_.covering == Covering::kMetal;
-    const double left = metal ? std::ceil(roof_painted_m_ / texel_) * texel_ : 0;
-    roof_painted_m_ = left + sheet.width_m;
     const CoveringDesign design{.width_m = sheet.width_m,
                                 .height_m = sheet.height_m,
                                 .covering = house_.covering,
                                 .palette = house_.palette,
-                                .seed = Random(house_.seed, 10 + (metal ? 0 : number)).Next()};
+                                .seed = Random(house_.seed, 10).Next(),
+                                .face = number};
     sheet.element = AddElement(id, model_);
-    sheet.width_m = Texels(design.width_m, texel_) * texel_;
-    sheet.height_m = Texels(design.height_m, texel_) * texel_;
+    RoundUpToTexels(texel_, sheet);
     const double texel = texel_;
     sheet.material = AddPainted(
-        id, {[design, left, texel] { return PaintPiece(design, left, texel); }, FileNameOf(id)},
-        model_);
-    std::vector<Loop> holes;
-    for (const std::vector<int>& hole : face.holes) holes.push_back(Corners(solid_, hole));
-    AddPolygon(sheet, roof.drawn, holes, model_);
+        id, {[design, texel] { return PaintCovering(design, texel); }, FileNameOf(id)}, model_);
+    AddPolygon(sheet, roof.drawn, Holes(solid_, face), model_);
     truth_.facets.push_back(TruthTexture(id, sheet, texel_));
   }
 
@@ -279,7 +230,6 @@ class HouseBuilder {
   TextureSet& truth_;
   Trim trim_;       // in the material of the walls
   Trim roof_trim_;  // edges of the roof and what stands on it
-  double roof_painted_m_ = 0;
 };
 
 }  // namespace

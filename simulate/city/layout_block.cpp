@@ -23,6 +23,15 @@ struct Perimeter {
   double corner = 18;  // along the street, of the buildings at its corners
 };
 
+void SetRoof(RoofShape shape, Random& random, House& house) {
+  house.roof = shape;
+  if (shape == RoofShape::kFlat) {
+    house.covering = random.Chance(0.5) ? Covering::kMembrane : Covering::kGravel;
+  } else {
+    house.covering = random.Chance(0.75) ? Covering::kTiles : Covering::kMetal;
+  }
+}
+
 House MakeTenement(Random& random) {
   House house;
   house.use = HouseUse::kTenement;
@@ -33,14 +42,10 @@ House MakeTenement(Random& random) {
   constexpr std::array kCladdings = {Cladding::kPlaster, Cladding::kBrick, Cladding::kStone,
                                      Cladding::kPlaster, Cladding::kConcrete};
   house.cladding = kCladdings[random.Index(kCladdings.size())];
-  house.roof = random.Chance(0.6) ? RoofShape::kGabled : RoofShape::kFlat;
+  const RoofShape roof = random.Chance(0.6) ? RoofShape::kGabled : RoofShape::kFlat;
   house.slope = random.Uniform(0.55, 0.85);
   house.parapet_m = random.Uniform(0.3, 0.6);
-  if (house.roof == RoofShape::kFlat) {
-    house.covering = random.Chance(0.5) ? Covering::kMembrane : Covering::kGravel;
-  } else {
-    house.covering = random.Chance(0.75) ? Covering::kTiles : Covering::kMetal;
-  }
+  SetRoof(roof, random, house);
   return house;
 }
 
@@ -120,7 +125,7 @@ void AddPalace(double x, Random& random, Town& town) {
   const double wing = random.Uniform(9, 10.5);
   house.outline = Placed(CourtyardShape(random.Uniform(33, 38), random.Uniform(36, 46), wing), 0,
                          {x + 19, random.Uniform(-4, 4)});
-  house.roof = random.Chance(0.5) ? RoofShape::kHipped : RoofShape::kFlat;
+  SetRoof(random.Chance(0.5) ? RoofShape::kHipped : RoofShape::kFlat, random, house);
   ClearEdges(house);
   for (const Vector2d& side : {Vector2d(-1, 0), Vector2d(1, 0), Vector2d(0, 1), Vector2d(0, -1)}) {
     MarkFront(side, house);

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
-#include <thread>
 
 #include "simulate/city/city_model.h"
 #include "simulate/city/ground.h"
@@ -39,11 +39,6 @@ Georef GeorefOf(const CityOptions& options) {
           .up = Eigen::Vector3d::UnitZ(),
           .metric = true,
           .source = "scene"};
-}
-
-int ThreadsOf(const CityOptions& options) {
-  if (options.threads > 0) return options.threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 void Check(const CityOptions& options) {
@@ -87,12 +82,11 @@ void PrepareFolder(const fs::path& folder) {
   }
 }
 
-double WallArea(const Town& town, const FacadeIds& facades, bool with_roofs) {
+double SeenArea(const Proxy& truth, FacetClass facet_class) {
   double area = 0;
-  for (size_t i = 0; i < town.houses.size(); ++i) {
-    for (const Facet& facet : TruthOf(town.houses[i], SolidOf(town.houses[i]), facades[i]).facets) {
-      const bool free_wall = facet.facet_class == FacetClass::kWall && facet.seen > 0;
-      if (free_wall || (with_roofs && facet.facet_class == FacetClass::kRoof)) area += facet.area;
+  for (const Building& building : truth.buildings) {
+    for (const Facet& facet : building.facets) {
+      if (facet.facet_class == facet_class && facet.seen > 0) area += facet.area;
     }
   }
   return area;
@@ -142,10 +136,12 @@ CitySummary MakeCity(const CityOptions& options, const fs::path& scene_folder) {
   const FacadeIds facades = FindFacades(town, georef, scene_folder / kSceneMap, terrain);
 
   const GroundGrid grid = MakeGroundGrid(town);
-  WriteProxy(TruthOf(town, facades, grid), scene_folder / kTruthFacets);
+  const Proxy truth = TruthOf(town, facades, grid);
+  WriteProxy(truth, scene_folder / kTruthFacets);
+  const double walls_m2 = SeenArea(truth, FacetClass::kWall);
   const double texel =
       std::max(options.metres_per_texel,
-               std::sqrt(WallArea(town, facades, /*with_roofs=*/true) / kMostTexels));
+               std::sqrt((walls_m2 + SeenArea(truth, FacetClass::kRoof)) / kMostTexels));
   CityModel model;
   TextureSet textures;
   for (size_t i = 0; i < town.houses.size(); ++i) {
@@ -154,7 +150,8 @@ CitySummary MakeCity(const CityOptions& options, const fs::path& scene_folder) {
   AddGround(town, grid, options.metres_per_texel, model);
   AddOccluders(town, options.seed, model);
   WriteTextureSet(textures, scene_folder / kTruthTextures);
-  internal::WriteGlbFile(model.scene, PaintAll(model, ThreadsOf(options), scene_folder),
+  const int threads = options.threads > 0 ? options.threads : std::numeric_limits<int>::max();
+  internal::WriteGlbFile(model.scene, PaintAll(model, threads, scene_folder),
                          scene_folder / kSceneModel);
 
   CitySummary summary;
@@ -164,7 +161,7 @@ CitySummary MakeCity(const CityOptions& options, const fs::path& scene_folder) {
         std::count_if(ids.begin(), ids.end(), [](const auto& id) { return !id.empty(); }));
   }
   summary.triangles = static_cast<int>(model.scene.triangles.size());
-  summary.wall_area_m2 = WallArea(town, facades, /*with_roofs=*/false);
+  summary.wall_area_m2 = walls_m2;
   return summary;
 }
 

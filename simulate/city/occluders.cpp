@@ -208,18 +208,6 @@ std::vector<int> AddLeaves(uint64_t seed, CityModel& model) {
   return leaves;
 }
 
-// The ground under a car lies as low as the lowest patch there.
-double GroundUnder(const Town& town, const Vector2d& position) {
-  const Vector2d at = Eigen::Rotation2Dd(-town.turn_rad) * position;
-  double raise = 0;
-  for (const GroundPatch& patch : town.ground) {
-    if ((at.array() < patch.low.array()).any() || (at.array() > patch.high.array()).any()) continue;
-    raise = patch.raise_m;
-    break;
-  }
-  return town.relief.HeightAt(position) + raise;
-}
-
 }  // namespace
 
 void AddOccluders(const Town& town, uint64_t seed, CityModel& model) {
@@ -229,7 +217,7 @@ void AddOccluders(const Town& town, uint64_t seed, CityModel& model) {
   bark.material = AddPainted("bark", {[soil] { return PaintCovering(soil, 0.01); }, ""}, model);
   for (size_t i = 0; i < town.trees.size(); ++i) {
     bark.element = AddElement(fmt::format("{}tree-{:03}", kOccluderPrefix, i), model);
-    const double ground = GroundUnder(town, town.trees[i].position);
+    const double ground = GroundAt(town, town.trees[i].position);
     AddTree(town.trees[i], ground, bark, leaves, Random(seed, 2000 + i), model);
   }
   for (size_t i = 0; i < town.cars.size(); ++i) {
@@ -238,7 +226,7 @@ void AddOccluders(const Town& town, uint64_t seed, CityModel& model) {
     const int material = AddPainted(fmt::format("car-{:03}", i),
                                     {[own] { return PaintCar(own, kCarTexel_m); }, ""}, model);
     model.scene.materials[material].gloss = 0.35f;
-    CarBuilder(town.cars[i], GroundUnder(town, town.cars[i].position), element, material, model)
+    CarBuilder(town.cars[i], GroundAt(town, town.cars[i].position), element, material, model)
         .Build();
   }
 }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulate/city/footprints.h"
 #include "survey/error.h"
 
 namespace stucco::simulate {
@@ -22,24 +23,13 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 // Nodes of the skeleton nearer than this are one in which several events fall together.
 constexpr double kSame_m = 1e-6;
 
-struct Edges {
-  std::vector<Vector2d> from, to;
-  std::vector<int> before, after;  // indices of the neighbours in the ring
-};
+using Edges = std::vector<OutlineEdge>;
 
-Edges EdgesOf(const plan::Polygon& outline) {
-  Edges edges;
-  for (const plan::Ring& ring : outline.rings) {
-    const int start = static_cast<int>(edges.from.size());
-    const int n = static_cast<int>(ring.size());
-    for (int i = 0; i < n; ++i) {
-      edges.from.push_back(ring[i]);
-      edges.to.push_back(ring[(i + 1) % n]);
-      edges.before.push_back(start + (i + n - 1) % n);
-      edges.after.push_back(start + (i + 1) % n);
-    }
-  }
-  return edges;
+PitchedRoof Eaves(const Edges& edges) {
+  PitchedRoof roof;
+  for (const OutlineEdge& edge : edges) roof.vertices.emplace_back(edge.a.x(), edge.a.y(), 0);
+  roof.apex_of.assign(edges.size(), -1);
+  return roof;
 }
 
 CGAL::Polygon_with_holes_2<Kernel> ToCgal(const plan::Polygon& outline) {
@@ -64,16 +54,16 @@ int FindOrAdd(const Vector3d& point, size_t first, std::vector<Vector3d>& vertic
 PitchedRoof HippedRoof(const plan::Polygon& outline, const Edges& edges, double slope) {
   const auto skeleton = CGAL::create_interior_straight_skeleton_2(ToCgal(outline), Kernel());
   if (!skeleton) throw Error(ErrorKind::kStageFailed, "a footprint has no straight skeleton");
-  PitchedRoof roof;
-  for (const Vector2d& corner : edges.from) roof.vertices.emplace_back(corner.x(), corner.y(), 0);
+  PitchedRoof roof = Eaves(edges);
   const size_t ridges = roof.vertices.size();
-  roof.apex_of.assign(ridges, -1);
   for (auto face = skeleton->faces_begin(); face != skeleton->faces_end(); ++face) {
     PitchedRoof::Face slope_face;
     const auto contour = face->halfedge();  // CGAL starts each face at its edge of the outline
     const auto first = contour->opposite()->vertex()->point();
-    const auto at = std::find(edges.from.begin(), edges.from.end(), Vector2d(first.x(), first.y()));
-    slope_face.edge = static_cast<int>(at - edges.from.begin());
+    const auto at = std::find_if(edges.begin(), edges.end(), [&](const OutlineEdge& edge) {
+      return edge.a == Vector2d(first.x(), first.y());
+    });
+    slope_face.edge = static_cast<int>(at - edges.begin());
     auto step = contour;
     do {
       const auto& vertex = *step->vertex();
@@ -95,11 +85,11 @@ PitchedRoof HippedRoof(const plan::Polygon& outline, const Edges& edges, double 
 
 // Whether an edge ends a wing: its neighbours run parallel, at right angles to it.
 bool EndsWing(const Edges& edges, int edge) {
-  const auto along = [&](int i) -> Vector2d { return (edges.to[i] - edges.from[i]).normalized(); };
   constexpr double kParallel = 1e-6;
-  const Vector2d before = along(edges.before[edge]);
-  const Vector2d after = along(edges.after[edge]);
-  return (before + after).norm() < kParallel && std::abs(before.dot(along(edge))) < kParallel;
+  const Vector2d before = edges[edges[edge].before].along();
+  const Vector2d after = edges[edges[edge].after].along();
+  return (before + after).norm() < kParallel &&
+         std::abs(before.dot(edges[edge].along())) < kParallel;
 }
 
 // The tip of the hip over an edge if it can become a gable, else -1.
@@ -119,20 +109,18 @@ void OpenGables(const Edges& edges, bool all, const std::vector<bool>& gables, P
     const int tip = wanted ? TipOf(roof, edges, face) : -1;
     if (tip < 0) continue;
     roof.apex_of[face.edge] = tip;
-    roof.vertices[tip].head<2>() = (edges.from[face.edge] + edges.to[face.edge]) / 2;
+    roof.vertices[tip].head<2>() = (edges[face.edge].a + edges[face.edge].b) / 2;
   }
   std::erase_if(roof.faces, [&](const auto& face) { return roof.apex_of[face.edge] >= 0; });
 }
 
 // Over a rectangle, with gables over `edge` and the one opposite.
 PitchedRoof GabledRectangle(const Edges& edges, int edge, double slope) {
-  PitchedRoof roof;
-  for (const Vector2d& corner : edges.from) roof.vertices.emplace_back(corner.x(), corner.y(), 0);
-  roof.apex_of.assign(4, -1);
-  const double rise = slope * (edges.to[edge] - edges.from[edge]).norm() / 2;
+  PitchedRoof roof = Eaves(edges);
+  const double rise = slope * (edges[edge].b - edges[edge].a).norm() / 2;
   const int opposite = (edge + 2) % 4;
   for (const int gable : {edge, opposite}) {
-    const Vector2d middle = (edges.from[gable] + edges.to[gable]) / 2;
+    const Vector2d middle = (edges[gable].a + edges[gable].b) / 2;
     roof.apex_of[gable] = static_cast<int>(roof.vertices.size());
     roof.vertices.emplace_back(middle.x(), middle.y(), rise);
   }
@@ -144,8 +132,7 @@ PitchedRoof GabledRectangle(const Edges& edges, int edge, double slope) {
 }
 
 bool IsRectangle(const plan::Polygon& outline, const Edges& edges) {
-  return outline.rings.size() == 1 && edges.from.size() == 4 && EndsWing(edges, 0) &&
-         EndsWing(edges, 1);
+  return outline.rings.size() == 1 && edges.size() == 4 && EndsWing(edges, 0) && EndsWing(edges, 1);
 }
 
 }  // namespace
@@ -156,7 +143,7 @@ PitchedRoof MakePitchedRoof(const plan::Polygon& outline, RoofShape shape, doubl
   const auto wanted = std::find(gables.begin(), gables.end(), true);
   const bool named = wanted != gables.end();
   if (IsRectangle(outline, edges) && (named || shape == RoofShape::kGabled)) {
-    const auto length = [&](int i) { return (edges.to[i] - edges.from[i]).norm(); };
+    const auto length = [&](int i) { return (edges[i].b - edges[i].a).norm(); };
     const int shorter = length(0) <= length(1) ? 0 : 1;
     return GabledRectangle(edges, named ? static_cast<int>(wanted - gables.begin()) % 4 : shorter,
                            slope);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "plan/polygons.h"
 #include "simulate/city/footprints.h"
 #include "simulate/random.h"
 
@@ -20,25 +21,13 @@ constexpr double kVerge_m = 0.22;    // overhang over a gable
 constexpr double kRafters_m = 0.16;  // thickness of a pitched roof
 constexpr double kParapet_m = 0.25;  // thickness
 
-struct Edge {
-  int from = 0, to = 0;  // corners, counted over the rings
-  Vector2d outward = Vector2d::Zero();
-  double overhang_m = 0;
-};
-
 bool IsPitched(const House& house) {
   return house.roof != RoofShape::kFlat;
 }
 
-int CornerCount(const House& house) {
-  int count = 0;
-  for (const plan::Ring& ring : house.outline.rings) count += static_cast<int>(ring.size());
-  return count;
-}
-
 // By edge: the top of its gable as a vertex of the solid, -1 for eaves.
 std::vector<int> Gables(const House& house, const Solid& solid) {
-  std::vector<int> apex(CornerCount(house), -1);
+  std::vector<int> apex(house.party.size(), -1);
   for (const Solid::Face& face : solid.faces) {
     if (face.facet_class == FacetClass::kWall && face.outer.size() == 5) {
       apex[face.edge] = face.outer[3];
@@ -47,56 +36,42 @@ std::vector<int> Gables(const House& house, const Solid& solid) {
   return apex;
 }
 
-std::vector<Edge> EdgesOf(const House& house, const std::vector<int>& apex) {
-  std::vector<Edge> edges;
-  int start = 0;
-  for (const plan::Ring& ring : house.outline.rings) {
-    const int n = static_cast<int>(ring.size());
-    for (int i = 0; i < n; ++i) {
-      Edge edge{.from = start + i, .to = start + (i + 1) % n};
-      const Vector2d u = (ring[(i + 1) % n] - ring[i]).normalized();
-      edge.outward = {u.y(), -u.x()};
-      edge.overhang_m = apex[start + i] >= 0 ? kVerge_m : house.overhang_m;
-      if (house.party[start + i]) edge.overhang_m = 0;
-      edges.push_back(edge);
-    }
-    start += n;
+// By edge.
+std::vector<double> Overhangs(const House& house, const std::vector<int>& apex) {
+  std::vector<double> overhangs;
+  for (size_t i = 0; i < apex.size(); ++i) {
+    overhangs.push_back(house.party[i] ? 0 : apex[i] >= 0 ? kVerge_m : house.overhang_m);
   }
-  return edges;
+  return overhangs;
 }
 
 Vector3d NormalOf(const Solid& solid, const Solid::Face& face) {
-  Vector3d sum = Vector3d::Zero();
-  const Vector3d& first = solid.vertices[face.outer[0]];
-  for (size_t i = 1; i + 1 < face.outer.size(); ++i) {
-    sum += (solid.vertices[face.outer[i]] - first).cross(solid.vertices[face.outer[i + 1]] - first);
-  }
-  return sum.normalized();
+  return AreaVector(Corners(solid, face.outer)).normalized();
 }
 
 // Where the vertices of a pitched roof lie in the plan once its eaves stand out.
-std::vector<Vector2d> OverhungPlan(const House& house, const Solid& solid,
-                                   const std::vector<int>& apex, const std::vector<Edge>& edges) {
+std::vector<Vector2d> OverhungPlan(const House& house, const Solid& solid) {
+  const std::vector<int> apex = Gables(house, solid);
+  const std::vector<double> overhangs = Overhangs(house, apex);
   std::vector<Vector2d> plan;
   for (const Vector3d& vertex : solid.vertices) plan.push_back(vertex.head<2>());
-  const int corners = CornerCount(house);
-  int start = 0;
+  auto eaves = plan.begin() + static_cast<int>(apex.size());  // above the corners of the floor
+  auto overhang = overhangs.begin();
   for (const plan::Ring& ring : house.outline.rings) {
-    std::vector<double> distances;
-    for (size_t i = 0; i < ring.size(); ++i) distances.push_back(edges[start + i].overhang_m);
-    const plan::Ring moved = Offset(ring, distances);
-    std::copy(moved.begin(), moved.end(), plan.begin() + corners + start);
-    start += static_cast<int>(ring.size());
+    const auto next = overhang + static_cast<int>(ring.size());
+    const plan::Ring moved = Offset(ring, {overhang, next});
+    eaves = std::copy(moved.begin(), moved.end(), eaves);
+    overhang = next;
   }
+  const std::vector<OutlineEdge> edges = EdgesOf(house.outline);
   for (size_t i = 0; i < edges.size(); ++i) {
-    if (apex[i] >= 0) plan[apex[i]] += edges[i].overhang_m * edges[i].outward;
+    if (apex[i] >= 0) plan[apex[i]] += overhangs[i] * edges[i].outward();
   }
   return plan;
 }
 
 Loop OverhungFace(const House& house, const Solid& solid, const Solid::Face& face) {
-  const std::vector<int> apex = Gables(house, solid);
-  const std::vector<Vector2d> plan = OverhungPlan(house, solid, apex, EdgesOf(house, apex));
+  const std::vector<Vector2d> plan = OverhungPlan(house, solid);
   const Vector3d normal = NormalOf(solid, face);
   const double offset = normal.dot(solid.vertices[face.outer[0]]);
   Loop loop;
@@ -175,7 +150,8 @@ bool FindPlace(const House& house, double from_edge, Random& random, Vector2d& p
   }
   for (int i = 0; i < 40; ++i) {
     place = {random.Uniform(low.x(), high.x()), random.Uniform(low.y(), high.y())};
-    if (Contains(house.outline, place) && DistanceToOutline(house.outline, place) > from_edge) {
+    if (plan::Contains(house.outline, place) &&
+        DistanceToOutline(house.outline, place) > from_edge) {
       return true;
     }
   }
@@ -192,7 +168,7 @@ RoofSheet LayRoofSheet(const House& house, const Solid& solid, const Solid::Face
     result.drawn = OverhungFace(house, solid, face);
     sheet.u = Vector3d::UnitZ().cross(normal).normalized();
   } else {
-    for (const int corner : face.outer) result.drawn.push_back(solid.vertices[corner]);
+    result.drawn = Corners(solid, face.outer);
     sheet.u = (result.drawn[1] - result.drawn[0]).normalized();
   }
   sheet.v = sheet.u.cross(normal);
@@ -235,7 +211,7 @@ void AddRoofThings(const House& house, const Solid& solid, const Trim& trim, Cit
     }
     return;
   }
-  const double area = AreaOf(house.outline);
+  const double area = plan::Area(house.outline);
   const bool large = house.use != HouseUse::kHome;
   if (large && FindPlace(house, 3, random, place)) {  // the head of the stairs
     AddBox(place, {3.2, random.Uniform(2.6, 4)}, along, house.eaves_m(),

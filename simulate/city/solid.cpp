@@ -48,6 +48,12 @@ Solid::Face Slab(const plan::Polygon& outline, int first, bool upwards) {
 
 }  // namespace
 
+Loop Corners(const Solid& solid, const std::vector<int>& ring) {
+  Loop loop;
+  for (const int corner : ring) loop.push_back(solid.vertices[corner]);
+  return loop;
+}
+
 Solid MakeSolid(const plan::Polygon& outline, double base_m, double eaves_m,
                 const std::optional<PitchedRoof>& roof) {
   Solid solid;

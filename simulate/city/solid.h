@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "plan/site.h"
+#include "simulate/city/facets.h"
 #include "simulate/city/pitched_roof.h"
 #include "survey/proxy.h"
 
@@ -25,6 +26,8 @@ struct Solid {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Face> faces;  // walls by edge, then roofs, then the floor
 };
+
+Loop Corners(const Solid& solid, const std::vector<int>& ring);
 
 // Walls from `base_m` to `eaves_m` with a flat roof, or with a pitched one on top.
 Solid MakeSolid(const plan::Polygon& outline, double base_m, double eaves_m,

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "plan/polygons.h"
 #include "simulate/city/footprints.h"
 #include "simulate/city/internal/layouts.h"
 #include "simulate/city/make_city.h"
@@ -16,43 +17,29 @@
 
 namespace stucco::simulate {
 namespace internal {
-namespace {
-
-size_t EdgeCount(const plan::Polygon& outline) {
-  size_t count = 0;
-  for (const plan::Ring& ring : outline.rings) count += ring.size();
-  return count;
-}
-
-}  // namespace
 
 void ClearEdges(House& house) {
-  house.party.assign(EdgeCount(house.outline), false);
-  house.front.assign(EdgeCount(house.outline), false);
+  const size_t count = EdgesOf(house.outline).size();
+  house.party.assign(count, false);
+  house.front.assign(count, false);
 }
 
 void MarkFront(const Eigen::Vector2d& direction, House& house) {
-  const plan::Ring& ring = house.outline.rings[0];
-  for (size_t i = 0; i < ring.size(); ++i) {
-    const Eigen::Vector2d u = (ring[(i + 1) % ring.size()] - ring[i]).normalized();
-    if (Eigen::Vector2d(u.y(), -u.x()).dot(direction.normalized()) > std::cos(0.52)) {
-      house.front[i] = true;
-    }
+  const double most_rad = std::numbers::pi / 6;
+  const std::vector<OutlineEdge> edges = EdgesOf({{house.outline.rings[0]}});
+  for (size_t i = 0; i < edges.size(); ++i) {
+    if (edges[i].outward().dot(direction.normalized()) > std::cos(most_rad)) house.front[i] = true;
   }
 }
 
 void MarkPartyWalls(std::vector<House>& houses) {
   for (House& house : houses) {
-    const plan::Ring& ring = house.outline.rings[0];
+    const std::vector<OutlineEdge> edges = EdgesOf(house.outline);
     for (const House& other : houses) {
       if (&other == &house) continue;
-      const plan::Ring& theirs = other.outline.rings[0];
-      for (size_t i = 0; i < ring.size(); ++i) {
-        for (size_t j = 0; j < theirs.size(); ++j) {
-          if (ring[i] == theirs[(j + 1) % theirs.size()] &&
-              ring[(i + 1) % ring.size()] == theirs[j]) {
-            house.party[i] = true;
-          }
+      for (const OutlineEdge& theirs : EdgesOf(other.outline)) {
+        for (size_t i = 0; i < edges.size(); ++i) {
+          if (edges[i].a == theirs.b && edges[i].b == theirs.a) house.party[i] = true;
         }
       }
     }
@@ -76,7 +63,7 @@ void PlantTrees(const Eigen::Vector2d& low, const Eigen::Vector2d& high, int cou
     const bool free =
         std::all_of(town.houses.begin(), town.houses.end(),
                     [&](const House& house) {
-                      return !Contains(house.outline, tree.position) &&
+                      return !plan::Contains(house.outline, tree.position) &&
                              DistanceToOutline(house.outline, tree.position) >
                                  tree.crown_m + kClearance_m;
                     }) &&
@@ -158,6 +145,21 @@ double Relief::HeightAt(const Eigen::Vector2d& position) const {
   const double turns = 2 * std::numbers::pi / wave_length_m;
   return rise * uphill.dot(position) + wave_m * std::sin(turns * across.dot(position)) *
                                            std::cos(0.7 * turns * uphill.dot(position));
+}
+
+int PatchAt(const Town& town, const Eigen::Vector2d& in_street_axes) {
+  const auto patch =
+      std::find_if(town.ground.begin(), town.ground.end(), [&](const GroundPatch& candidate) {
+        return (in_street_axes.array() >= candidate.low.array()).all() &&
+               (in_street_axes.array() <= candidate.high.array()).all();
+      });
+  return static_cast<int>(patch - town.ground.begin());
+}
+
+double GroundAt(const Town& town, const Eigen::Vector2d& position) {
+  const int patch = PatchAt(town, Eigen::Rotation2Dd(-town.turn_rad) * position);
+  const bool fields = patch == static_cast<int>(town.ground.size());
+  return town.relief.HeightAt(position) + (fields ? 0 : town.ground[patch].raise_m);
 }
 
 Town LayOutTown(const std::string& style, uint64_t seed) {

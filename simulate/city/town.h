@@ -78,6 +78,12 @@ struct Town {
   Relief relief;
 };
 
+// The first patch over a place in the axes of the ground, or the number of patches: open fields.
+int PatchAt(const Town& town, const Eigen::Vector2d& in_street_axes);
+
+// z of the ground, streets and pavements included, at a place in the frame of the scene.
+double GroundAt(const Town& town, const Eigen::Vector2d& position);
+
 // Houses, streets and what stands about, without walls' details. The same seed gives the same town,
 // others clearly different ones. Outlines never overlap; neighbours touch along whole walls.
 Town LayOutTown(const std::string& style, uint64_t seed);

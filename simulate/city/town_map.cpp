@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "plan/map/read_site.h"
+#include "simulate/city/footprints.h"
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/plan_frame.h"
@@ -76,12 +77,9 @@ struct Wall {
 std::vector<Wall> FreeWalls(const Town& town) {
   std::vector<Wall> walls;
   for (size_t h = 0; h < town.houses.size(); ++h) {
-    size_t edge = 0;
-    for (const plan::Ring& ring : town.houses[h].outline.rings) {
-      for (size_t i = 0; i < ring.size(); ++i, ++edge) {
-        if (town.houses[h].party[edge]) continue;
-        walls.push_back({h, edge, ring[i], ring[(i + 1) % ring.size()]});
-      }
+    const std::vector<OutlineEdge> edges = EdgesOf(town.houses[h].outline);
+    for (size_t i = 0; i < edges.size(); ++i) {
+      if (!town.houses[h].party[i]) walls.push_back({h, i, edges[i].a, edges[i].b});
     }
   }
   return walls;

@@ -13,7 +13,6 @@ using Eigen::Vector3d;
 
 constexpr double kFrame_m = 0.07;     // of windows, which is matt, around the pane
 constexpr double kBacking_m = 0.004;  // of the wall behind a balcony
-constexpr double kSlab_m = 0.18;      // at the lower edge of a balcony's picture
 constexpr double kRailing_m = 0.06;   // thickness
 
 struct Rect {
@@ -31,11 +30,9 @@ class WallBuilder {
   void Recess(const WallPart& part, const Rect& r) {
     const double back = part.relief_m;
     Reveal(r, back);
-    const bool has_pane = part.kind == PartKind::kWindow || part.kind == PartKind::kShopWindow ||
-                          part.kind == PartKind::kBalconyDoor;
     const Rect pane = {r.left + kFrame_m, r.right - kFrame_m, r.top + kFrame_m,
                        r.bottom - kFrame_m};
-    if (!has_pane || pane.left >= pane.right || pane.top >= pane.bottom) {
+    if (!HasPane(part) || pane.left >= pane.right || pane.top >= pane.bottom) {
       Front(r, back, shape_.sheet.material);
       return;
     }
@@ -49,7 +46,7 @@ class WallBuilder {
   void Balcony(const Rect& r, double out) {
     Trimmed({At(r.left, r.bottom, kBacking_m), At(r.right, r.bottom, kBacking_m),
              At(r.right, r.top, kBacking_m), At(r.left, r.top, kBacking_m)});
-    const double floor = r.bottom - kSlab_m;
+    const double floor = r.bottom - kBalconySlab_m;
     Front(r, out, shape_.sheet.material);
     Box({r.left, r.right, floor, r.bottom}, 0, out, /*with_front=*/false);
     Box({r.left, r.right, r.top, floor}, out - kRailing_m, out, /*with_front=*/false);
@@ -135,9 +132,8 @@ class WallBuilder {
              At(r.right, r.top, in)});
     Trimmed({At(r.right, r.bottom, in), At(r.right, r.bottom, out), At(r.left, r.bottom, out),
              At(r.left, r.bottom, in)});
-    const Rect back = r;
-    Trimmed({At(back.right, back.bottom, in), At(back.left, back.bottom, in),
-             At(back.left, back.top, in), At(back.right, back.top, in)});
+    Trimmed({At(r.right, r.bottom, in), At(r.left, r.bottom, in), At(r.left, r.top, in),
+             At(r.right, r.top, in)});
     if (with_front) TrimmedFront(r, out);
   }
 
@@ -158,6 +154,11 @@ Rect AboveBalconies(Rect r, const std::vector<WallPart>& parts) {
 }
 
 }  // namespace
+
+bool HasPane(const WallPart& part) {
+  return part.kind == PartKind::kWindow || part.kind == PartKind::kShopWindow ||
+         part.kind == PartKind::kBalconyDoor;
+}
 
 void AddWall(const WallShape& shape, const WallDesign& design, CityModel& model) {
   WallBuilder builder(shape, model);

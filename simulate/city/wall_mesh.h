@@ -20,6 +20,9 @@ struct WallShape {
   bool corner_right = false;  // cornices run around
 };
 
+// Whether a part's front is glass, which mirrors.
+bool HasPane(const WallPart& part);
+
 // The wall with its parts in relief. What is set back or stands out takes its front from the
 // picture at the place where it is seen at right angles; sides are trim. A balcony's front is
 // closed, and the wall behind it is trim too, as the picture shows the balcony there.

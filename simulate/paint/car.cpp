@@ -17,8 +17,8 @@ using internal::Grey;
 using internal::Smooth;
 using internal::Tile;
 
-constexpr float kLength_m = 4.4f;
-constexpr float kHeight_m = 1.5f;
+constexpr double kLength_m = 4.4;
+constexpr double kHeight_m = 1.5;
 
 Colour Lacquer(uint32_t seed) {
   // Shares follow what is on European roads: greys, white and black first.
@@ -42,12 +42,8 @@ Image PaintCar(uint64_t seed, double metres_per_texel) {
   const uint32_t mixed = internal::Hash(seed, 37);
   const Colour lacquer = Lacquer(mixed);
   const float texel = static_cast<float>(metres_per_texel);
-  Tile tile{0,
-            0,
-            std::max(1, static_cast<int>(std::ceil(kLength_m / texel - 1e-3f))),
-            std::max(1, static_cast<int>(std::ceil(kHeight_m / texel - 1e-3f))),
-            texel,
-            {}};
+  Tile tile{0,     0, Texels(kLength_m, metres_per_texel), Texels(kHeight_m, metres_per_texel),
+            texel, {}};
   tile.colours.assign(static_cast<size_t>(tile.width) * tile.height, lacquer);
   Fill(tile, tile.Extent(), [&](float x, float y, Colour) {
     // The upper half of the flank mirrors the sky, the lower the road.

@@ -64,30 +64,10 @@ void PaintDoor(Tile& tile, const WallLook& look, const WallPart& part) {
         [&](float, float y) { return 0.45f + 0.55f * Smooth(0, 0.3f, y - box.top); });
 }
 
-void PaintGarage(Tile& tile, const WallLook& look, const WallPart& part) {
-  const Box box = BoxOf(part);
-  const uint32_t seed = Hash(part.variant, 23, look.wall);
-  const bool sections = (seed & 1) != 0;
-  const float pitch = sections ? 0.5f : 0.09f;
-  const Colour colour = (seed & 2) != 0 ? FromSrgb(206, 204, 198) : look.shutter;
-  Fill(tile, box, [&](float x, float y, Colour) {
-    const int slat = Floor((y - box.top) / pitch);
-    const float within = y - box.top - static_cast<float>(slat) * pitch;
-    const float groove = Edge(0.008f - std::min(within, pitch - within), tile.texel_m);
-    const float tone = 0.05f * Noise(x, y, {0.8f, 6, 0.65f, seed}, tile.texel_m) +
-                       0.04f * Normal(slat, 0, seed) + 0.10f * (within / pitch - 0.5f);
-    const float foot = 0.35f * Smooth(0.5f, 0, box.bottom - y);
-    return colour * (Tone(tone - foot) * (1 - 0.6f * groove));
-  });
-  PaintFrame(tile, box, 0.06f, colour * 0.8f, seed);
-  Shade(tile, {box.left, box.top, box.right, box.top + 0.25f},
-        [&](float, float y) { return 0.5f + 0.5f * Smooth(0, 0.25f, y - box.top); });
-}
-
 void PaintBalcony(Tile& tile, const WallLook& look, const WallPart& part) {
   const Box box = BoxOf(part);
   const uint32_t seed = Hash(look.building, 25);
-  const float slab_m = std::min(0.2f, box.Height());
+  const float slab_m = std::min(static_cast<float>(kBalconySlab_m), box.Height());
   const Box slab = {box.left, box.bottom - slab_m, box.right, box.bottom};
   const Box rail = {box.left, box.top, box.right, slab.top};
   const float style = ToUnit(seed);

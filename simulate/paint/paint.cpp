@@ -20,20 +20,6 @@ using internal::WallLook;
 
 constexpr int kTile = 128;  // texels a side: 200 kB of linear light
 
-int Texels(double size_m, double metres_per_texel) {
-  constexpr double kMost = 65535;  // of a side of a JPEG, and well within an int
-  const double texels = std::ceil(size_m / metres_per_texel - 1e-9);
-  if (!(metres_per_texel > 0) || !(size_m > 0) || !(texels <= kMost)) {
-    throw Error(
-        ErrorKind::kBadInput,
-        fmt::format("a surface of {} m cannot be painted at {} m per texel: a picture has 1 "
-                    "to {} texels a side",
-                    size_m, metres_per_texel, kMost),
-        "choose larger texels");
-  }
-  return std::max(1, static_cast<int>(texels));
-}
-
 void Store(Tile& tile, Image& image) {
   for (int row = 0; row < tile.height; ++row) {
     uint8_t* to = image.Pixel(tile.x0, tile.y0 + row);
@@ -112,6 +98,20 @@ int Layer(PartKind kind) {
 
 }  // namespace
 
+int Texels(double side_m, double metres_per_texel) {
+  constexpr double kMost = 65535;  // of a side of a JPEG, and well within an int
+  const double texels = std::ceil(side_m / metres_per_texel - 1e-9);
+  if (!(metres_per_texel > 0) || !(side_m > 0) || !(texels <= kMost)) {
+    throw Error(
+        ErrorKind::kBadInput,
+        fmt::format("a surface of {} m cannot be painted at {} m per texel: a picture has 1 "
+                    "to {} texels a side",
+                    side_m, metres_per_texel, kMost),
+        "choose larger texels");
+  }
+  return std::max(1, static_cast<int>(texels));
+}
+
 Image PaintWall(const WallDesign& design, double metres_per_texel) {
   const int width = Texels(design.width_m, metres_per_texel);
   const int height = Texels(design.height_m, metres_per_texel);
@@ -134,15 +134,15 @@ Image PaintWall(const WallDesign& design, double metres_per_texel) {
 Image PaintCovering(const CoveringDesign& design, double metres_per_texel) {
   const int width = Texels(design.width_m, metres_per_texel);
   const int height = Texels(design.height_m, metres_per_texel);
-  const CoveringLook look{&design, internal::Hash(design.seed, 19),
-                          static_cast<float>(design.width_m), static_cast<float>(design.height_m)};
+  const uint32_t whole = internal::Hash(design.seed, 19);
+  const CoveringLook look{&design, whole,
+                          internal::Hash(whole, static_cast<uint32_t>(design.face), 29)};
   return InTiles(width, height, metres_per_texel, [&](Tile& tile) { PaintSurface(tile, look); });
 }
 
-Image PaintTrim(const WallDesign& design, double width_m, double height_m,
-                double metres_per_texel) {
-  const int width = Texels(width_m, metres_per_texel);
-  const int height = Texels(height_m, metres_per_texel);
+Image PaintTrim(const WallDesign& design, double metres_per_texel) {
+  const int width = Texels(design.width_m, metres_per_texel);
+  const int height = Texels(design.height_m, metres_per_texel);
   const WallLook look = internal::LookOf(design);
   const bool bare = !look.surrounds && design.cladding != Cladding::kGlass;
   return InTiles(width, height, metres_per_texel, [&](Tile& tile) {

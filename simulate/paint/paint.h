@@ -7,16 +7,21 @@
 
 namespace stucco::simulate {
 
-// The albedo (sRGB) of a wall at `metres_per_texel`, ceil(width / mpt) x ceil(height / mpt) texels,
-// the top-left corner of the top-left texel at the wall's top-left corner. Grain and joints down to
-// a texel, nothing repeats. Colours and weathering come from the facade pictures of the library.
+// Of a side of a picture: whole texels, the last of which may reach over the edge. Throws Error
+// (kBadInput) where there are none or more than a JPEG can have.
+int Texels(double side_m, double metres_per_texel);
+
+// The albedo (sRGB) of a wall at `metres_per_texel`, the top-left corner of the top-left texel at
+// the wall's top-left corner. Grain and joints down to a texel, nothing repeats. Colours and
+// weathering come from the facade pictures of the library.
 Image PaintWall(const WallDesign& design, double metres_per_texel);
 Image PaintCovering(const CoveringDesign& design, double metres_per_texel);
 
-// Small pictures for parts that are not on a wall's picture: reveals of windows, balcony slabs.
-Image PaintTrim(const WallDesign& design, double width_m, double height_m, double metres_per_texel);
+// For what is not on a wall's picture, reveals of windows and balcony slabs, a piece as large as
+// `design` in the material of its wall.
+Image PaintTrim(const WallDesign& design, double metres_per_texel);
 
-// Leaves with alpha, for trees; and the side of a parked car with alpha one, by `variant`.
+// Leaves with alpha, for trees; and the side of a parked car.
 Image PaintLeaves(uint64_t seed, int side_px);
 Image PaintCar(uint64_t seed, double metres_per_texel);
 

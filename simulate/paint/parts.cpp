@@ -63,9 +63,6 @@ void PaintPart(Tile& tile, const WallLook& look, const WallPart& part) {
     case PartKind::kShopWindow:
       PaintShopWindow(tile, look, part);
       break;
-    case PartKind::kGarage:
-      PaintGarage(tile, look, part);
-      break;
     case PartKind::kBalcony:
       PaintBalcony(tile, look, part);
       break;

@@ -15,11 +15,12 @@ enum class PartKind {
   kDoor,
   kShopWindow,
   kBalconyDoor,
-  kGarage,
   kBalcony,  // the slab's face and the railing as seen from the front
   kCornice,
   kPlinth,
 };
+
+constexpr double kBalconySlab_m = 0.18;  // at the lower edge of a balcony; the rest is railing
 
 // A thing on a wall, in metres on the wall's picture: x right from its left edge, y down from its
 // top edge, seen from outside.
@@ -52,7 +53,8 @@ struct CoveringDesign {
   double height_m = 0;
   Covering covering = Covering::kTiles;
   int palette = 0;
-  uint64_t seed = 0;
+  uint64_t seed = 0;  // the same for the faces of one roof: its tiles or sheets; stains differ
+  int face = 0;       // number of the face
 };
 
 }  // namespace stucco::simulate

@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <thread>
 #include <utility>
 
 #include "simulate/scene/internal/glb.h"
@@ -239,8 +238,7 @@ void WriteGlbFile(const Scene& scene, const std::vector<EncodedImage>& textures,
 
 void WriteGlb(const Scene& scene, const std::filesystem::path& path) {
   std::vector<internal::EncodedImage> textures(scene.textures.size());
-  const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  ParallelFor(textures.size(), threads,
+  ParallelFor(textures.size(), std::numeric_limits<int>::max(),
               [&](size_t i) { textures[i] = internal::EncodeForGlb(scene.textures[i]); });
   internal::WriteGlbFile(scene, textures, path);
 }

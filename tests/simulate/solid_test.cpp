@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plan/polygons.h"
 #include "simulate/city/footprints.h"
 
 namespace stucco::simulate {
@@ -60,7 +61,7 @@ TEST(Solid, FlatRoofGivesAPrism) {
   const plan::Polygon outline = Placed(CourtyardShape(20, 16, 5), 0.4, {30, 40});
   const Solid solid = MakeSolid(outline, -1, 9, std::nullopt);
   ExpectSound(solid);
-  EXPECT_NEAR(Volume(solid), AreaOf(outline) * 10, 1e-6);
+  EXPECT_NEAR(Volume(solid), plan::Area(outline) * 10, 1e-6);
 }
 
 TEST(Solid, GabledRectangleHasTheVolumeOfItsSection) {

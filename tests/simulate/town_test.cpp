@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "plan/polygons.h"
 #include "simulate/city/design_wall.h"
 #include "simulate/city/footprints.h"
 #include "simulate/city/ground.h"
@@ -78,7 +79,7 @@ TEST_P(Towns, GroundIsWhatHousesLeaveFree) {
     double free = 0;
     for (const Facet& facet : GroundFacets(town, MakeGroundGrid(town))) free += facet.area;
     double houses = 0;
-    for (const House& house : town.houses) houses += AreaOf(house.outline);
+    for (const House& house : town.houses) houses += plan::Area(house.outline);
     double covered = 0;
     const GroundGrid grid = MakeGroundGrid(town);
     for (int row = 0; row < grid.rows(); ++row) {
@@ -133,6 +134,16 @@ TEST_P(Towns, PartsLieOnTheirWallsApartFromEachOther) {
   }
 }
 
+TEST_P(Towns, RoofsHaveWhatKeepsRainOutAtTheirSlope) {
+  for (int seed = 0; seed < 200; ++seed) {
+    for (const House& house : LayOutTown(GetParam(), seed).houses) {
+      const bool for_flat =
+          house.covering == Covering::kMembrane || house.covering == Covering::kGravel;
+      ASSERT_EQ(house.roof == RoofShape::kFlat, for_flat) << "seed " << seed << " " << house.id;
+    }
+  }
+}
+
 TEST_P(Towns, SeedsMakeDifferentTownsAndTheSameSeedTheSame) {
   std::set<std::string> towns;
   for (int seed = 0; seed < 50; ++seed) towns.insert(Print(LayOutTown(GetParam(), seed)));
@@ -146,10 +157,10 @@ TEST_P(Towns, CarsAndTreesStandFree) {
     EXPECT_FALSE(town.trees.empty());
     for (const House& house : town.houses) {
       for (const Tree& tree : town.trees) {
-        ASSERT_FALSE(Contains(house.outline, tree.position)) << seed;
+        ASSERT_FALSE(plan::Contains(house.outline, tree.position)) << seed;
       }
       for (const Car& car : town.cars) {
-        ASSERT_FALSE(Contains(house.outline, car.position)) << seed;
+        ASSERT_FALSE(plan::Contains(house.outline, car.position)) << seed;
         ASSERT_GT(DistanceToOutline(house.outline, car.position), 1) << seed;
       }
     }

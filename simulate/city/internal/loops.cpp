@@ -7,7 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "simulate/city/footprints.h"
+#include "plan/polygons.h"
+#include "plan/space/plane.h"
 
 namespace stucco::simulate::internal {
 namespace {
@@ -41,10 +42,6 @@ std::multimap<Key, Key> FreeEdges(const std::vector<plan::Ring>& rings,
   return edges;
 }
 
-double Cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 plan::Ring WithoutStraightCorners(const plan::Ring& ring) {
   plan::Ring kept;
   const size_t n = ring.size();
@@ -52,7 +49,7 @@ plan::Ring WithoutStraightCorners(const plan::Ring& ring) {
     const Vector2d u = (ring[i] - ring[(i + n - 1) % n]).normalized();
     const Vector2d v = (ring[(i + 1) % n] - ring[i]).normalized();
     constexpr double kStraight = 1e-6;
-    if (std::abs(Cross(u, v)) > kStraight) kept.push_back(ring[i]);
+    if (std::abs(plan::Cross(u, v)) > kStraight) kept.push_back(ring[i]);
   }
   return kept;
 }
@@ -77,7 +74,7 @@ std::vector<plan::Ring> JoinLoops(const std::vector<plan::Ring>& rings) {
       double most = -4;
       for (auto edge = from; edge != to; ++edge) {
         const Vector2d ahead = points.at(edge->second) - points.at(at);
-        const double turn = std::atan2(Cross(heading, ahead), heading.dot(ahead));
+        const double turn = std::atan2(plan::Cross(heading, ahead), heading.dot(ahead));
         if (turn <= most) continue;
         most = turn;
         best = edge;
@@ -95,16 +92,16 @@ std::vector<plan::Ring> JoinLoops(const std::vector<plan::Ring>& rings) {
 std::vector<plan::Polygon> PolygonsOf(const std::vector<plan::Ring>& loops) {
   std::vector<plan::Polygon> polygons;
   for (const plan::Ring& loop : loops) {
-    if (AreaOf(loop) > 0) polygons.push_back({{loop}});
+    if (plan::SignedArea(loop) > 0) polygons.push_back({{loop}});
   }
   std::stable_sort(polygons.begin(), polygons.end(), [](const auto& a, const auto& b) {
-    return AreaOf(a.rings[0]) < AreaOf(b.rings[0]);
+    return plan::SignedArea(a.rings[0]) < plan::SignedArea(b.rings[0]);
   });
   for (const plan::Ring& loop : loops) {
-    if (AreaOf(loop) > 0) continue;
+    if (plan::SignedArea(loop) > 0) continue;
     for (plan::Polygon& polygon : polygons) {
-      if (AreaOf(polygon.rings[0]) <= -AreaOf(loop)) continue;
-      if (!Contains({{polygon.rings[0]}}, loop[0])) continue;
+      if (plan::SignedArea(polygon.rings[0]) <= -plan::SignedArea(loop)) continue;
+      if (!plan::Contains({{polygon.rings[0]}}, loop[0])) continue;
       polygon.rings.push_back(loop);
       break;
     }

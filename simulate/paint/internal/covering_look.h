@@ -10,13 +10,12 @@ namespace stucco::simulate::internal {
 
 struct CoveringLook {
   const CoveringDesign* design = nullptr;
+  uint32_t whole = 0;  // seed of what all faces of a roof have in common
   uint32_t seed = 0;
-  float width_m = 0;
-  float height_m = 0;
 };
 
 inline float Trait(const CoveringLook& look, int which) {
-  return Uniform(which, 78, look.seed);
+  return Uniform(which, 78, look.whole);
 }
 
 void PaintTiles(Tile& tile, const CoveringLook& look);

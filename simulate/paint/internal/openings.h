@@ -15,7 +15,6 @@ void PaintFrame(Tile& tile, const Box& box, float bar_m, Colour colour, uint32_t
 void PaintWindow(Tile& tile, const WallLook& look, const WallPart& part);
 void PaintDoor(Tile& tile, const WallLook& look, const WallPart& part);
 void PaintShopWindow(Tile& tile, const WallLook& look, const WallPart& part);
-void PaintGarage(Tile& tile, const WallLook& look, const WallPart& part);
 void PaintBalcony(Tile& tile, const WallLook& look, const WallPart& part);
 void PaintCornice(Tile& tile, const WallLook& look, const WallPart& part);
 void PaintPlinth(Tile& tile, const WallLook& look, const WallPart& part);
