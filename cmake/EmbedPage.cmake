@@ -6,7 +6,7 @@
 # path is put into SOURCE. The header declares PageStyle() and PageScript().
 function(embed_page variable)
   cmake_parse_arguments(P "" "HEADER;NAMESPACE" "STYLES;SCRIPTS" ${ARGN})
-  set(script ${PROJECT_SOURCE_DIR}/report/web/embed.cmake)
+  set(script ${PROJECT_SOURCE_DIR}/cmake/embed_page.cmake)
   list(JOIN P_STYLES "," styles)
   list(JOIN P_SCRIPTS "," scripts)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/web_assets.cpp)

@@ -38,10 +38,8 @@ class Neighbours {
 // costs n instead of n per growth ring. Unlike CGAL's own, the two sides of a thin wall stay apart.
 class PlaneRegion {
  public:
-  PlaneRegion(const Samples& samples, const std::vector<double>& agreement,
-              const DetectOptions& options)
+  PlaneRegion(const Samples& samples, const DetectOptions& options)
       : samples_(samples),
-        agreement_(agreement),
         options_(options),
         min_cos_(std::cos(options.normal_angle_deg * std::numbers::pi / 180)) {}
 
@@ -89,7 +87,6 @@ class PlaneRegion {
   }
 
   const Samples& samples_;
-  const std::vector<double>& agreement_;
   const DetectOptions& options_;
   double min_cos_;
   Eigen::Vector3d seed_ = Eigen::Vector3d::Zero();  // origin of the sums and of the offset
@@ -113,7 +110,7 @@ std::vector<Plane> DetectPlanes(const Samples& samples, const GridIndex& index,
   std::stable_sort(seeds.begin(), seeds.end(),
                    [&](size_t a, size_t b) { return agreement[a] > agreement[b]; });
   Neighbours neighbours(samples, index, options.radius);
-  PlaneRegion region_type(samples, agreement, options);
+  PlaneRegion region_type(samples, options);
   std::erase_if(seeds, [&](size_t i) { return agreement[i] < kLeastAgreement; });
   seeds.resize(samples.size(), static_cast<size_t>(-1));  // CGAL skips these
   const auto seed_map = CGAL::make_property_map(seeds);

@@ -20,7 +20,7 @@ struct DetectOptions {
 // Planes by region growing from the samples whose neighbours agree best (Rabbani, van den Heuvel,
 // Vosselman, "Segmentation of point clouds using smoothness constraint", 2006; CGAL
 // Shape_detection), largest first. `agreement` is what SmoothNormals returned: samples whose
-// neighbours look every way (leaves) belong to no plane.
+// neighbours look every way (leaves) begin no plane.
 std::vector<Plane> DetectPlanes(const Samples& samples, const GridIndex& index,
                                 const std::vector<double>& agreement, const DetectOptions& options);
 

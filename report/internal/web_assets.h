@@ -7,7 +7,7 @@
 namespace stucco::internal {
 
 // The page's own style sheet and script: the files of report/web, put into a source file by
-// report/web/embed.cmake when the program is built.
+// cmake/embed_page.cmake when the program is built.
 std::string_view PageStyle();
 std::string_view PageScript();
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the Stucco authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake -DOUT=file.cpp -DSTYLES=a.css,b.css -DSCRIPTS=a.js,b.js -DHEADER=report/internal/web_assets.h
-#   -DNAMESPACE=stucco::internal -P embed.cmake
+# cmake -DOUT=file.cpp -DSTYLES=a.css,b.css -DSCRIPTS=a.js,b.js
+#   -DHEADER=report/internal/web_assets.h -DNAMESPACE=stucco::internal -P embed_page.cmake
 # Writes a source file with the texts of a page, for the header that declares PageStyle() and
 # PageScript(). The licence lines stay in the files and not in every page.
 function(joined_text variable files)
@@ -22,7 +22,7 @@ endfunction()
 
 joined_text(style "${STYLES}")
 joined_text(script "${SCRIPTS}")
-file(WRITE "${OUT}" "// Made from report/web by report/web/embed.cmake.\n"
+file(WRITE "${OUT}" "// Made by cmake/embed_page.cmake.\n"
   "#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\n\n"
   "std::string_view PageStyle() {\n  return R\"web(${style})web\";\n}\n\n"
   "std::string_view PageScript() {\n  return R\"web(${script})web\";\n}\n\n"
