@@ -26,7 +26,7 @@ constexpr double kShiftStep_m = 0.5;
 constexpr double kReach_m = 2;
 constexpr double kLeastCosine = 0.966;  // 15 degrees: a frame from GPS may be turned a little
 constexpr double kLeastOverlap = 0.5;   // of the shorter of wall and facade
-constexpr double kLeastFound = 0.5;     // of the length of all walls, or of all facades
+constexpr double kLeastFound = 0.5;     // of all walls, or of all facades, by length and nearness
 constexpr double kShortest_m = 0.1;     // as the planner's shortest facade
 
 // A wall beside a facade, in the facade's own directions.
@@ -173,27 +173,33 @@ Eigen::Vector2d Refined(const std::vector<Candidate>& candidates, size_t walls,
   return shift;
 }
 
+double TotalLength(const std::vector<WallLine>& lines) {
+  double sum = 0;
+  for (const WallLine& line : lines) sum += line.length_m();
+  return sum;
+}
+
 // Whether enough walls find a facade, or enough facades a wall, to believe that the plan is of
-// this place.
+// this place. The nearer they lie, the more they count: where the plan is of another part of a town
+// with straight streets, some shift brings half of its facades within reach, at any distance.
 bool IsOfThisPlace(const std::vector<Matches>& matches, const std::vector<WallLine>& walls,
-                   const std::vector<WallLine>& facades) {
-  std::set<int> found;
+                   const std::vector<WallLine>& facades, const Eigen::Vector2d& shift) {
   double walls_found = 0;
-  double walls_all = 0;
+  std::vector<double> found(facades.size(), 0);
   for (size_t w = 0; w < walls.size(); ++w) {
-    walls_all += walls[w].length_m();
-    if (matches[w].empty()) continue;
-    walls_found += walls[w].length_m();
-    for (const Candidate* match : matches[w]) found.insert(match->facade);
+    double of_wall = 0;
+    for (const Candidate* match : matches[w]) {
+      of_wall += match->Fit(shift);
+      found[match->facade] += match->Fit(shift);
+    }
+    walls_found += std::min(of_wall, walls[w].length_m());
   }
   double facades_found = 0;
-  double facades_all = 0;
   for (size_t f = 0; f < facades.size(); ++f) {
-    facades_all += facades[f].length_m();
-    if (found.contains(static_cast<int>(f))) facades_found += facades[f].length_m();
+    facades_found += std::min(found[f], facades[f].length_m());
   }
-  return !found.empty() &&
-         (walls_found >= kLeastFound * walls_all || facades_found >= kLeastFound * facades_all);
+  return walls_found > 0 && (walls_found >= kLeastFound * TotalLength(walls) ||
+                             facades_found >= kLeastFound * TotalLength(facades));
 }
 
 }  // namespace
@@ -220,7 +226,7 @@ std::optional<Eigen::Vector2d> FindShift(const std::vector<WallLine>& walls,
   if (candidates.empty()) return std::nullopt;
   const Eigen::Vector2d shift =
       Refined(candidates, walls.size(), BestOnGrid(candidates, walls.size()));
-  if (!IsOfThisPlace(MatchesOf(candidates, walls.size(), shift), walls, facades))
+  if (!IsOfThisPlace(MatchesOf(candidates, walls.size(), shift), walls, facades, shift))
     return std::nullopt;
   return shift;
 }

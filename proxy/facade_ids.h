@@ -26,7 +26,7 @@ WallLine LineOf(const Facet& wall);
 // How far the facades have to be moved, east and north, to lie on the walls: the shift on which
 // most metres of wall find a facade that is parallel, faces the same way and runs beside them. GPS
 // puts a whole survey some metres off. Nothing where fewer than half of the walls, or of the
-// facades where those are fewer, find one.
+// facades where those are fewer, find one; near ones count more.
 std::optional<Eigen::Vector2d> FindShift(const std::vector<WallLine>& walls,
                                          const std::vector<WallLine>& facades);
 

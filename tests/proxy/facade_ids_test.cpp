@@ -129,6 +129,45 @@ TEST(FacadeIds, APlanOfAnotherPlaceMatchesNothing) {
   EXPECT_FALSE(FindShift(Street(), {{{1, 1}, {1, 1}}}));
 }
 
+// Detached houses in rows that all streets of the quarter follow.
+std::vector<WallLine> Quarter(uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto between = [&](double from, double to) {
+    return from + (to - from) * (random() % 1001) / 1000.0;
+  };
+  std::vector<WallLine> lines;
+  for (int i = 0; i < 16; ++i) {
+    const double x = 24.0 * (i % 4) + between(-3, 3);
+    const double y = 24.0 * (i / 4) + between(-3, 3);
+    const double w = between(9, 16);
+    const double h = between(9, 16);
+    Append(Walls({{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}}), lines);
+  }
+  return lines;
+}
+
+// Maps may be off by more than GPS is: by hundreds of metres in some countries. By chance some
+// shift brings half of the walls of a regular quarter within two metres of a wrong facade.
+TEST(FacadeIds, APlanOfAnotherQuarterOfTheTownMatchesNothing) {
+  for (uint32_t seed = 0; seed < 20; ++seed) {
+    EXPECT_FALSE(FindShift(Quarter(seed), Quarter(seed + 100))) << seed;
+  }
+}
+
+TEST(FacadeIds, WallsStandBehindTheEavesThatMapsTrace) {
+  const std::vector<WallLine> walls = Quarter(1);
+  std::vector<WallLine> facades = Moved(walls, {-4, 6});
+  for (WallLine& line : facades) {
+    const Vector2d along = (line.b - line.a).normalized();
+    const Vector2d outwards(along.y(), -along.x());
+    line = {line.a + 0.8 * (outwards - along), line.b + 0.8 * (outwards + along)};
+  }
+  const auto found = FindShift(walls, facades);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR((*found - Vector2d(4, -6)).norm(), 0, 0.1);
+  EXPECT_EQ(MatchWalls(walls, facades, *found), OneEach(facades.size()));
+}
+
 // Houses 6 m wide and 6 m apart: moved by 12 m, all but one stand where another does.
 std::vector<WallLine> RowOfHouses(int count) {
   std::vector<WallLine> lines;
