@@ -38,6 +38,10 @@ def percent(value):
     return "-" if value is None else f"{100 * value:.1f} %"
 
 
+def of_all(count, everything):
+    return f"{count} / {everything}" if everything else "-"
+
+
 def flight_cells(figures):
     plan = figures.get("plan") or {}
     return [plan.get("photos", "-"), plan.get("hovers", "-"),
@@ -49,7 +53,7 @@ def flight_cells(figures):
 def geometry_cells(figures):
     poses, dense, proxy = figures["poses"], figures["dense"], figures["proxy"]
     position = poses["position_mean_m"]
-    return [f"{poses['posed']} / {poses['total']}",
+    return [of_all(poses["posed"], poses["total"]),
             surveys.number(None if position is None else 1000 * position, 1),
             surveys.number(poses["rotation_mean_deg"], 4),
             surveys.number(poses["georeferenced_mean_m"]),
@@ -58,8 +62,8 @@ def geometry_cells(figures):
             surveys.number(proxy["error95_m"], 3), percent(proxy["completeness"]),
             percent(proxy["completeness_all"]),
             surveys.number(proxy["wall_error95_m"], 3), percent(proxy["wall_completeness"]),
-            f"{proxy['watertight']} / {proxy['truth_buildings']}",
-            f"{proxy['facets']} / {proxy['truth_facets']}", percent(proxy["facade_id_rate"])]
+            of_all(proxy["watertight"], proxy["truth_buildings"]),
+            of_all(proxy["facets"], proxy["truth_facets"]), percent(proxy["facade_id_rate"])]
 
 
 def painted_share(facades):

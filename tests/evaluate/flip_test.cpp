@@ -45,6 +45,16 @@ TEST(Flip, OfPlainGreysFollowsFromTheirLightness) {
               grey * 0.95 / (0.4 * largest), 1e-4);
 }
 
+// By direct sums over two-dimensional kernels in double precision (numpy), with a matrix that
+// follows from the primaries and the white of sRGB.
+TEST(Flip, AgreesWithAnIndependentProgram) {
+  const PicturePair pair{Waves(240, 200), Waves(240, 200, 1.5, 0.5), {}};
+  const FlipMap map = Flip(pair);
+  EXPECT_NEAR(MeanError(map), 0.252868, 2e-5);
+  EXPECT_NEAR(map.error[size_t{100} * 240 + 120], 0.112350, 1e-4);
+  EXPECT_NEAR(MeanError(Flip(pair, 30)), 0.295837, 2e-5);
+}
+
 TEST(Flip, SeesAnEdgeThatIsMissing) {
   // Far from the edge the halves are equal; at the edge its difference raises the colour's error.
   Image step = Plain(80, 40, 100, 100, 100);

@@ -133,6 +133,15 @@ TEST(Psnr, HasALimitForEqualPictures) {
   EXPECT_EQ(Psnr({truth, truth, {}}), kMaxPsnr_db);
 }
 
+// By the papers' formulas in double precision (numpy). The weights of the five scales add up to
+// 1.0001, which is taken off here and was not there.
+TEST(Structure, AgreesWithAnIndependentProgram) {
+  const PicturePair pair{Waves(240, 200), Waves(240, 200, 1.5, 0.5), {}};
+  EXPECT_NEAR(Ssim(pair), 0.7288668, 1e-6);
+  EXPECT_NEAR(MultiScaleSsim(pair), std::pow(0.8994454, 1 / 1.0001), 1e-6);
+  EXPECT_NEAR(Gmsd(pair), 0.1400878, 1e-6);
+}
+
 TEST(Structure, WhatTheMaskHidesDoesNotMatter) {
   const Image truth = Waves(260, 240);
   const Image result = Noisy(truth, 10);
