@@ -8,6 +8,7 @@
 #include "evaluate/picture/lpips.h"
 #include "evaluate/picture/measure.h"
 #include "evaluate/picture/page_pictures.h"
+#include "evaluate/picture/photo_light.h"
 #include "evaluate/picture/tone.h"
 #include "simulate/scene/scene_folder.h"
 #include "survey/srgb.h"
@@ -36,6 +37,7 @@ Similarity ModelFromScene(const TextureComparison& comparison) {
 }
 
 struct View {
+  Camera camera;
   Image photo;
   Image model;  // codes of the textures
   std::vector<uint8_t> mask;
@@ -65,22 +67,22 @@ View MakeView(const TextureComparison& comparison, const Renderer& model, const 
               const std::filesystem::path& flight_folder, int side_px) {
   View view;
   view.photo = ReadJpeg(flight_folder / simulate::kTruthFolder / flown.path, 3, side_px);
-  const Camera camera = Resized(flown.camera, view.photo.width_px, view.photo.height_px);
+  view.camera = Resized(flown.camera, view.photo.width_px, view.photo.height_px);
   const Pose cam_from_model = Transformed(flown.cam_from_world, ModelFromScene(comparison));
   const simulate::RenderOptions all{.threads = comparison.threads, .left_out = {}};
   const simulate::RenderOptions without{.threads = comparison.threads,
                                         .left_out = comparison.occluders};
-  view.model = Codes(model.Photograph(camera, cam_from_model, {.lit = false}, all));
-  view.mask = MaskOf(model.Depth(camera, cam_from_model, all),
-                     comparison.scene.Depth(camera, flown.cam_from_world, all),
-                     comparison.scene.Depth(camera, flown.cam_from_world, without));
+  view.model = Codes(model.Photograph(view.camera, cam_from_model, {.lit = false}, all));
+  view.mask = MaskOf(model.Depth(view.camera, cam_from_model, all),
+                     comparison.scene.Depth(view.camera, flown.cam_from_world, all),
+                     comparison.scene.Depth(view.camera, flown.cam_from_world, without));
   return view;
 }
 
-// What a photo's own exposure and white balance make of a survey's mean light.
-std::array<double, 3> OwnGains(const FlownPhoto& flown) {
-  const Eigen::Vector3d gains = flown.exposure * flown.white_balance;
-  return {gains.x(), gains.y(), gains.z()};
+double RadiusAt(const View& view, size_t pixel) {
+  const size_t width = view.photo.width_px;
+  return RadiusSquared(view.camera, static_cast<double>(pixel % width) + 0.5,
+                       static_cast<double>(pixel / width) + 0.5);
 }
 
 std::vector<float> LightOf(const Image& image) {
@@ -90,22 +92,27 @@ std::vector<float> LightOf(const Image& image) {
   return light;
 }
 
-LightPairs PairsOfLight(const View& view, const std::array<double, 3>& own_gains) {
-  LightPairs pairs;
+std::vector<LightSample> SamplesOf(const View& view) {
+  std::vector<LightSample> samples;
   const std::vector<float> photo = LightOf(view.photo);
-  std::vector<float> model = LightOf(view.model);
-  for (size_t i = 0; i < model.size(); ++i) model[i] *= static_cast<float>(own_gains[i % 3]);
+  const std::vector<float> model = LightOf(view.model);
   for (size_t i = 0; i < view.mask.size(); ++i) {
-    if (view.mask[i] != 0) pairs.Add(&model[3 * i], &photo[3 * i]);
+    if (view.mask[i] == 0) continue;
+    const auto ratios = LogRatios(&model[3 * i], &photo[3 * i]);
+    if (ratios) samples.push_back({*ratios, RadiusAt(view, i)});
   }
-  return pairs;
+  return samples;
 }
 
-PicturePair AtThePhotosExposure(const View& view, std::array<double, 3> gains,
-                                const std::array<double, 3>& own_gains) {
-  for (size_t c = 0; c < 3; ++c) gains[c] *= own_gains[c];
+// What the model would look like to the photo's camera.
+PicturePair Pair(const View& view, const std::array<double, 3>& gains, const Falloff& falloff) {
+  std::vector<float> light = LightOf(view.model);
+  for (size_t i = 0; i < view.mask.size(); ++i) {
+    const double arriving = falloff.At(RadiusAt(view, i));
+    for (size_t c = 0; c < 3; ++c) light[3 * i + c] *= static_cast<float>(arriving);
+  }
   const ImageSize size{view.photo.width_px, view.photo.height_px};
-  return {view.photo, Developed(LightOf(view.model), size, gains), view.mask};
+  return {view.photo, Developed(light, size, gains), view.mask};
 }
 
 }  // namespace
@@ -120,22 +127,22 @@ std::vector<HeldOutFigures> CompareViews(const TextureComparison& comparison,
   if (held_out.empty()) return {};
   const Renderer model(
       simulate::ReadScene(comparison.texture_folder / comparison.textures.model_glb));
-  LightPairs pairs;
+  std::vector<std::vector<LightSample>> samples;
   for (const FlownPhoto* photo : held_out) {
-    pairs.Append(PairsOfLight(MakeView(comparison, model, *photo, flight_folder, kGainSide_px),
-                              OwnGains(*photo)));
+    samples.push_back(SamplesOf(MakeView(comparison, model, *photo, flight_folder, kGainSide_px)));
   }
-  const std::array<double, 3> gains = FitGains(std::move(pairs));
+  const PhotoLight fitted = FitPhotoLight(samples);
   std::optional<Lpips> lpips;
   if (!comparison.lpips_model.empty()) lpips.emplace(comparison.lpips_model);
   std::vector<HeldOutFigures> figures;
-  for (const FlownPhoto* photo : held_out) {
-    const View view = MakeView(comparison, model, *photo, flight_folder, kViewSide_px);
-    const PicturePair pair = AtThePhotosExposure(view, gains, OwnGains(*photo));
+  for (size_t i = 0; i < held_out.size(); ++i) {
+    const FlownPhoto& photo = *held_out[i];
+    const PicturePair pair = Pair(MakeView(comparison, model, photo, flight_folder, kViewSide_px),
+                                  fitted.gains[i], fitted.falloff);
     const MeasuredPair measured = MeasurePair(pair, lpips ? &*lpips : nullptr);
-    const PagePictures names = WritePagePictures(
-        pair, measured.flip, comparison.output, PictureStem(figures.size(), "view-" + photo->path));
-    figures.push_back({photo->path, measured.figures, names.truth, names.result, names.error});
+    const PagePictures names = WritePagePictures(pair, measured.flip, comparison.output,
+                                                 PictureStem(i, "view-" + photo.path));
+    figures.push_back({photo.path, measured.figures, names.truth, names.result, names.error});
   }
   return figures;
 }

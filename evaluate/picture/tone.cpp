@@ -69,11 +69,18 @@ Image Developed(std::span<const float> radiance_rgb, ImageSize size,
   return image;
 }
 
-void LightPairs::Add(const float* truth_rgb, const float* result_rgb) {
+std::optional<std::array<double, 3>> LogRatios(const float* from_rgb, const float* to_rgb) {
+  std::array<double, 3> ratios;
   for (int c = 0; c < 3; ++c) {
-    if (!(truth_rgb[c] > kDark && result_rgb[c] > kDark && result_rgb[c] < kBright)) return;
+    if (!(from_rgb[c] > kDark && to_rgb[c] > kDark && to_rgb[c] < kBright)) return std::nullopt;
+    ratios[c] = std::log(to_rgb[c] / from_rgb[c]);
   }
-  for (int c = 0; c < 3; ++c) log_ratios[c].push_back(std::log(result_rgb[c] / truth_rgb[c]));
+  return ratios;
+}
+
+void LightPairs::Add(const float* truth_rgb, const float* result_rgb) {
+  const auto ratios = LogRatios(truth_rgb, result_rgb);
+  for (int c = 0; ratios && c < 3; ++c) log_ratios[c].push_back((*ratios)[c]);
 }
 
 void LightPairs::Append(const LightPairs& other) {

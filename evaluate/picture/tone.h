@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,11 +22,14 @@ float LightOfCode(uint8_t code);  // of the code's middle
 Image Developed(std::span<const float> radiance_rgb, ImageSize size,
                 const std::array<double, 3>& gains);
 
+// Logarithms of `to` over `from` by channel; nothing where a channel is too dark or too bright to
+// say anything.
+std::optional<std::array<double, 3>> LogRatios(const float* from_rgb, const float* to_rgb);
+
 // Pairs of light on the same spots: what the scene sends and what the result says of it.
 struct LightPairs {
   std::array<std::vector<double>, 3> log_ratios;  // result over truth, by channel
 
-  // Takes the spot unless a channel is too dark or too bright to say anything.
   void Add(const float* truth_rgb, const float* result_rgb);
   void Append(const LightPairs& other);
 };

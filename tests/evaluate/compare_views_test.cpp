@@ -6,6 +6,7 @@
 
 #include "evaluate/picture/compare_textures.h"
 #include "evaluate/picture/tone.h"
+#include "simulate/flight/sensor.h"
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/srgb.h"
@@ -33,11 +34,18 @@ FlownPhoto MadePhoto(const std::string& path, double exposure) {
   return photo;
 }
 
+constexpr double kLost = 0.3;  // light in the farthest corner
+
 // The picture of a model that carries its light, as the photo's sensor records it.
 Image Recorded(const Renderer& model, const FlownPhoto& photo) {
   simulate::Radiance radiance =
       model.Photograph(photo.camera, photo.cam_from_world, {.lit = false});
-  for (float& light : radiance.rgb) light = LightOfCode(SrgbCode(light));
+  for (size_t i = 0; i < radiance.rgb.size(); ++i) {
+    const Eigen::Vector2d pixel(i / 3 % photo.camera.width_px + 0.5,
+                                i / 3 / photo.camera.width_px + 0.5);
+    radiance.rgb[i] = LightOfCode(SrgbCode(radiance.rgb[i])) *
+                      static_cast<float>(simulate::Vignetting(photo.camera, kLost, pixel));
+  }
   const Eigen::Vector3d gains = 0.8 * photo.exposure * photo.white_balance;
   return Developed(radiance.rgb, {photo.camera.width_px, photo.camera.height_px},
                    {gains.x(), gains.y(), gains.z()});
