@@ -6,14 +6,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
+#include "evaluate/attempt.h"
 #include "evaluate/geometry/cloud.h"
 #include "evaluate/geometry/compare_proxy.h"
 #include "evaluate/geometry/poses.h"
 #include "evaluate/geometry/seen.h"
 #include "evaluate/measure_pictures.h"
+#include "evaluate/picture/lpips.h"
 #include "evaluate/plan_figures.h"
 #include "evaluate/truth.h"
 #include "simulate/scene/scene_folder.h"
@@ -32,10 +35,6 @@ constexpr char kMeshFile[] = "dense/mesh.ply";
 constexpr size_t kTruthSamples = 200000;  // a share is then known to 0.1 %
 constexpr uint64_t kSeed = 1;
 
-bool IsOccluder(const std::string& element) {
-  return element.starts_with(simulate::kOccluderPrefix);
-}
-
 // The scene as geometry, made once for every measure that needs it.
 struct SceneShape {
   Surface relief;           // buildings and ground with all they have standing out
@@ -49,10 +48,8 @@ SceneShape ShapeOf(const simulate::Scene& scene, const Truth& truth, int threads
       SurfaceIndex(SurfaceOf(scene, [](const std::string&) { return true; })),
       {}};
   const std::vector<SurfacePoint> points = SamplePoints(shape.relief, kTruthSamples, kSeed);
-  std::vector<Vector3d> positions;
-  for (const SurfacePoint& point : points) positions.push_back(point.position);
   const std::vector<double> away =
-      Distances(positions, SurfaceIndex(BuildingSurface(truth.facets)), threads);
+      Distances(Positions(points), SurfaceIndex(BuildingSurface(truth.facets)), threads);
   for (size_t i = 0; i < points.size(); ++i) {
     if (away[i] <= kGroundReachM) shape.wanted.points.push_back(points[i]);
   }
@@ -71,8 +68,8 @@ class Evaluator {
   }
 
   Evaluation Run() {
-    MeasurePlan();
-    MeasurePoses();
+    Try("the plan is", [&] { MeasurePlan(); });
+    Try("poses, and what lies in their frame, are", [&] { MeasurePoses(); });
     if (truth_from_world_) MeasureResults();
     return std::move(evaluation_);
   }
@@ -84,6 +81,9 @@ class Evaluator {
     return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
   }
   void Note(std::string note) { evaluation_.notes.push_back(std::move(note)); }
+  void Try(const char* measured, const std::function<void()>& measure) {
+    Attempt(measured, measure, evaluation_);
+  }
   // Whether the survey has a file; if not, says what is therefore not measured.
   bool Has(const char* file, const char* measured) {
     if (fs::exists(request_.survey / file)) return true;
@@ -118,21 +118,26 @@ class Evaluator {
     const bool has_proxy = Has(kFacetsFile, "the model is");
     const bool has_textures = Has(kTexturesFile, "textures and views are") && has_proxy;
     if (!has_cloud && !has_mesh && !has_proxy) return;
-    simulate::Scene scene = simulate::ReadScene(request_.scene);
-    MeasureShapes(scene, has_cloud, has_mesh, has_proxy);
-    if (has_textures) {
-      MeasurePictures(request_, truth_, std::move(scene), *truth_from_world_, evaluation_);
-    }
+    Try("surfaces and pictures are", [&] {
+      simulate::Scene scene = simulate::ReadScene(request_.scene);
+      MeasureShapes(scene, has_cloud, has_mesh, has_proxy);
+      if (!has_textures) return;
+      Try("textures and views are", [&] {
+        MeasurePictures(request_, truth_, std::move(scene), *truth_from_world_, evaluation_);
+      });
+    });
   }
 
   void MeasureShapes(const simulate::Scene& scene, bool has_cloud, bool has_mesh, bool has_proxy) {
     const SceneShape shape = ShapeOf(scene, truth_, request_.threads);
-    if (has_cloud) {
-      evaluation_.dense = CompareCloud(request_.survey / kCloudFile, *truth_from_world_,
-                                       shape.everything, shape.wanted, tolerance(), threads());
-    }
-    if (has_mesh) MeasureMesh(shape);
-    if (has_proxy) MeasureProxy(shape);
+    if (has_cloud) Try("the cloud is", [&] { MeasureCloud(shape); });
+    if (has_mesh) Try("the mesh is", [&] { MeasureMesh(shape); });
+    if (has_proxy) Try("the model is", [&] { MeasureProxy(shape); });
+  }
+
+  void MeasureCloud(const SceneShape& shape) {
+    evaluation_.dense = CompareCloud(request_.survey / kCloudFile, *truth_from_world_,
+                                     shape.everything, shape.wanted, tolerance(), threads());
   }
 
   void MeasureMesh(const SceneShape& shape) {
@@ -172,6 +177,9 @@ Evaluation Evaluate(const EvaluateRequest& request) {
   if (!fs::is_directory(request.survey)) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: no such survey", request.survey.string()));
   }
+  // Before anything that takes minutes.
+  if (!request.output.empty()) MakeOutputFolder(request.output);
+  if (!request.lpips_model.empty()) Lpips{request.lpips_model};
   const fs::path& flight = request.flight.empty() ? request.survey : request.flight;
   return Evaluator(request, ReadTruth(request.scene, flight)).Run();
 }

@@ -19,13 +19,16 @@ struct EvaluateRequest {
   int threads = 0;
 };
 
-// Measures every result of the survey against the truth. What a stage has not made yet is not
-// measured and noted. Throws Error (kBadInput) where the scene or the flight has no truth.
+// Measures every result of the survey against the truth. What a stage has not made yet, or what
+// cannot be read, is not measured and noted. Throws Error (kBadInput) where the scene or the flight
+// has no truth, and where the network for LPIPS or the output folder is of no use.
 Evaluation Evaluate(const EvaluateRequest& request);
 
+// Throws Error (kBadInput) where it cannot be.
+void MakeOutputFolder(const std::filesystem::path& output);
 // evaluation.json (docs/formats.md); what was not measured is null.
 std::string EvaluationJson(const Evaluation& evaluation);
-// evaluation.json and facades.csv.
+// evaluation.json, facades.csv and evaluation.html.
 void WriteEvaluation(const Evaluation& evaluation, const std::filesystem::path& output);
 
 }  // namespace stucco::evaluate

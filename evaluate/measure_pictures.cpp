@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evaluate/measure_pictures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "evaluate/attempt.h"
 #include "evaluate/geometry/seen.h"
 #include "evaluate/means.h"
 #include "evaluate/picture/compare_textures.h"
@@ -68,14 +71,42 @@ double MedianMisregistration(std::span<const FacadeFigures> facades) {
   return kNotMeasured;
 }
 
+namespace {
+
+// One note for all pictures of a kind that could not be read.
+template <typename Figures>
+void NoteProblems(const char* of_what, const std::vector<Figures>& all, Evaluation& evaluation) {
+  const auto count = std::ranges::count_if(all, [](const auto& f) { return !f.problem.empty(); });
+  if (count == 0) return;
+  const auto first = std::ranges::find_if(all, [](const auto& f) { return !f.problem.empty(); });
+  evaluation.notes.push_back(
+      fmt::format("{} of {} {} cannot be read and are not measured, first: {}", count, all.size(),
+                  of_what, first->problem));
+}
+
+void MeasureViews(const TextureComparison& comparison, const simulate::Flight& flight,
+                  const fs::path& flight_folder, Evaluation& evaluation) {
+  if (comparison.textures.model_glb.empty()) {
+    evaluation.notes.emplace_back("views are not measured: the textures have no model");
+    return;
+  }
+  evaluation.views = CompareViews(comparison, flight, flight_folder);
+  if (evaluation.views.empty()) {
+    evaluation.notes.emplace_back("views are not measured: no photo of the flight was held out");
+  }
+  NoteProblems("photos held out", evaluation.views, evaluation);
+  std::erase_if(evaluation.views, [](const HeldOutFigures& view) { return !view.problem.empty(); });
+  evaluation.views_mean = MeanOfViews(evaluation.views);
+}
+
+}  // namespace
+
 void MeasurePictures(const EvaluateRequest& request, const Truth& truth, simulate::Scene scene,
                      const Similarity& truth_from_world, Evaluation& evaluation) {
   const Proxy proxy = ReadProxy(request.survey / kFacetsFile);
   const TextureSet textures = ReadTextureSet(request.survey / kTexturesFile);
   std::vector<bool> occluders;
-  for (const std::string& element : scene.elements) {
-    occluders.push_back(element.starts_with(simulate::kOccluderPrefix));
-  }
+  for (const std::string& element : scene.elements) occluders.push_back(IsOccluder(element));
   const simulate::Renderer renderer(std::move(scene));
   const fs::path flight = request.flight.empty() ? request.survey : request.flight;
   const TextureComparison comparison{
@@ -94,15 +125,9 @@ void MeasurePictures(const EvaluateRequest& request, const Truth& truth, simulat
   evaluation.facades = CompareFacades(comparison);
   evaluation.texture_mean = MeanOfFacades(evaluation.facades);
   evaluation.misregistration_px = MedianMisregistration(evaluation.facades);
-  if (textures.model_glb.empty()) {
-    evaluation.notes.emplace_back("views are not measured: the textures have no model");
-    return;
-  }
-  evaluation.views = CompareViews(comparison, truth.flight, flight);
-  evaluation.views_mean = MeanOfViews(evaluation.views);
-  if (evaluation.views.empty()) {
-    evaluation.notes.emplace_back("views are not measured: no photo of the flight was held out");
-  }
+  NoteProblems("walls have pictures that", evaluation.facades, evaluation);
+  Attempt(
+      "views are", [&] { MeasureViews(comparison, truth.flight, flight, evaluation); }, evaluation);
 }
 
 }  // namespace stucco::evaluate

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "survey/error.h"
+#include "survey/files.h"
 
 namespace stucco::evaluate {
 namespace {
@@ -30,9 +31,13 @@ Eigen::AlignedBox3d BoxOf(const Proxy& facets) {
   return box;
 }
 
-// The folder that the flight was flown in, where it is still there, says what it is.
-bool IsOtherScene(const Truth& truth) {
+// By the model's bytes; where the flight does not tell, by the folder that it was flown in, where
+// that is still there.
+bool IsOtherScene(const Truth& truth, const fs::path& scene) {
   std::error_code ignored;
+  if (!truth.flight.scene_hash.empty() && fs::exists(scene / simulate::kSceneModel, ignored)) {
+    return HashFile(scene / simulate::kSceneModel) != truth.flight.scene_hash;
+  }
   if (!fs::exists(fs::path(truth.flight.scene) / simulate::kSceneFile, ignored)) return false;
   const simulate::SceneInfo flown = simulate::ReadSceneInfo(truth.flight.scene);
   return flown.style != truth.info.style || flown.seed != truth.info.seed;
@@ -40,7 +45,7 @@ bool IsOtherScene(const Truth& truth) {
 
 void RequireSameScene(const Truth& truth, const fs::path& scene, const fs::path& flight) {
   const Eigen::AlignedBox3d box = BoxOf(truth.facets);
-  bool elsewhere = IsOtherScene(truth);
+  bool elsewhere = IsOtherScene(truth, scene);
   for (const simulate::FlownPhoto& photo : truth.flight.photos) {
     const double away = box.exteriorDistance(photo.cam_from_world.Center());
     elsewhere = elsewhere || !(away <= kFarthestM);
@@ -52,6 +57,10 @@ void RequireSameScene(const Truth& truth, const fs::path& scene, const fs::path&
 }
 
 }  // namespace
+
+bool IsOccluder(const std::string& element) {
+  return element.starts_with(simulate::kOccluderPrefix);
+}
 
 Truth ReadTruth(const fs::path& scene, const fs::path& flight) {
   Truth truth;

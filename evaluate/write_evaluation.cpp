@@ -163,7 +163,7 @@ std::string EvaluationJson(const Evaluation& evaluation) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-void WriteEvaluation(const Evaluation& evaluation, const std::filesystem::path& output) {
+void MakeOutputFolder(const std::filesystem::path& output) {
   std::error_code failure;
   std::filesystem::create_directories(output, failure);
   if (failure) {
@@ -171,6 +171,10 @@ void WriteEvaluation(const Evaluation& evaluation, const std::filesystem::path& 
                 fmt::format("{}: cannot be created: {}", output.string(), failure.message()),
                 "give another folder with --out");
   }
+}
+
+void WriteEvaluation(const Evaluation& evaluation, const std::filesystem::path& output) {
+  MakeOutputFolder(output);
   WriteFileAtomically(output / "evaluation.json", EvaluationJson(evaluation) + "\n");
   WriteFileAtomically(output / "facades.csv", FacadesCsv(evaluation));
   WriteEvaluationPage(evaluation, output);

@@ -119,16 +119,11 @@ SurfaceFigures CompareCloud(const std::filesystem::path& ply, const Similarity& 
 
 SurfaceFigures CompareSurface(const SurfaceIndex& result, const SurfaceIndex& scene,
                               const TruthPoints& truth, double tolerance_m, int threads) {
-  std::vector<Vector3d> places;
-  for (const SurfacePoint& point : SamplePoints(result.surface(), kSurfaceSamples, kSeed)) {
-    places.push_back(point.position);
-  }
   SurfaceFigures figures;
-  figures.error95_m = Error95(places, scene, threads);
-  std::vector<Vector3d> wanted;
-  for (const SurfacePoint& point : truth.points) wanted.push_back(point.position);
+  figures.error95_m =
+      Error95(Positions(SamplePoints(result.surface(), kSurfaceSamples, kSeed)), scene, threads);
   std::vector<char> found;
-  for (const double distance : Distances(wanted, result, threads)) {
+  for (const double distance : Distances(Positions(truth.points), result, threads)) {
     found.push_back(distance <= tolerance_m ? 1 : 0);
   }
   SetCompleteness(truth, found, figures);

@@ -14,8 +14,6 @@
 namespace stucco::evaluate {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr size_t kSamples = 200000;
 constexpr uint64_t kSeed = 1;
 
@@ -34,12 +32,6 @@ Surface VisibleSurface(const Proxy& proxy) {
     }
   }
   return surface;
-}
-
-std::vector<Vector3d> Positions(std::span<const SurfacePoint> points) {
-  std::vector<Vector3d> positions;
-  for (const SurfacePoint& point : points) positions.push_back(point.position);
-  return positions;
 }
 
 // Ground counts near buildings only.
@@ -121,13 +113,18 @@ void CountBuildings(const Proxy& result, ProxyFigures& figures) {
   }
 }
 
+bool IsPartOf(const std::string& facade, const Facet& facet) {
+  const auto& others = facet.other_facades;
+  return facet.facade == facade || std::find(others.begin(), others.end(), facade) != others.end();
+}
+
 double FacadeIdRate(const std::vector<TruthFacet>& matched) {
   double named = 0, all = 0;
   for (const TruthFacet& wall : matched) {
     if (wall.truth->facet_class != FacetClass::kWall) continue;
     double with_id = 0;
     for (const FacetMatch& match : wall.matches) {
-      if (match.result->facade == wall.truth->facade) with_id += match.overlap_m2;
+      if (IsPartOf(wall.truth->facade, *match.result)) with_id += match.overlap_m2;
     }
     // Overlaps are sums of many pieces: what is all of it but for rounding is all of it.
     named += with_id > (1 - 1e-9) * wall.area_m2 ? wall.area_m2 : with_id;

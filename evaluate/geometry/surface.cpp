@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulate/random.h"
 #include "survey/triangulate.h"
 
 namespace stucco::evaluate {
@@ -19,14 +20,9 @@ Vector3d AreaVector(const Surface& surface, const std::array<uint32_t, 3>& trian
   return 0.5 * (surface.vertices[triangle[1]] - a).cross(surface.vertices[triangle[2]] - a);
 }
 
-// The same number in [0, 1) for the same arguments, and unrelated ones for others: the mixing of
-// SplitMix64 (Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014).
+// The same number in [0, 1) for the same arguments, and unrelated ones for others.
 double RandomShare(uint64_t seed, uint64_t index) {
-  uint64_t z = (seed + 1) * 0xd1342543de82ef95u + (index + 1) * 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  z ^= z >> 31;
-  return static_cast<double>(z >> 11) * 0x1p-53;
+  return static_cast<double>(simulate::SeedOf(seed, index) >> 11) * 0x1p-53;
 }
 
 }  // namespace
@@ -73,6 +69,13 @@ double Area(const Surface& surface) {
   double area = 0;
   for (const auto& triangle : surface.triangles) area += AreaVector(surface, triangle).norm();
   return area;
+}
+
+std::vector<Vector3d> Positions(std::span<const SurfacePoint> points) {
+  std::vector<Vector3d> positions;
+  positions.reserve(points.size());
+  for (const SurfacePoint& point : points) positions.push_back(point.position);
+  return positions;
 }
 
 std::vector<SurfacePoint> SamplePoints(const Surface& surface, size_t count, uint64_t seed) {

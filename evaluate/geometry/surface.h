@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct SurfacePoint {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit
   int group = 0;
 };
+
+std::vector<Eigen::Vector3d> Positions(std::span<const SurfacePoint> points);
 
 // `count` points spread evenly by area: the surface is cut into as many parts of the same area, in
 // the order of its triangles, and each has one point at random. None where there is no area.

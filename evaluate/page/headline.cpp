@@ -58,7 +58,7 @@ std::string Surfaces(const Evaluation& evaluation) {
                            SurfaceRow("Proxy: ground", evaluation.proxy.ground);
   if (rows.empty()) return "";
   return fmt::format(
-      "<h3>Surfaces</h3><div class=\"scroll\"><table class=\"plain\"><thead><tr><td></td>"
+      "<h3>Surfaces</h3><div class=\"scroll\"><table class=\"plain surfaces\"><thead><tr><td></td>"
       "<th scope=\"col\" class=\"num\">error<br><span class=\"quiet\">95 % lie nearer</span></th>"
       "<th scope=\"col\" class=\"num\">complete within {0}<br><span class=\"quiet\">of what "
       "photos show</span></th><th scope=\"col\" class=\"num\">complete within {0}<br>"
@@ -134,7 +134,7 @@ std::string PictureFiguresHtml(const PictureFigures& figures) {
 std::string HeadlineSection(const Evaluation& evaluation) {
   return fmt::format(
              "<section aria-labelledby=\"headline\"><h2 id=\"headline\">Against the truth"
-             "</h2><p class=\"quiet\">Survey {} measured against the scene {}.</p>",
+             "</h2><p class=\"quiet\">Survey <b>{}</b> measured against the scene <b>{}</b>.</p>",
              IsolatedHtml(evaluation.survey), IsolatedHtml(evaluation.scene)) +
          Poses(evaluation.poses) + Surfaces(evaluation) + Solids(evaluation.proxy) +
          Textures(evaluation) + (evaluation.has_plan ? Planned(evaluation.plan) : "") +

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "evaluate/attempt.h"
 #include "evaluate/geometry/match_facets.h"
 #include "evaluate/geometry/moved.h"
 #include "evaluate/means.h"
@@ -107,7 +108,10 @@ std::array<double, 3> GainsOf(const TextureComparison& comparison,
                               const std::vector<std::vector<Pairing>>& walls) {
   std::vector<LightPairs> of_walls(walls.size());
   ParallelFor(walls.size(), Threads(comparison), [&](size_t i) {
-    for (const Pairing& pairing : walls[i]) of_walls[i].Append(PairsOfLight(comparison, pairing));
+    for (const Pairing& pairing : walls[i]) {
+      // What cannot be read is said where it is compared.
+      ProblemIn([&] { of_walls[i].Append(PairsOfLight(comparison, pairing)); });
+    }
   });
   LightPairs all;
   for (const LightPairs& pairs : of_walls) all.Append(pairs);
@@ -153,7 +157,10 @@ FacadeFigures MeasureWall(const Measuring& measuring, const TruthFacet& wall,
   double shift_sum = 0;
   double shift_m2 = 0;
   for (const Pairing& pairing : pairings) {
-    const auto compared = Compare(measuring.comparison, pairing, measuring.gains);
+    std::optional<ComparedFacade> compared;
+    const std::string problem =
+        ProblemIn([&] { compared = Compare(measuring.comparison, pairing, measuring.gains); });
+    if (figures.problem.empty()) figures.problem = problem;
     if (!compared) continue;
     const MeasuredPair measured = MeasurePair(compared->pictures, measuring.lpips);
     const double shift = Misregistration(compared->pictures);

@@ -34,12 +34,14 @@ struct TextureComparison {
 // is drawn at right angles on their texel grids and both are compared where they overlap and the
 // result was painted from photos. One gain per channel for the whole survey brings the truth's
 // light to the result's, for exposure and white balance cannot be known; what differs from facade
-// to facade is error. Throws Error (kBadInput) where a picture of the result is missing or damaged.
+// to facade is error. Where a picture of the result is missing or damaged, its facade's `problem`
+// says so, and the picture counts as not painted.
 std::vector<FacadeFigures> CompareFacades(const TextureComparison& comparison);
 
 // Renders texture/model.glb where the held-out photos of the flight were taken, with their lens,
 // and compares where the model is and no occluder stands before it. Empty where no photo was held
-// out. Throws Error (kBadInput) where the model or a photo cannot be read.
+// out. Photos that cannot be read have a `problem` and no figures. Throws Error (kBadInput) where
+// the model cannot be read.
 std::vector<HeldOutFigures> CompareViews(const TextureComparison& comparison,
                                          const simulate::Flight& flight,
                                          const std::filesystem::path& flight_folder);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "evaluate/attempt.h"
 #include "evaluate/picture/compare_textures.h"
 #include "evaluate/picture/lpips.h"
 #include "evaluate/picture/measure.h"
@@ -127,22 +128,30 @@ std::vector<HeldOutFigures> CompareViews(const TextureComparison& comparison,
   if (held_out.empty()) return {};
   const Renderer model(
       simulate::ReadScene(comparison.texture_folder / comparison.textures.model_glb));
-  std::vector<std::vector<LightSample>> samples;
-  for (const FlownPhoto* photo : held_out) {
-    samples.push_back(SamplesOf(MakeView(comparison, model, *photo, flight_folder, kGainSide_px)));
+  std::vector<HeldOutFigures> figures(held_out.size());
+  std::vector<std::vector<LightSample>> samples(held_out.size());
+  for (size_t i = 0; i < held_out.size(); ++i) {
+    figures[i].photo = held_out[i]->path;
+    figures[i].problem = ProblemIn([&] {
+      samples[i] =
+          SamplesOf(MakeView(comparison, model, *held_out[i], flight_folder, kGainSide_px));
+    });
   }
   const PhotoLight fitted = FitPhotoLight(samples);
   std::optional<Lpips> lpips;
   if (!comparison.lpips_model.empty()) lpips.emplace(comparison.lpips_model);
-  std::vector<HeldOutFigures> figures;
   for (size_t i = 0; i < held_out.size(); ++i) {
+    if (!figures[i].problem.empty()) continue;
     const FlownPhoto& photo = *held_out[i];
     const PicturePair pair = Pair(MakeView(comparison, model, photo, flight_folder, kViewSide_px),
                                   fitted.gains[i], fitted.falloff);
     const MeasuredPair measured = MeasurePair(pair, lpips ? &*lpips : nullptr);
     const PagePictures names = WritePagePictures(pair, measured.flip, comparison.output,
                                                  PictureStem(i, "view-" + photo.path));
-    figures.push_back({photo.path, measured.figures, names.truth, names.result, names.error});
+    figures[i].picture = measured.figures;
+    figures[i].truth_picture = names.truth;
+    figures[i].result_picture = names.result;
+    figures[i].error_picture = names.error;
   }
   return figures;
 }

@@ -145,6 +145,7 @@ Flight FlightFrom(const Json& json) {
   }
   Flight flight;
   flight.scene = json.at("scene").get<std::string>();
+  flight.scene_hash = json.value("scene_hash", std::string());
   flight.seed = json.at("seed").get<uint64_t>();
   flight.made_from = json.at("made_from").get<std::string>();
   flight.georef = GeorefFrom(json.at("georef"));
@@ -187,11 +188,9 @@ void WriteFlight(const Flight& flight, const std::filesystem::path& survey) {
   std::vector<Camera> cameras;
   Json photos = Json::array();
   for (const FlownPhoto& photo : flight.photos) photos.push_back(ToJson(photo, cameras));
-  Json json = {{"version", kVersion},
-               {"scene", flight.scene},
-               {"seed", flight.seed},
-               {"made_from", flight.made_from},
-               {"georef", ToJson(flight.georef)}};
+  Json json = {
+      {"version", kVersion}, {"scene", flight.scene},         {"scene_hash", flight.scene_hash},
+      {"seed", flight.seed}, {"made_from", flight.made_from}, {"georef", ToJson(flight.georef)}};
   json["cameras"] = Json::array();
   for (const Camera& camera : cameras) json["cameras"].push_back(ToJson(camera));
   json["photos"] = std::move(photos);

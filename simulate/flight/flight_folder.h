@@ -38,7 +38,8 @@ struct FlownPhoto {
 };
 
 struct Flight {
-  std::string scene;  // as given
+  std::string scene;       // as given
+  std::string scene_hash;  // of its model's bytes; empty: not known
   uint64_t seed = 0;
   std::string made_from;           // hash of scene, plan and options: equal ones make equal photos
   Georef georef;                   // of the world: frame "enu"

@@ -100,6 +100,7 @@ FlySummary Fly(const FlyRequest& request, const FlightOptions& options,
   const Renderer renderer(ReadScene(request.scene, request.reading));
   PreparedFlight prepared = PrepareFlight(plan, info, ShapeOf(renderer), options);
   prepared.flight.scene = request.scene.string();
+  prepared.flight.scene_hash = HashFile(ModelPath(request.scene));
   prepared.flight.made_from = MadeFrom(request, plan_path, options);
   if (renderer.scene().textures.empty()) {
     prepared.notes.push_back(

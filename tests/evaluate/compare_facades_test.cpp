@@ -7,7 +7,6 @@
 
 #include "evaluate/geometry/moved.h"
 #include "evaluate/picture/compare_textures.h"
-#include "survey/error.h"
 #include "tests/evaluate/made_pictures.h"
 #include "tests/evaluate/made_walls.h"
 
@@ -211,16 +210,16 @@ TEST(CompareFacades, IsTheSameAtAnyNumberOfThreads) {
   }
 }
 
-TEST(CompareFacades, AMissingPictureIsAnErrorThatNamesIt) {
+TEST(CompareFacades, AMissingPictureIsNamedAndTheOthersAreMeasured) {
   const Renderer scene(MadeHouseScene());
   Survey survey = MadeSurvey("missing", scene);
   survey.textures.facets[2].image = "gone.png";
-  try {
-    Compare(survey, scene);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("gone.png"));
-  }
+  const auto figures = Compare(survey, scene);
+  EXPECT_THAT(figures[2].problem, testing::HasSubstr("gone.png"));
+  EXPECT_EQ(figures[2].painted, 0);
+  EXPECT_TRUE(std::isnan(figures[2].picture.psnr));
+  EXPECT_EQ(figures[1].problem, "");
+  ExpectEqual(figures[1]);
 }
 
 }  // namespace

@@ -113,6 +113,65 @@ TEST(CompareProxy, WrongIdsAreWrong) {
   EXPECT_EQ(Compare(result, MadeTruth(), 0.05).facade_id_rate, 0);
 }
 
+// Every rectangle as strips along its first side.
+Proxy Cut(const Proxy& proxy, int strips) {
+  Proxy cut = proxy;
+  for (Building& building : cut.buildings) {
+    std::vector<Facet> facets;
+    for (const Facet& facet : building.facets) {
+      if (!facet.holes.empty()) {
+        facets.push_back(facet);
+        continue;
+      }
+      const auto& o = facet.outer;
+      const auto between = [&](int side, int i) -> Vector3d {
+        const Vector3d &from = side == 0 ? o[0] : o[3], &to = side == 0 ? o[1] : o[2];
+        return from + (to - from) * (static_cast<double>(i) / strips);
+      };
+      for (int i = 0; i < strips; ++i) {
+        Facet strip =
+            MadeFacet(facet.id + "-" + std::to_string(i), facet.facet_class,
+                      {between(0, i), between(0, i + 1), between(1, i + 1), between(1, i)});
+        strip.facade = facet.facade;
+        facets.push_back(strip);
+      }
+    }
+    building.facets = facets;
+  }
+  return cut;
+}
+
+TEST(CompareProxy, HowFacetsAreCutDoesNotMatter) {
+  // The points are others then: shares may differ by their chance.
+  const Proxy moved = Moved(MadeTruth(), Shift({0.1, 0, 0.2}));
+  const ProxyFigures whole = Compare(moved, MadeTruth(), 0.05);
+  const ProxyFigures cut = Compare(Cut(moved, 23), MadeTruth(), 0.05);
+  const auto expect_same = [](const SurfaceFigures& a, const SurfaceFigures& b) {
+    EXPECT_NEAR(a.error95_m, b.error95_m, 1e-9);
+    EXPECT_NEAR(a.completeness, b.completeness, 1e-9);
+  };
+  expect_same(whole.all, cut.all);
+  expect_same(whole.wall, cut.wall);
+  expect_same(whole.roof, cut.roof);
+  expect_same(whole.ground, cut.ground);
+  EXPECT_NEAR(whole.facade_id_rate, cut.facade_id_rate, 1e-9);
+  EXPECT_EQ(cut.facets, 12 * 23);
+}
+
+TEST(CompareProxy, AFacetThatSpansTwoFacadesNamesBoth) {
+  Proxy truth = MadeTruth();  // of B0001's south wall two facades of 4 and 6 m
+  Facet& west = truth.buildings[0].facets[0];
+  const Proxy result = truth;
+  Facet east = west;
+  west.outer[1].x() = west.outer[2].x() = east.outer[0].x() = east.outer[3].x() = 4;
+  east.id = east.facade = "B0001/F09";
+  truth.buildings[0].facets.push_back(east);
+  EXPECT_NEAR(Compare(result, truth, 0.05).facade_id_rate, (504 - 36) / 504.0, 1e-9);
+  Proxy named = result;
+  named.buildings[0].facets[0].other_facades = {"B0009/F00", "B0001/F09"};
+  EXPECT_NEAR(Compare(named, truth, 0.05).facade_id_rate, 1, 1e-9);
+}
+
 TEST(CompareProxy, WhatNoPhotoShowsIsNotAskedFor) {
   const Proxy truth = MadeTruth();
   Proxy all = truth;  // a roof over the alley: below it nothing is seen from above

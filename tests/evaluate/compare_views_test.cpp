@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "evaluate/picture/compare_textures.h"
 #include "evaluate/picture/tone.h"
 #include "simulate/flight/sensor.h"
@@ -169,21 +171,27 @@ TEST(CompareViews, NothingHeldOutIsNothing) {
   EXPECT_TRUE(Compare(survey, scene).empty());
 }
 
-TEST(CompareViews, AMissingModelOrPhotoIsAnErrorThatNamesIt) {
+TEST(CompareViews, AMissingPhotoIsNamedAndTheOtherIsMeasured) {
   const Renderer scene(MadeHouseScene());
   Survey survey = MadeSurvey("views_missing", scene);
-  const auto complaint = [&]() -> std::string {
-    try {
-      Compare(survey, scene);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
-  };
   survey.flight.photos[0].path = "held_out/gone.jpg";
-  EXPECT_THAT(complaint(), testing::HasSubstr("gone.jpg"));
+  const auto figures = Compare(survey, scene);
+  EXPECT_THAT(figures[0].problem, testing::HasSubstr("gone.jpg"));
+  EXPECT_TRUE(std::isnan(figures[0].picture.psnr));
+  EXPECT_EQ(figures[1].problem, "");
+  EXPECT_GT(figures[1].picture.psnr, 33);
+}
+
+TEST(CompareViews, AMissingModelIsAnErrorThatNamesIt) {
+  const Renderer scene(MadeHouseScene());
+  Survey survey = MadeSurvey("views_missing", scene);
   survey.textures.model_glb = "gone.glb";
-  EXPECT_THAT(complaint(), testing::HasSubstr("gone.glb"));
+  try {
+    Compare(survey, scene);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("gone.glb"));
+  }
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "simulate/scene/scene_folder.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/survey_folder.h"
 #include "tests/evaluate/made_survey.h"
 #include "tests/evaluate/made_truth.h"
 
@@ -34,7 +35,7 @@ EvaluateRequest RequestFor(const MadeSurvey& made) {
   EvaluateRequest request;
   request.survey = made.survey;
   request.scene = made.scene;
-  request.tolerance_m = 0.25;
+  request.tolerance_m = 0.3;  // 70 random points a square metre: the chance of a gap is 1e-9
   request.threads = 2;
   return request;
 }
@@ -104,6 +105,32 @@ TEST(Evaluate, WhatIsNotThereIsNotedAndNotMeasured) {
   EXPECT_THAT(found.notes, Contains(HasSubstr("there is no calib/sparse/0")));
 }
 
+TEST(Evaluate, WhatIsDamagedIsNotedAndTheRestIsMeasured) {
+  const MadeSurvey made = WriteMadeSurvey(Root(), {});
+  for (const char* file : {"plan/stats.json", "dense/cloud.ply", "texture/textures.json"}) {
+    fs::create_directories((made.survey / file).parent_path());
+    WriteFile(made.survey / file, "not what it should be");
+  }
+  Evaluation found = Evaluate(RequestFor(made));
+  EXPECT_FALSE(found.has_plan);
+  EXPECT_TRUE(std::isnan(found.dense.error95_m));
+  EXPECT_NEAR(found.proxy.all.error95_m, 0, 1e-5);
+  for (const char* what : {"the plan is not measured: ", "the cloud is not measured: ",
+                           "textures and views are not measured: "}) {
+    EXPECT_THAT(found.notes, Contains(HasSubstr(what)));
+  }
+  EXPECT_THAT(found.notes, Contains(HasSubstr("cloud.ply")));
+  WriteFile(made.scene / simulate::kSceneModel, "no model");
+  found = Evaluate(RequestFor(made));
+  EXPECT_EQ(found.poses.posed, 13);
+  EXPECT_THAT(found.notes, Contains(HasSubstr("scene.glb")));
+  fs::remove_all(made.survey / kSparseFolder);
+  WriteFile(made.survey / kSparseFolder, "no folder");
+  found = Evaluate(RequestFor(made));
+  EXPECT_EQ(found.poses.total, 13);
+  EXPECT_THAT(found.notes, Contains(HasSubstr("poses, and what lies in their frame, are not")));
+}
+
 void ExpectRefused(const EvaluateRequest& request, ErrorKind kind, const std::string& reason) {
   try {
     Evaluate(request);
@@ -147,6 +174,28 @@ TEST(Evaluate, RefusesAFlightInAnotherScene) {
   EvaluateRequest request = RequestFor(again);
   request.scene = other;
   ExpectRefused(request, ErrorKind::kBadInput, "was flown in");
+}
+
+TEST(Evaluate, RefusesASceneThatWasMadeAnewSince) {
+  const MadeSurvey made = WriteMadeSurvey(Root(), {});
+  simulate::Flight flight = simulate::ReadFlight(made.survey);
+  flight.scene = "elsewhere";
+  flight.scene_hash = HashFile(made.scene / simulate::kSceneModel);
+  simulate::WriteFlight(flight, made.survey);
+  EXPECT_EQ(Evaluate(RequestFor(made)).poses.posed, 13);
+  WriteFile(made.scene / simulate::kSceneModel, "another model");
+  ExpectRefused(RequestFor(made), ErrorKind::kBadInput, "was flown in elsewhere");
+}
+
+TEST(Evaluate, FindsOutAboutOptionsThatAreOfNoUseBeforeItMeasures) {
+  const MadeSurvey made = WriteMadeSurvey(Root(), {});
+  fs::remove(made.survey / simulate::kFlightFile);  // would be found out next
+  EvaluateRequest request = RequestFor(made);
+  request.lpips_model = Root() / "no.onnx";
+  ExpectRefused(request, ErrorKind::kBadInput, "no.onnx");
+  request = RequestFor(made);
+  request.output = made.scene / simulate::kSceneModel / "in a file";
+  ExpectRefused(request, ErrorKind::kBadInput, "cannot be created");
 }
 
 TEST(Evaluate, RefusesTruthOfAnotherVersion) {

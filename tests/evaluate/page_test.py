@@ -31,6 +31,8 @@ PROBE = """
   seen.shown = viewer.querySelectorAll("img").length;
   viewer.querySelector("button").click();
   seen.closed = !viewer.open;
+  seen.tallest = Math.max(...Array.from(document.querySelectorAll("table.surfaces tbody th"),
+                                        (head) => head.getBoundingClientRect().height));
   const large = new Image();
   large.src = images[0].src;
   await large.decode();
@@ -64,6 +66,7 @@ def main():
             seen = browsers.browse(browser, page, PROBE, folder, width)
             assert seen["final_title"] == "Evaluation", (width, seen["final_title"])
             assert seen["overflow"] <= 0, (width, seen["overflow"])
+            assert 0 < seen["tallest"] < 50, (width, seen["tallest"])  # one line, not letters
     print("the page works")
     return 0
 

@@ -29,6 +29,7 @@ Flight MadeFlight() {
   flight.scene = "town/scene";
   flight.seed = 9;
   flight.made_from = "abc";
+  flight.scene_hash = "def";
   flight.georef.frame = "enu";
   flight.georef.origin_latitude_deg = 50.1;
   flight.georef.origin_longitude_deg = -14.2;
@@ -65,6 +66,7 @@ TEST_F(FlightFolder, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.scene, flight.scene);
   EXPECT_EQ(back.seed, flight.seed);
   EXPECT_EQ(back.made_from, flight.made_from);
+  EXPECT_EQ(back.scene_hash, flight.scene_hash);
   EXPECT_EQ(back.georef.frame, "enu");
   EXPECT_EQ(back.georef.origin_height_m, 212.25);
   ASSERT_EQ(back.photos.size(), 4u);
