@@ -30,15 +30,18 @@ class WallBuilder {
   void Recess(const WallPart& part, const Rect& r) {
     const double back = part.relief_m;
     Reveal(r, back);
+    // Where a balcony hides the foot of a door, its pane goes on behind it.
     const Rect pane = {r.left + kFrame_m, r.right - kFrame_m, r.top + kFrame_m,
-                       r.bottom - kFrame_m};
+                       std::min(r.bottom, part.bottom_right.y() - kFrame_m)};
     if (!HasPane(part) || pane.left >= pane.right || pane.top >= pane.bottom) {
       Front(r, back, shape_.sheet.material);
       return;
     }
     Front(pane, back, shape_.pane_material);
     Front({r.left, r.right, r.top, pane.top}, back, shape_.sheet.material);
-    Front({r.left, r.right, pane.bottom, r.bottom}, back, shape_.sheet.material);
+    if (pane.bottom < r.bottom) {
+      Front({r.left, r.right, pane.bottom, r.bottom}, back, shape_.sheet.material);
+    }
     Front({r.left, pane.left, pane.top, pane.bottom}, back, shape_.sheet.material);
     Front({pane.right, r.right, pane.top, pane.bottom}, back, shape_.sheet.material);
   }

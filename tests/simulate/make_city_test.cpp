@@ -115,6 +115,71 @@ TEST_P(Cities, PicturesLieOnTheirFacets) {
   }
 }
 
+// By element, the vertices of the model that are drawn, in triangles.
+std::map<std::string, std::vector<Eigen::Vector3d>> CornersByElement(const Scene& scene) {
+  std::map<std::string, std::vector<Eigen::Vector3d>> corners;
+  for (size_t i = 0; i < scene.triangles.size(); ++i) {
+    for (const int vertex : scene.triangles[i]) {
+      corners[scene.elements[scene.elements_of[i]]].push_back(
+          scene.positions[vertex].cast<double>());
+    }
+  }
+  return corners;
+}
+
+// What is seen and what the truth says of it are one place: roofs wholly, walls but for their
+// relief, which leaves two fifths of them or more.
+TEST_P(Cities, TheModelLiesOnTheTruth) {
+  constexpr double kFloat_m = 1e-4;
+  const test::TemporaryFolder folder;
+  const fs::path scene = folder / "scene";
+  MakeCity(Coarse(GetParam(), 7), scene);
+  const auto corners = CornersByElement(ReadScene(scene));
+  for (const auto& [id, facet] : FacetsById(scene)) {
+    if (facet.facet_class == FacetClass::kGround) continue;
+    ASSERT_TRUE(corners.contains(id)) << id;
+    const auto& drawn = corners.at(id);
+    double on_plane_m2 = 0;
+    for (size_t i = 0; i < drawn.size(); i += 3) {
+      double farthest = 0;
+      for (size_t k = i; k < i + 3; ++k) {
+        farthest = std::max(farthest, std::abs(facet.normal.dot(drawn[k]) - facet.offset));
+      }
+      if (farthest < kFloat_m) {
+        on_plane_m2 += (drawn[i + 1] - drawn[i]).cross(drawn[i + 2] - drawn[i]).norm() / 2;
+      }
+      const bool roof = facet.facet_class == FacetClass::kRoof;
+      ASSERT_LT(farthest, roof ? kFloat_m : 1.5 + kFloat_m) << id;
+    }
+    EXPECT_GT(on_plane_m2, 0.4 * facet.area) << id;
+  }
+}
+
+// What the map says a building is high, it is: to the ridge, or to a parapet above the roof.
+TEST_P(Cities, HeightsOfTheMapAreThoseOfTheTruth) {
+  const test::TemporaryFolder folder;
+  const fs::path scene = folder / "scene";
+  MakeCity(Coarse(GetParam(), 8), scene);
+  std::map<std::string, std::pair<double, double>> reach;
+  for (const Building& building : ReadProxy(scene / kTruthFacets).buildings) {
+    auto& [low, high] = reach.emplace(building.id, std::pair(1e9, -1e9)).first->second;
+    for (const Facet& facet : building.facets) {
+      for (const Eigen::Vector3d& corner : facet.outer) {
+        low = std::min(low, corner.z());
+        high = std::max(high, corner.z());
+      }
+    }
+  }
+  for (const plan::Footprint& footprint : SiteOf(scene).footprints) {
+    ASSERT_TRUE(reach.contains(footprint.building)) << footprint.building;
+    const auto [low, high] = reach.at(footprint.building);
+    constexpr double kHighestParapet_m = 1.1;
+    // The terrain is read between its samples.
+    EXPECT_GT(footprint.z_m.length_m(), high - low - 0.1) << footprint.building;
+    EXPECT_LT(footprint.z_m.length_m(), high - low + kHighestParapet_m + 0.1) << footprint.building;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Styles, Cities, testing::ValuesIn(CityStyles()),
                          [](const auto& test) { return test.param; });
 
