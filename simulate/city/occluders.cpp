@@ -9,9 +9,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulate/paint/car_shape.h"
 #include "simulate/paint/paint.h"
 #include "simulate/random.h"
 #include "simulate/scene/scene_folder.h"
+#include "survey/triangulate.h"
 
 namespace stucco::simulate {
 namespace {
@@ -95,106 +97,135 @@ void AddTree(const Tree& tree, double ground, Trim bark, const std::vector<int>&
            model);
 }
 
-// The outline of a car from its side: x from its nose, y down from its roof, as PaintCar paints it.
-std::vector<Vector2d> CarOutline() {
-  return {{0.06, 1.28}, {0.02, 0.72}, {0.5, 0.62},  {0.98, 0.58}, {1.42, 0.13},
-          {3.56, 0.13}, {3.82, 0.6},  {4.36, 0.68}, {4.38, 1.28}};
-}
-
 class CarBuilder {
  public:
-  CarBuilder(const Car& car, double ground, int element, int material, CityModel& model)
-      : model_(model) {
-    const Eigen::Rotation2Dd turn(car.heading_rad);
-    const Vector2d ahead = turn * Vector2d::UnitX();
+  CarBuilder(const Car& car, const CarShape& shape, double ground, const Sheet& sheet,
+             CityModel& model)
+      : shape_(shape), sheet_(sheet), model_(model) {
+    const Vector2d ahead = Eigen::Rotation2Dd(car.heading_rad) * Vector2d::UnitX();
     back_ = {-ahead.x(), -ahead.y(), 0};
     left_ = {-ahead.y(), ahead.x(), 0};
-    const Vector2d nose = car.position + kLength_m / 2 * ahead;
-    top_of_nose_ = {nose.x(), nose.y(), ground + kHeight_m};
-    sheet_.element = element;
-    sheet_.material = material;
-    sheet_.width_m = kLength_m;
-    sheet_.height_m = kHeight_m;
-    sheet_.origin = top_of_nose_;
-    sheet_.u = back_;
-    sheet_.v = -Vector3d::UnitZ();
+    const Vector2d nose = car.position + kCarLength_m / 2 * ahead;
+    top_of_nose_ = {nose.x(), nose.y(), ground + kCarHeight_m};
   }
 
   void Build() {
-    const std::vector<Vector2d> outline = CarOutline();
-    Flank(outline, kHalfWidth_m);
-    Flank(outline, -kHalfWidth_m);
-    for (size_t i = 0; i < outline.size(); ++i) {
-      const Vector2d& a = outline[i];
-      const Vector2d& b = outline[(i + 1) % outline.size()];
-      const bool glass = i == 3 || i == 5;  // windscreens
-      const bool below = i + 1 == outline.size();
-      // The spot of the picture that has the colour: a window, the sill, the lacquer.
-      const Vector2d spot = glass   ? Vector2d(2.4, 0.45)
-                            : below ? Vector2d(2, 1.4)
-                                    : Vector2d(1.6, 0.95);
-      Across(a, b, spot);
+    const std::vector<Vector2d>& outline = shape_.outline;
+    const auto belt = outline.begin() + shape_.windscreen;
+    const auto belt_end = outline.begin() + shape_.rear_window + 2;
+    std::vector<Vector2d> body(outline.begin(), belt + 1);
+    body.insert(body.end(), belt_end - 1, outline.end());
+    for (const double side : {-1.0, 1.0}) {
+      Flank(body, side);
+      Flank(std::vector<Vector2d>(belt, belt_end), side);
+      for (const double wheel : {0.85, 3.5}) Wheel(wheel, side);
     }
-    for (const double wheel : {0.85, 3.5}) {
-      for (const double side : {-1.0, 1.0}) Wheel(wheel, side);
-    }
+    for (size_t i = 0; i + 1 < outline.size(); ++i) Across(outline[i], outline[i + 1]);
+    Across(outline.back(), outline.front());
   }
 
  private:
-  static constexpr double kLength_m = 4.4;
-  static constexpr double kHeight_m = 1.5;
-  static constexpr double kHalfWidth_m = 0.86;
+  // A corner of the car: a place of its side view, and how far to the left.
+  struct Corner {
+    Vector2d side;
+    double left;
+  };
 
-  Vector3d At(const Vector2d& p, double left) const {
-    return top_of_nose_ + p.x() * back_ - p.y() * Vector3d::UnitZ() + left * left_;
+  Vector3d At(const Corner& corner) const {
+    return top_of_nose_ + corner.side.x() * back_ - corner.side.y() * Vector3d::UnitZ() +
+           corner.left * left_;
   }
 
-  void Flank(const std::vector<Vector2d>& outline, double left) {
-    Loop loop;
-    for (const Vector2d& p : outline) loop.push_back(At(p, left));
-    if (left > 0) std::reverse(loop.begin(), loop.end());
-    AddPolygon(sheet_, loop, {}, model_);
-  }
-
-  // A strip from flank to flank in the colour of one spot of the picture.
-  void Across(const Vector2d& a, const Vector2d& b, const Vector2d& spot) {
-    const Vector2f uv(static_cast<float>(spot.x() / kLength_m),
-                      static_cast<float>(spot.y() / kHeight_m));
+  // Corners counter-clockwise seen from outside, each with its place on the picture in metres.
+  void Face(const std::vector<Corner>& corners, const std::vector<Vector2d>& on_picture) {
     const size_t first = model_.scene.uv.size();
-    AddConvex(
-        sheet_,
-        {At(a, -kHalfWidth_m), At(a, kHalfWidth_m), At(b, kHalfWidth_m), At(b, -kHalfWidth_m)},
-        model_);
-    for (size_t i = first; i < model_.scene.uv.size(); ++i) model_.scene.uv[i] = uv;
+    Loop loop;
+    for (const Corner& corner : corners) loop.push_back(At(corner));
+    AddConvex(sheet_, loop, model_);
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const Vector2d uv = on_picture[i].cwiseQuotient(Vector2d(sheet_.width_m, sheet_.height_m));
+      model_.scene.uv[first + i] = uv.cast<float>();
+    }
+  }
+
+  // A polygon of the side view, bent as the car's width has it.
+  void Flank(const std::vector<Vector2d>& outline, double side) {
+    Loop flat;
+    for (const Vector2d& p : outline) flat.emplace_back(p.x(), -p.y(), 0);
+    // It runs clockwise as seen from the left: from the foot of the nose upwards.
+    std::reverse(flat.begin(), flat.end());
+    const FacetTriangles shape = TriangulateFacet(ExactFacet(FacetClass::kWall, flat, {}));
+    for (const auto& triangle : shape.triangles) {
+      std::vector<Corner> corners;
+      std::vector<Vector2d> on_picture;
+      for (const uint32_t i : triangle) {
+        const Vector2d at(shape.vertices[i].x(), -shape.vertices[i].y());
+        corners.push_back({at, side * shape_.HalfWidth(at)});
+        on_picture.push_back(at);
+      }
+      if (side < 0) {  // seen from the right, the nose is on the right
+        std::swap(corners[1], corners[2]);
+        std::swap(on_picture[1], on_picture[2]);
+      }
+      Face(corners, on_picture);
+    }
+  }
+
+  // A strip from flank to flank. What is steep is painted as seen from before or behind, the rest
+  // as seen from above; what lies under the car is as dark as its sills.
+  void Across(const Vector2d& a, const Vector2d& b) {
+    std::vector<Corner> corners;
+    std::vector<Vector2d> on_picture;
+    const bool steep = std::abs(b.y() - a.y()) > std::abs(b.x() - a.x());
+    const bool below = !steep && b.x() < a.x();
+    const bool nose = a.x() < kCarLength_m / 2;
+    const auto add = [&](const Vector2d& p, double side) {
+      const double left = side * shape_.HalfWidth(p);
+      corners.push_back({p, left});
+      if (below) {
+        on_picture.emplace_back(2, 1.4);
+      } else if (!steep) {
+        on_picture.emplace_back(p.x(), kCarRoofTop_m + kCarWidth_m / 2 - left);
+      } else if (nose) {
+        on_picture.emplace_back(kCarWidth_m / 2 + left, kCarEndsTop_m + p.y());
+      } else {
+        on_picture.emplace_back(1.5 * kCarWidth_m - left, kCarEndsTop_m + p.y());
+      }
+    };
+    add(a, -1);
+    add(a, 1);
+    add(b, 1);
+    add(b, -1);
+    Face(corners, on_picture);
   }
 
   void Wheel(double x, double side) {
     constexpr int kSides = 14;
     constexpr double kRadius_m = 0.32;
     constexpr double kWidth_m = 0.2;
-    const Vector2d hub(x, kHeight_m - kRadius_m);
-    Loop disc;
+    const double outside = side * (kCarWidth_m / 2 + 0.005);
+    const Vector2d hub(x, kCarHeight_m - kRadius_m);
+    const Vector2d tyre(x - 0.33, 1.18);
+    std::vector<Corner> disc;
+    std::vector<Vector2d> on_picture;
     for (int i = 0; i < kSides; ++i) {
-      const double turn = 2 * std::numbers::pi * i / kSides;
-      disc.push_back(At(hub + kRadius_m * Vector2d(std::cos(turn), std::sin(turn)),
-                        side * (kHalfWidth_m + 0.01)));
+      const double turn = -side * 2 * std::numbers::pi * i / kSides;
+      on_picture.push_back(hub + kRadius_m * Vector2d(std::cos(turn), std::sin(turn)));
+      disc.push_back({on_picture.back(), outside});
     }
-    AddConvex(sheet_, disc, model_);
-    const Vector3d inwards = -side * kWidth_m * left_;
-    const Vector2f tyre(static_cast<float>((x - 0.33) / kLength_m), 1.18f / kHeight_m);
-    const size_t first = model_.scene.uv.size();
+    Face(disc, on_picture);
     for (int i = 0; i < kSides; ++i) {
-      const Vector3d& a = disc[i];
-      const Vector3d& b = disc[(i + 1) % kSides];
-      AddConvex(sheet_, {a, b, b + inwards, a + inwards}, model_);
+      const Corner& a = disc[i];
+      const Corner& b = disc[(i + 1) % kSides];
+      const double inside = outside - side * kWidth_m;
+      Face({b, a, {a.side, inside}, {b.side, inside}}, {tyre, tyre, tyre, tyre});
     }
-    for (size_t i = first; i < model_.scene.uv.size(); ++i) model_.scene.uv[i] = tyre;
   }
 
-  using Vector2f = Eigen::Vector2f;
+  const CarShape& shape_;
+  const Sheet& sheet_;
   CityModel& model_;
   Vector3d back_, left_, top_of_nose_;
-  Sheet sheet_;
 };
 
 std::vector<int> AddLeaves(uint64_t seed, CityModel& model) {
@@ -210,7 +241,8 @@ std::vector<int> AddLeaves(uint64_t seed, CityModel& model) {
 
 }  // namespace
 
-void AddOccluders(const Town& town, uint64_t seed, CityModel& model) {
+void AddOccluders(const Town& town, CityModel& model) {
+  const uint64_t seed = town.seed;
   const std::vector<int> leaves = AddLeaves(seed, model);
   const CoveringDesign soil{.width_m = 2, .height_m = 2, .covering = Covering::kSoil, .seed = seed};
   Trim bark;
@@ -226,8 +258,13 @@ void AddOccluders(const Town& town, uint64_t seed, CityModel& model) {
     const int material = AddPainted(fmt::format("car-{:03}", i),
                                     {[own] { return PaintCar(own, kCarTexel_m); }, ""}, model);
     model.scene.materials[material].gloss = 0.35f;
-    CarBuilder(town.cars[i], GroundAt(town, town.cars[i].position), element, material, model)
-        .Build();
+    Sheet sheet;
+    sheet.element = element;
+    sheet.material = material;
+    sheet.width_m = kCarLength_m;
+    sheet.height_m = kCarPicture_m;
+    const CarShape shape = ShapeOfCar(own);
+    CarBuilder(town.cars[i], shape, GroundAt(town, town.cars[i].position), sheet, model).Build();
   }
 }
 

@@ -8,6 +8,6 @@
 namespace stucco::simulate {
 
 // Trees and parked cars, as elements under kOccluderPrefix.
-void AddOccluders(const Town& town, uint64_t seed, CityModel& model);
+void AddOccluders(const Town& town, CityModel& model);
 
 }  // namespace stucco::simulate
