@@ -26,6 +26,7 @@ struct Manner {
   bool shops = false;
   double cornice_m = 0;  // how far it stands out; 0: none
   double door_width_m = 1.1;
+  double ledge_m = 0.1;  // how far those of a curtain wall stand out
 };
 
 constexpr double kMargin_m = 0.7;    // from the end of a wall to a window
@@ -70,6 +71,7 @@ Manner MannerOf(const House& house) {
       m.door_width_m = 2.4;
       break;
   }
+  m.ledge_m = random.Uniform(0.08, 0.3);
   return m;
 }
 
@@ -100,11 +102,13 @@ class Designer {
     for (int storey = 0; storey < house_.storeys; ++storey) {
       if (storey == 0 && bays_ > 0) {
         AddGroundFloor();
+      } else if (IsCurtain()) {
+        if (storey > 0) AddLedge(storey);
       } else {
         for (int bay = 0; bay < bays_; ++bay) AddUpper(storey, bay);
       }
     }
-    if (place_.gable_rise_m > 0) AddGableWindows();
+    if (place_.gable_rise_m > 0 && !IsCurtain()) AddGableWindows();
     return design_;
   }
 
@@ -113,6 +117,8 @@ class Designer {
   double Y(double z) const { return place_.top_m - z; }
   // Middle of a bay; bays are spread evenly.
   double X(int bay) const { return place_.width_m * (bay + 0.5) / bays_; }
+  // A curtain wall is all window; its panes are painted with the wall.
+  bool IsCurtain() const { return house_.cladding == Cladding::kGlass; }
   bool IsFront() const { return house_.front[place_.edge]; }
 
   void Add(PartKind kind, double x, double width, double bottom_z, double top_z, double relief) {
@@ -136,7 +142,13 @@ class Designer {
     }
   }
 
+  void AddLedge(int storey) {
+    const double floor = FloorOf(storey);
+    Add(PartKind::kLedge, place_.width_m / 2, place_.width_m, floor - 0.22, floor, manner_.ledge_m);
+  }
+
   void AddWindow(int storey, double x) {
+    if (IsCurtain()) return;
     const double sill = FloorOf(storey) + manner_.sill_m;
     Add(PartKind::kWindow, x, manner_.window_width_m, sill, sill + manner_.window_height_m,
         -manner_.recess_m);

@@ -6,7 +6,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "plan/polygons.h"
@@ -24,8 +26,9 @@ using Eigen::Vector3d;
 constexpr double kFields_m = 350;  // how far the ground goes beyond the town
 constexpr double kCell_m = 4;      // where it is not flat
 constexpr double kFieldCell_m = 20;
-constexpr double kFieldPicture_m = 24;  // repeated: nobody looks at fields closely
-constexpr double kFieldTexel_m = 0.04;
+constexpr double kFieldPicture_m = 60;  // repeated: nobody looks at fields closely
+constexpr double kFieldOverlap_m = 12;  // a whole number of the tracks of a crop
+constexpr double kFieldTexel_m = 0.08;
 // Ground pictures of a town together: a hamlet's are sharp to 2 cm, a quarter's to 5 cm.
 constexpr double kMostTexels = 1.6e7;
 constexpr double kKerbTexel_m = 0.01;
@@ -48,11 +51,34 @@ void AddLines(double from, double to, double step, std::vector<double>& lines) {
   for (int i = 0; i <= count; ++i) lines.push_back(from + (to - from) * i / count);
 }
 
-std::vector<double> Lines(const Town& town, int axis) {
-  const Bounds bounds = BoundsOf(town);
-  const double low = bounds.low[axis];
-  const double high = bounds.high[axis];
-  std::vector<double> lines = {low - kFields_m, high + kFields_m};
+// What lies around a town: by axis, borders of parcels from one end of the fields to the other, the
+// town's own among them.
+struct Surroundings {
+  Bounds town;
+  std::array<std::vector<double>, 2> borders;
+};
+
+Surroundings SurroundingsOf(const Town& town) {
+  Surroundings around;
+  around.town = BoundsOf(town);
+  for (const int axis : {0, 1}) {
+    Random random(town.seed, 60 + axis);
+    std::vector<double>& borders = around.borders[axis];
+    for (double away = 0; away < kFields_m; away += random.Uniform(50, 120)) {
+      borders.push_back(around.town.low[axis] - away);
+      borders.push_back(around.town.high[axis] + away);
+    }
+    std::sort(borders.begin(), borders.end());
+  }
+  return around;
+}
+
+std::vector<double> Lines(const Town& town, const Surroundings& around, int axis) {
+  const double low = around.town.low[axis];
+  const double high = around.town.high[axis];
+  std::vector<double> lines = around.borders[axis];
+  lines.push_back(low - kFields_m);
+  lines.push_back(high + kFields_m);
   for (const GroundPatch& patch : town.ground) {
     lines.push_back(patch.low[axis]);
     lines.push_back(patch.high[axis]);
@@ -70,8 +96,49 @@ std::vector<double> Lines(const Town& town, int axis) {
   return lines;
 }
 
+// A street that crosses the town from edge to edge goes on through the fields: its patch, where
+// `at` lies beyond one of its ends, else -1.
+int StreetTo(const Town& town, const Bounds& bounds, const Vector2d& at) {
+  const Vector2d edge = at.cwiseMax(bounds.low).cwiseMin(bounds.high);
+  const int patch = PatchAt(town, edge);
+  if (patch == static_cast<int>(town.ground.size())) return -1;
+  const GroundPatch& street = town.ground[patch];
+  if (street.covering != Covering::kAsphalt) return -1;
+  for (const int along : {0, 1}) {
+    const int across = 1 - along;
+    const bool crosses =
+        street.low[along] <= bounds.low[along] && street.high[along] >= bounds.high[along];
+    const bool narrow =
+        street.low[across] > bounds.low[across] && street.high[across] < bounds.high[across];
+    if (crosses && narrow && edge[across] == at[across]) return patch;
+  }
+  return -1;
+}
+
+// The patch, field or street of a place, as GroundGrid::patch_of has them.
+int GroundOf(const Town& town, const Surroundings& around, const Vector2d& at) {
+  const int patches = static_cast<int>(town.ground.size());
+  const int patch = PatchAt(town, at);
+  if (patch < patches) return patch;
+  const int street = StreetTo(town, around.town, at);
+  if (street >= 0) return patches + kFieldKinds + street;
+  uint64_t parcel = town.seed;
+  for (const int axis : {0, 1}) {
+    const std::vector<double>& borders = around.borders[axis];
+    const auto next = std::upper_bound(borders.begin(), borders.end(), at[axis]);
+    parcel = SeedOf(parcel, next - borders.begin());
+  }
+  return patches + Random(parcel).Index(kFieldKinds);
+}
+
+bool IsTown(const Town& town, int patch) {
+  return patch < static_cast<int>(town.ground.size());
+}
+
 double RaiseOf(const Town& town, int patch) {
-  return patch < static_cast<int>(town.ground.size()) ? town.ground[patch].raise_m : 0;
+  if (IsTown(town, patch)) return town.ground[patch].raise_m;
+  const int street = patch - static_cast<int>(town.ground.size()) - kFieldKinds;
+  return street >= 0 ? town.ground[street].raise_m : 0;
 }
 
 class GroundBuilder {
@@ -129,7 +196,60 @@ double TexelOf(const Town& town, double finest_m) {
   return std::max(finest_m, std::sqrt(area / kMostTexels));
 }
 
-CoveringDesign DesignOf(const Covering covering, const Vector2d& size, uint64_t seed) {
+// Mixes what is right of and below the wanted size into the left and upper margins, so that the
+// picture goes on where it ends. Two mixed pictures have less contrast than one; what is lost is
+// given back (Heitz and Neyret, "High-performance by-example noise using a histogram-preserving
+// blending operator", 2018, for colours that are normally distributed).
+Image Seamless(const Image& large, int width_px, int height_px) {
+  std::array<double, 3> mean = {};
+  for (size_t i = 0; i < large.data.size(); ++i) mean[i % 3] += large.data[i];
+  for (double& value : mean) value *= 3.0 / static_cast<double>(large.data.size());
+  const auto mixed = [&](const auto& value, int at, int size, int all) {
+    const double share = at < all - size ? (at + 0.5) / (all - size) : 1;
+    const double gain = 1 / std::hypot(share, 1 - share);
+    return share == 1 ? value(at) : gain * (share * value(at) + (1 - share) * value(at + size));
+  };
+  Image image{width_px, height_px, 3, {}};
+  for (int y = 0; y < height_px; ++y) {
+    for (int x = 0; x < width_px; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const double value = mixed(
+            [&](int row) {
+              return mixed([&](int column) { return large.Pixel(column, row)[c] - mean[c]; }, x,
+                           width_px, large.width_px);
+            },
+            y, height_px, large.height_px);
+        image.data.push_back(static_cast<uint8_t>(std::clamp(mean[c] + value, 0.0, 255.0) + 0.5));
+      }
+    }
+  }
+  return image;
+}
+
+Image PaintField(CoveringDesign design, double metres_per_texel) {
+  const int width = Texels(design.width_m, metres_per_texel);
+  const int height = Texels(design.height_m, metres_per_texel);
+  design.width_m += kFieldOverlap_m;
+  design.height_m += kFieldOverlap_m;
+  return Seamless(PaintCovering(design, metres_per_texel), width, height);
+}
+
+// A sheet in the ground's axes over a rectangle of them; its material is left to the caller.
+Sheet GroundSheet(const Town& town, const Vector2d& low, const Vector2d& size, double texel_m) {
+  const Eigen::Rotation2Dd turn(town.turn_rad);
+  const Vector2d north_west = turn * Vector2d(low.x(), low.y() + size.y());
+  const Vector2d east = turn * Vector2d::UnitX();
+  Sheet sheet;
+  sheet.origin = {north_west.x(), north_west.y(), 0};
+  sheet.u = {east.x(), east.y(), 0};
+  sheet.v = {east.y(), -east.x(), 0};
+  sheet.width_m = Texels(size.x(), texel_m) * texel_m;
+  sheet.height_m = Texels(size.y(), texel_m) * texel_m;
+  return sheet;
+}
+
+CoveringDesign DesignOf(const Town& town, Covering covering, const Vector2d& size, uint64_t index) {
+  const uint64_t seed = Random(town.seed, 50 + index).Next();
   return {.width_m = size.x(),
           .height_m = size.y(),
           .covering = covering,
@@ -137,35 +257,33 @@ CoveringDesign DesignOf(const Covering covering, const Vector2d& size, uint64_t 
           .seed = seed};
 }
 
-// The sheets of the patches, then that of the fields, which go on in the tone of the last patch.
+// By what GroundGrid::patch_of names.
 std::vector<Sheet> MakeSheets(const Town& town, double finest_m, int element, CityModel& model) {
   std::vector<Sheet> sheets;
-  const double texel = TexelOf(town, finest_m);
-  const Eigen::Rotation2Dd turn(town.turn_rad);
-  const uint64_t seed = town.houses.empty() ? 0 : town.houses[0].seed;
-  for (size_t i = 0; i <= town.ground.size(); ++i) {
-    const bool fields = i == town.ground.size();
-    const Bounds town_bounds = BoundsOf(town);
-    const Vector2d low = fields ? town_bounds.low : town.ground[i].low;
-    const Vector2d size = fields ? Vector2d::Constant(kFieldPicture_m)
-                                 : Vector2d(town.ground[i].high - town.ground[i].low);
-    const auto design = DesignOf(fields ? Covering::kGrass : town.ground[i].covering, size,
-                                 Random(seed, 50 + std::min(i, town.ground.size() - 1)).Next());
-    const double mpt = fields ? std::max(finest_m, kFieldTexel_m) : texel;
-    Sheet sheet;
+  const auto add = [&](Sheet sheet, const std::string& name, std::function<Image()> paint) {
     sheet.element = element;
-    sheet.material = AddPainted(fields ? "fields" : fmt::format("ground-{}", i),
-                                {[design, mpt] { return PaintCovering(design, mpt); }, ""}, model);
-    const Vector2d north_west = turn * Vector2d(low.x(), low.y() + size.y());
-    const Vector2d east = turn * Vector2d::UnitX();
-    const Vector2d south = turn * -Vector2d::UnitY();
-    sheet.origin = {north_west.x(), north_west.y(), 0};
-    sheet.u = {east.x(), east.y(), 0};
-    sheet.v = {south.x(), south.y(), 0};
-    sheet.width_m = Texels(size.x(), mpt) * mpt;
-    sheet.height_m = Texels(size.y(), mpt) * mpt;
+    sheet.material = AddPainted(name, {std::move(paint), ""}, model);
     sheets.push_back(sheet);
+  };
+  const double texel = TexelOf(town, finest_m);
+  for (size_t i = 0; i < town.ground.size(); ++i) {
+    const GroundPatch& patch = town.ground[i];
+    const Vector2d size = patch.high - patch.low;
+    const CoveringDesign design = DesignOf(town, patch.covering, size, i);
+    add(GroundSheet(town, patch.low, size, texel), fmt::format("ground-{}", i),
+        [design, texel] { return PaintCovering(design, texel); });
   }
+  const double coarse = std::max(finest_m, kFieldTexel_m);
+  const Vector2d size = Vector2d::Constant(kFieldPicture_m);
+  constexpr std::array<Covering, kFieldKinds> kKinds = {Covering::kGrass, Covering::kCrop,
+                                                        Covering::kCrop, Covering::kSoil};
+  for (int i = 0; i < kFieldKinds; ++i) {
+    const CoveringDesign design = DesignOf(town, kKinds[i], size, 1000 + i);
+    add(GroundSheet(town, BoundsOf(town).low, size, coarse), fmt::format("field-{}", i),
+        [design, coarse] { return PaintField(design, coarse); });
+  }
+  const std::vector<Sheet> streets(sheets.begin(), sheets.end() - kFieldKinds);
+  sheets.insert(sheets.end(), streets.begin(), streets.end());
   return sheets;
 }
 
@@ -174,7 +292,7 @@ std::vector<Facet> SlopeFacets(const Town& town, const GroundGrid& grid) {
   std::vector<Facet> facets;
   for (int row = 0; row < grid.rows(); ++row) {
     for (int column = 0; column < grid.columns(); ++column) {
-      if (builder.PatchOf(column, row) == static_cast<int>(town.ground.size())) continue;
+      if (!IsTown(town, builder.PatchOf(column, row))) continue;
       const Loop cell = builder.Cell(column, row);
       for (const Loop& half : {Loop{cell[0], cell[1], cell[2]}, Loop{cell[0], cell[2], cell[3]}}) {
         const bool hidden =
@@ -205,7 +323,7 @@ std::vector<plan::Ring> LevelLoops(const Town& town, const GroundGrid& grid, dou
   for (int row = 0; row < grid.rows(); ++row) {
     for (int column = 0; column < grid.columns(); ++column) {
       const int patch = builder.PatchOf(column, row);
-      if (patch == static_cast<int>(town.ground.size()) || RaiseOf(town, patch) != raise) continue;
+      if (!IsTown(town, patch) || RaiseOf(town, patch) != raise) continue;
       plan::Ring ring;
       for (const Vector3d& corner : builder.Cell(column, row)) ring.push_back(corner.head<2>());
       cells.push_back(std::move(ring));
@@ -246,11 +364,13 @@ std::vector<Facet> LevelFacets(const Town& town, const GroundGrid& grid) {
 }  // namespace
 
 GroundGrid MakeGroundGrid(const Town& town) {
-  GroundGrid grid{Lines(town, 0), Lines(town, 1), {}};
+  const Surroundings around = SurroundingsOf(town);
+  GroundGrid grid{Lines(town, around, 0), Lines(town, around, 1), {}};
   for (int row = 0; row < grid.rows(); ++row) {
     for (int column = 0; column < grid.columns(); ++column) {
-      grid.patch_of.push_back(PatchAt(
-          town, {(grid.x[column] + grid.x[column + 1]) / 2, (grid.y[row] + grid.y[row + 1]) / 2}));
+      grid.patch_of.push_back(GroundOf(
+          town, around,
+          {(grid.x[column] + grid.x[column + 1]) / 2, (grid.y[row] + grid.y[row + 1]) / 2}));
     }
   }
   return grid;

@@ -14,15 +14,19 @@ namespace stucco::simulate {
 struct GroundGrid {
   std::vector<double> x;  // lines, ascending
   std::vector<double> y;
-  std::vector<int> patch_of;  // by cell, rows from the south: index of a patch, or their number for
-                              // the fields around the town
+  // By cell, rows from the south: index of a patch, or beyond the town, from their number on, one
+  // of kFieldKinds fields, and then of the streets that go on through them.
+  std::vector<int> patch_of;
   int columns() const { return static_cast<int>(x.size()) - 1; }
   int rows() const { return static_cast<int>(y.size()) - 1; }
 };
 
+inline constexpr int kFieldKinds = 4;
+
 GroundGrid MakeGroundGrid(const Town& town);
 
-// The town's ground with a picture per patch, kerbs, and fields to the horizon, as element G0.
+// The town's ground with a picture per patch, kerbs, and parcels of fields to the horizon, as
+// element G0.
 // Texels are as small as asked for a hamlet and coarser for larger towns.
 void AddGround(const Town& town, const GroundGrid& grid, double metres_per_texel, CityModel& model);
 

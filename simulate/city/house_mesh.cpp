@@ -180,6 +180,9 @@ class HouseBuilder {
     const double texel = texel_;
     sheet.material = AddPainted(
         id, {[design, texel] { return PaintWall(design, texel); }, FileNameOf(id)}, model_);
+    // All of a curtain wall mirrors.
+    if (design.cladding == Cladding::kGlass)
+      model_.scene.materials[sheet.material].gloss = kPaneGloss;
     shape.pane_material = sheet.material;
     if (std::any_of(design.parts.begin(), design.parts.end(), HasPane)) {
       Material pane = model_.scene.materials[sheet.material];

@@ -73,6 +73,13 @@ Town LayOutAsia(Random random) {
     town.ground.push_back({{-x, at - lane / 2}, {x, at + lane / 2}, Covering::kAsphalt, -0.1});
     ParkCars({-x, at + lane / 2 - 1.1}, {x, at + lane / 2 - 1.1}, 0.4, random, town);
   }
+  for (int row = -1; row <= 1; ++row) {
+    for (const double side : {-0.5, 0.5}) {  // lawns in the paving, between neighbours of a row
+      const Vector2d middle(side * cell_x, row * cell_y);
+      town.ground.push_back(
+          {middle - Vector2d(5, 11), middle + Vector2d(5, 11), Covering::kGrass, 0});
+    }
+  }
   town.ground.push_back(
       {{-x, -y}, {x, y}, random.Chance(0.5) ? Covering::kPaving : Covering::kGrass, 0});
   town.ground.push_back({{-x - 14, -y - 14}, {x + 14, y + 14}, Covering::kAsphalt, -0.1});

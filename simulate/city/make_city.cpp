@@ -148,7 +148,7 @@ CitySummary MakeCity(const CityOptions& options, const fs::path& scene_folder) {
     AddHouse(town.houses[i], facades[i], texel, model, textures);
   }
   AddGround(town, grid, options.metres_per_texel, model);
-  AddOccluders(town, options.seed, model);
+  AddOccluders(town, model);
   WriteTextureSet(textures, scene_folder / kTruthTextures);
   const int threads = options.threads > 0 ? options.threads : std::numeric_limits<int>::max();
   internal::WriteGlbFile(model.scene, PaintAll(model, threads, scene_folder),

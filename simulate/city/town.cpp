@@ -167,6 +167,7 @@ Town LayOutTown(const std::string& style, uint64_t seed) {
   for (const char c : style) name = (name ^ static_cast<unsigned char>(c)) * 1099511628211u;
   Random random(seed, name);
   Town town = InStreetAxes(style, random);
+  town.seed = random.Next();
   internal::MarkPartyWalls(town.houses);
   Turn(town);
   for (size_t i = 0; i < town.houses.size(); ++i) {

@@ -69,6 +69,7 @@ struct Relief {
 };
 
 struct Town {
+  uint64_t seed = 0;  // of what is no house
   std::vector<House> houses;
   // The ground is laid out in axes turned by `turn_rad` counter-clockwise about the origin.
   double turn_rad = 0;

@@ -120,6 +120,21 @@ void PaintCornice(Tile& tile, const WallLook& look, const WallPart& part) {
         [&](float, float y) { return 0.6f + 0.4f * Smooth(0, 0.25f, y - box.bottom); });
 }
 
+void PaintLedge(Tile& tile, const WallLook& look, const WallPart& part) {
+  const Box box = BoxOf(part);
+  constexpr float kSheet_m = 3;
+  Fill(tile, box, [&](float x, float y, Colour) {
+    const int sheet = Floor(x / kSheet_m);
+    const float in = x - static_cast<float>(sheet) * kSheet_m;
+    const float gap = Edge(0.005f - std::min(in, kSheet_m - in), tile.texel_m);
+    const float wear = 0.04f * Noise(x, 0.3f * y, {0.6f, 5, 0.7f, look.wall + 57}, tile.texel_m);
+    const float lit =
+        0.12f * Smooth(0.02f, 0, y - box.top) - 0.2f * Smooth(0.03f, 0, box.bottom - y);
+    return look.surround *
+           (Tone(0.04f * Normal(sheet, 2, look.wall) + wear + lit) * (1 - 0.6f * gap));
+  });
+}
+
 void PaintPlinth(Tile& tile, const WallLook& look, const WallPart& part) {
   const Box box = BoxOf(part);
   const Colour colour = look.surround * (0.35f + 0.3f * Trait(look, 46));

@@ -87,8 +87,9 @@ void PaintCurtainWall(Tile& tile, const WallLook& look) {
   const Colour tint = Pick(look.palette, 0, 0, 0);
   // The coating colours what it mirrors, though less than the picture's blue sky would tell.
   const Colour glass = Mix(tint * (1 / std::max(0.05f, Luminance(tint))), Grey(1), 0.6f);
-  const float opacity = 0.3f + 0.4f * Trait(look, 2);  // how much the coating mirrors
-  const Colour metal = Trait(look, 3) < 0.5f ? Grey(0.45f) : Grey(0.05f);
+  // How much of the picture is mirrored; what the pane mirrors by its angle comes from its gloss.
+  const float opacity = 0.2f + 0.3f * Trait(look, 2);
+  const Colour metal = look.surround;
   const float bar = 0.025f + 0.02f * Trait(look, 4);
   for (int row = 0; row < tile.height; ++row) {
     const float y = tile.Y(row);

@@ -115,7 +115,7 @@ void PaintPaving(Tile& tile, const CoveringLook& look) {
   const float stone_x = kind < 0.4f ? 0.30f : kind < 0.7f ? 0.20f : 0.11f;
   const float stone_y = kind < 0.4f ? 0.30f : kind < 0.7f ? 0.10f : 0.11f;
   const Colour base = kind < 0.4f   ? FromSrgb(158, 154, 146)
-                      : kind < 0.7f ? FromSrgb(150, 108, 92)
+                      : kind < 0.7f ? FromSrgb(140, 112, 100)
                                     : FromSrgb(128, 124, 118);
   const float spread = kind < 0.4f ? 0.06f : 0.13f;
   const Field stain(tile, StepFor(0.25f, texel), [&](float x, float y) {
@@ -150,31 +150,87 @@ void PaintPaving(Tile& tile, const CoveringLook& look) {
   }
 }
 
+// Daisies and dandelions: at most one in a square of 20 cm, where they grow at all. The share of a
+// texel that one covers.
+float Flower(float x, float y, uint32_t seed, float texel_m) {
+  constexpr float kCell_m = 0.2f;
+  const int cx = Floor(x / kCell_m);
+  const int cy = Floor(y / kCell_m);
+  const uint32_t h = Hash(cx, cy, seed);
+  if (h % 5 != 0) return 0;
+  const float dx = x / kCell_m - static_cast<float>(cx) - 0.2f - 0.6f * ToUnit(h * 0x9e3779b1u);
+  const float dy = y / kCell_m - static_cast<float>(cy) - 0.2f - 0.6f * ToUnit(h * 0x85ebca77u);
+  constexpr float kRadius_m = 0.012f;
+  const float whole = std::min(1.0f, 4 * kRadius_m * kRadius_m / (texel_m * texel_m));
+  return whole * Edge(std::max(kRadius_m, texel_m / 2) - kCell_m * std::hypot(dx, dy), texel_m);
+}
+
+// Blades, tufts, and how it grows from place to place, in one spectrum from a blade to a metre: a
+// lawn has no size of its own. Turned, as lattices of noise run along x and y and grass does not.
+float Sward(float x, float y, uint32_t seed, float texel_m) {
+  const float u = 0.8f * x + 0.6f * y;
+  const float v = 0.8f * y - 0.6f * x;
+  return Noise(u, v, {0.9f, 6, 0.82f, seed}, texel_m);
+}
+
 void PaintGrass(Tile& tile, const CoveringLook& look) {
   const float texel = tile.texel_m;
-  const Colour lush = Mix(FromSrgb(80, 94, 54), FromSrgb(100, 110, 66), Trait(look, 1));
-  const Colour dry = FromSrgb(142, 134, 92);
-  const Field meadow(tile, StepFor(0.2f, texel), [&](float x, float y) {
-    return Noise(x, y, {5.0f, 6, 0.65f, look.seed + 5}, texel);
+  const Colour lush = Mix(FromSrgb(74, 88, 52), FromSrgb(98, 106, 66), Trait(look, 1));
+  const Colour dry = FromSrgb(136, 128, 92);
+  const Colour clover = FromSrgb(62, 84, 52);
+  const Field meadow(tile, StepFor(0.5f, texel), [&](float x, float y) {
+    return Noise(0.9f * x + 0.4f * y, 0.9f * y - 0.4f * x, {7.0f, 4, 0.6f, look.seed + 5}, texel);
+  });
+  const Field herbs(tile, StepFor(0.3f, texel), [&](float x, float y) {
+    return Noise(0.6f * x - 0.8f * y, 0.6f * y + 0.8f * x, {2.3f, 4, 0.6f, look.seed + 6}, texel);
   });
   for (int row = 0; row < tile.height; ++row) {
     const float y = tile.Y(row);
     for (int column = 0; column < tile.width; ++column) {
       const float x = tile.X(column);
       const float m = meadow(column, row);
-      // Turned, as lattices of noise run along x and y and grass does not.
-      const float tuft = GradientNoise(6.4f * x + 4.8f * y, 6.4f * y - 4.8f * x, look.seed + 2) *
-                         BandShare(0.12f, texel);
-      const float blade =
-          0.7f * GradientNoise(x * 30, y * 24, look.seed + 4) * BandShare(0.035f, texel) +
-          Grain(tile, column, row, look.seed + 3);
-      const float parched = Smooth(-1.2f, 3.2f, m + 0.35f * tuft);
-      Colour colour =
-          Mix(lush, dry, 0.75f * parched) * Tone(0.26f * blade + 0.16f * tuft - 0.12f * m);
-      const float bare = Smooth(2.3f, 3.6f, -m + 0.5f * tuft);
-      colour = Mix(colour, FromSrgb(116, 98, 76) * Tone(0.15f * blade), bare);
-      const float flower = Uniform(tile.x0 + column, tile.y0 + row, look.seed + 9);
-      if (flower > 0.9993f) colour = Grey(0.6f);
+      const float h = herbs(column, row);
+      const float sward = Sward(x, y, look.seed + 2, texel);
+      const float blade = Grain(tile, column, row, look.seed + 3);
+      const float parched = Smooth(-1.0f, 3.4f, m + 0.3f * sward + 0.12f * blade);
+      Colour colour = Mix(lush, dry, 0.8f * parched);
+      colour = Mix(colour, clover, 0.6f * Smooth(0.7f, 1.5f, h + 0.2f * sward));
+      colour = colour * Tone(0.11f * sward + 0.34f * blade - 0.08f * m);
+      const float bare = Smooth(2.5f, 3.3f, -m - 0.6f * h + 0.4f * sward);
+      colour = Mix(colour, FromSrgb(112, 100, 78) * Tone(0.08f * sward + 0.15f * blade), bare);
+      const float grows = Smooth(0.6f, 1.2f, -h);
+      if (grows > 0) {
+        colour = Mix(colour, Grey(0.6f), grows * Flower(x, y, look.seed + 9, texel));
+      }
+      tile.At(column, row) = colour;
+    }
+  }
+}
+
+// A field of grain, from green to ripe, in rows, with the tracks of the tractor.
+void PaintCrop(Tile& tile, const CoveringLook& look) {
+  const float texel = tile.texel_m;
+  const Colour base = Mix(FromSrgb(82, 102, 56), FromSrgb(160, 148, 110), Trait(look, 1));
+  const Colour soil = FromSrgb(118, 100, 78);
+  constexpr float kRow_m = 0.125f;
+  constexpr float kTracks_m = 12;
+  constexpr float kGauge_m = 1.8f;
+  const Field growth(tile, StepFor(0.3f, texel), [&](float x, float y) {
+    return Noise(0.8f * x + 0.6f * y, 0.8f * y - 0.6f * x, {9.0f, 5, 0.6f, look.seed + 5}, texel);
+  });
+  for (int row = 0; row < tile.height; ++row) {
+    const float y = tile.Y(row);
+    for (int column = 0; column < tile.width; ++column) {
+      const float x = tile.X(column);
+      const float g = growth(column, row);
+      const float sward = Sward(x, y, look.seed + 2, texel);
+      const float blade = Grain(tile, column, row, look.seed + 3);
+      const float rows = std::cos(6.2832f * x / kRow_m) * BandShare(kRow_m, texel);
+      Colour colour = base * Tone(0.07f * sward + 0.2f * blade + 0.1f * rows + 0.07f * g);
+      const float across = x - kTracks_m * (static_cast<float>(Floor(x / kTracks_m)) + 0.5f);
+      const float track = Edge(0.17f - std::abs(std::abs(across) - kGauge_m / 2), texel);
+      const float thin = std::max(0.7f * track, Smooth(2.0f, 3.2f, -g + 0.3f * sward));
+      colour = Mix(colour, soil * Tone(0.06f * sward + 0.12f * blade), thin);
       tile.At(column, row) = colour;
     }
   }

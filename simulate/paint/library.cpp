@@ -139,16 +139,15 @@ Colour Pick(const Palette& palette, float a, float b, float c) {
   return {std::exp(log.r), std::exp(log.g), std::exp(log.b)};
 }
 
-Palette Calmed(const Palette& palette, float most) {
-  constexpr float kChroma = 0.7f;    // old compact cameras saturate colours
-  constexpr float kDarkest = 0.08f;  // walls photographed in the shade are no darker than others
+Palette Calmed(const Palette& palette, float most, float darkest) {
+  constexpr float kChroma = 0.7f;  // old compact cameras saturate colours
   constexpr float kLightest = 0.62f;
   Palette calmed = palette;
   Colour& mean = calmed.mean;
   const float grey = (mean.r + mean.g + mean.b) / 3;
   mean = Mix({grey, grey, grey}, mean, kChroma);
   const float light = Luminance(Pick(calmed, 0, 0, 0));
-  const float lift = std::log(std::clamp(light, kDarkest, kLightest) / light);
+  const float lift = std::log(std::clamp(light, darkest, kLightest) / light);
   mean = mean + Grey(lift);
   const Colour& first = palette.axes[0];
   const float length = std::sqrt(first.r * first.r + first.g * first.g + first.b * first.b);

@@ -87,12 +87,16 @@ void PaintSurface(Tile& tile, const CoveringLook& look) {
       return internal::PaintGrass(tile, look);
     case Covering::kSoil:
       return internal::PaintSoil(tile, look);
+    case Covering::kCrop:
+      return internal::PaintCrop(tile, look);
   }
 }
 
-// Plinths and cornices lie under what else is on the wall, balconies over it.
+// Bands along the wall lie under what else is on the wall, balconies over it.
 int Layer(PartKind kind) {
-  if (kind == PartKind::kPlinth || kind == PartKind::kCornice) return 0;
+  const bool band =
+      kind == PartKind::kPlinth || kind == PartKind::kCornice || kind == PartKind::kLedge;
+  if (band) return 0;
   return kind == PartKind::kBalcony ? 2 : 1;
 }
 

@@ -69,6 +69,9 @@ void PaintPart(Tile& tile, const WallLook& look, const WallPart& part) {
     case PartKind::kCornice:
       PaintCornice(tile, look, part);
       break;
+    case PartKind::kLedge:
+      PaintLedge(tile, look, part);
+      break;
     case PartKind::kPlinth:
       PaintPlinth(tile, look, part);
       break;

@@ -10,7 +10,7 @@ namespace {
 
 Colour TileColour(int palette) {
   constexpr std::array<std::array<uint8_t, 3>, 6> kColours = {
-      {{152, 84, 58}, {128, 66, 48}, {92, 62, 52}, {84, 84, 88}, {168, 104, 72}, {70, 72, 78}}};
+      {{142, 92, 72}, {122, 76, 62}, {96, 70, 62}, {86, 86, 88}, {150, 106, 84}, {72, 74, 78}}};
   const int count = static_cast<int>(kColours.size());
   const auto& c = kColours[((palette % count) + count) % count];
   return FromSrgb(c[0], c[1], c[2]);

@@ -60,7 +60,9 @@ void PaintStone(Tile& tile, const WallLook& look) {
       if (column == 0 || x >= block.box.right) {
         block = BlockAt(masonry, x, y, look.wall);
         const auto draw = [&](int k) { return Normal(block.column, block.row, look.wall + k); };
-        colour = Pick(look.palette, draw(1), draw(2), draw(3)) * Tone(0.09f * draw(4));
+        constexpr float kSpread = 0.6f;  // blocks of one wall come from one quarry
+        colour = Pick(look.palette, kSpread * draw(1), kSpread * draw(2), kSpread * draw(3)) *
+                 Tone(0.05f * draw(4));
         tilt = 3 * draw(5);  // of the bedding
       }
       const uint32_t own = look.wall + Hash(block.column, block.row, 7);

@@ -17,6 +17,7 @@ enum class PartKind {
   kBalconyDoor,
   kBalcony,  // the slab's face and the railing as seen from the front
   kCornice,
+  kLedge,  // metal along a floor of a curtain wall
   kPlinth,
 };
 
@@ -45,7 +46,7 @@ struct WallDesign {
   int wall = 0;       // number of the wall in its building
 };
 
-enum class Covering { kTiles, kMembrane, kGravel, kMetal, kAsphalt, kPaving, kGrass, kSoil };
+enum class Covering { kTiles, kMembrane, kGravel, kMetal, kAsphalt, kPaving, kGrass, kSoil, kCrop };
 
 // A horizontal or sloping surface painted in one kind; y of the picture runs down the slope.
 struct CoveringDesign {

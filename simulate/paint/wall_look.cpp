@@ -23,6 +23,23 @@ std::string_view KindOf(Cladding cladding) {
   return "plaster";
 }
 
+// Albedos of the field's tables: paint and limestone are light, brick and glass may be dark.
+float DarkestOf(Cladding cladding) {
+  switch (cladding) {
+    case Cladding::kPlaster:
+      return 0.26f;
+    case Cladding::kStone:
+    case Cladding::kConcrete:
+      return 0.2f;
+    case Cladding::kPanels:
+      return 0.12f;
+    case Cladding::kBrick:
+    case Cladding::kGlass:
+      return 0.08f;
+  }
+  return 0.08f;
+}
+
 Colour FrameColour(float choice) {
   if (choice < 0.55f) return FromSrgb(226, 224, 216);
   if (choice < 0.7f) return FromSrgb(92, 60, 40);
@@ -44,13 +61,16 @@ WallLook LookOf(const WallDesign& design) {
   look.design = &design;
   look.picture = &PictureOf(KindOf(design.cladding), design.palette);
   const bool varied = design.cladding == Cladding::kBrick;
-  look.palette = Calmed(look.picture->palette, varied ? 0.30f : 0.16f);
+  look.palette = Calmed(look.picture->palette, varied ? 0.30f : 0.16f, DarkestOf(design.cladding));
   look.building = Hash(design.seed, 17);
   look.wall = Hash(look.building, static_cast<uint32_t>(design.wall), 29);
   look.width_m = static_cast<float>(design.width_m);
   look.height_m = static_cast<float>(design.height_m);
   look.surround = Mix(FromSrgb(150, 140, 124), FromSrgb(222, 216, 202), Trait(look, 31)) *
                   Tone(0.1f * (Trait(look, 32) - 0.5f));
+  if (design.cladding == Cladding::kGlass) {  // there, the metal of bars and ledges
+    look.surround = Grey(Trait(look, 3) < 0.5f ? 0.35f : 0.06f);
+  }
   look.frame = FrameColour(Trait(look, 33));
   look.shutter = ShutterColour(Trait(look, 34));
   look.soot = Trait(look, 35) * Trait(look, 36);

@@ -21,10 +21,10 @@ constexpr Cladding kCladdings[] = {Cladding::kBrick,    Cladding::kPlaster, Clad
                                    Cladding::kConcrete, Cladding::kPanels,  Cladding::kGlass};
 constexpr Covering kCoverings[] = {Covering::kTiles, Covering::kMembrane, Covering::kGravel,
                                    Covering::kMetal, Covering::kAsphalt,  Covering::kPaving,
-                                   Covering::kGrass, Covering::kSoil};
+                                   Covering::kGrass, Covering::kSoil,     Covering::kCrop};
 constexpr PartKind kParts[] = {PartKind::kWindow,      PartKind::kDoor,    PartKind::kShopWindow,
                                PartKind::kBalconyDoor, PartKind::kBalcony, PartKind::kCornice,
-                               PartKind::kPlinth};
+                               PartKind::kLedge,       PartKind::kPlinth};
 
 WallDesign Wall(Cladding cladding, double width_m, double height_m, uint64_t seed = 3) {
   WallDesign design;
@@ -312,7 +312,7 @@ TEST(PaintLeaves, HasLeavesAndGaps) {
 TEST(PaintCar, CarsDiffer) {
   const Image one = PaintCar(1, 0.02);
   EXPECT_EQ(one.width_px, 220);
-  EXPECT_EQ(one.height_px, 75);
+  EXPECT_EQ(one.height_px, 238);
   std::set<std::vector<uint8_t>> seen;
   for (uint64_t seed = 0; seed < 6; ++seed) seen.insert(PaintCar(seed, 0.02).data);
   EXPECT_GT(seen.size(), 4u);

@@ -84,7 +84,7 @@ TEST_P(Towns, GroundIsWhatHousesLeaveFree) {
     const GroundGrid grid = MakeGroundGrid(town);
     for (int row = 0; row < grid.rows(); ++row) {
       for (int column = 0; column < grid.columns(); ++column) {
-        if (grid.patch_of[row * grid.columns() + column] == static_cast<int>(town.ground.size())) {
+        if (grid.patch_of[row * grid.columns() + column] >= static_cast<int>(town.ground.size())) {
           continue;
         }
         covered += (grid.x[column + 1] - grid.x[column]) * (grid.y[row + 1] - grid.y[row]);
@@ -107,7 +107,8 @@ TEST_P(Towns, PartsLieOnTheirWallsApartFromEachOther) {
         const WallDesign design = DesignWall(house, {face.edge, width, top, top - eaves});
         EXPECT_TRUE(!house.party[face.edge] || design.parts.empty());
         for (const WallPart& part : design.parts) {
-          const bool band = part.kind == PartKind::kCornice || part.kind == PartKind::kPlinth;
+          const bool band = part.kind == PartKind::kCornice || part.kind == PartKind::kLedge ||
+                            part.kind == PartKind::kPlinth;
           const double margin = band ? 0 : 0.09;
           ASSERT_GE(part.top_left.x(), margin - 1e-9) << seed;
           ASSERT_LE(part.bottom_right.x(), width - margin + 1e-9) << seed;
@@ -167,8 +168,61 @@ TEST_P(Towns, CarsAndTreesStandFree) {
   }
 }
 
+// Fields begin behind the town, and only a street that runs from one of its edges to the other goes
+// on through them, as low as it lies within.
+TEST_P(Towns, StreetsDoNotEndInTheFields) {
+  for (int seed = 0; seed < 20; ++seed) {
+    const Town town = LayOutTown(GetParam(), seed);
+    const GroundGrid grid = MakeGroundGrid(town);
+    const int patches = static_cast<int>(town.ground.size());
+    std::set<int> fields;
+    std::set<int> streets;
+    for (const int patch : grid.patch_of) {
+      if (patch >= patches + kFieldKinds) {
+        streets.insert(patch - patches - kFieldKinds);
+      } else if (patch >= patches) {
+        fields.insert(patch);
+      }
+    }
+    EXPECT_GT(fields.size(), 1u) << seed;
+    const bool crossed = GetParam() != "block" && GetParam() != "asia";
+    ASSERT_EQ(streets.size(), crossed ? 1u : 0u) << seed;
+    for (const int street : streets) {
+      EXPECT_EQ(town.ground[street].covering, Covering::kAsphalt);
+      EXPECT_LT(town.ground[street].raise_m, 0);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Styles, Towns, testing::ValuesIn(CityStyles()),
                          [](const auto& test) { return test.param; });
+
+// Mean difference of a picture's columns at a and b.
+double Step(const Image& image, int a, int b) {
+  double sum = 0;
+  for (int y = 0; y < image.height_px; ++y) {
+    for (int c = 0; c < 3; ++c) sum += std::abs(image.Pixel(a, y)[c] - image.Pixel(b, y)[c]);
+  }
+  return sum / (3.0 * image.height_px);
+}
+
+TEST(Town, PicturesOfFieldsGoOnWhereTheyEnd) {
+  const Town town = LayOutTown("hamlet", 3);
+  CityModel model;
+  AddGround(town, MakeGroundGrid(town), 0.25, model);
+  int fields = 0;
+  for (const Material& material : model.scene.materials) {
+    if (!material.name.starts_with("field-")) continue;
+    ++fields;
+    const Image image = model.pictures[material.texture].paint();
+    const int last = image.width_px - 1;
+    double most = 0;
+    for (int x = 0; x < last; ++x) most = std::max(most, Step(image, x, x + 1));
+    EXPECT_LE(Step(image, last, 0), most) << material.name;
+    EXPECT_GT(Step(image, last / 2, 0), 1.5 * Step(image, last, 0)) << material.name << " varies";
+  }
+  EXPECT_EQ(fields, kFieldKinds);
+}
 
 TEST(Town, UnknownStyleIsRefusedWithTheKnownOnes) {
   const Error error = test::ErrorOf([] { LayOutTown("castle", 1); });

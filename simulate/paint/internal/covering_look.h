@@ -26,6 +26,7 @@ void PaintMetal(Tile& tile, const CoveringLook& look);
 void PaintAsphalt(Tile& tile, const CoveringLook& look);
 void PaintPaving(Tile& tile, const CoveringLook& look);
 void PaintGrass(Tile& tile, const CoveringLook& look);
+void PaintCrop(Tile& tile, const CoveringLook& look);
 void PaintSoil(Tile& tile, const CoveringLook& look);
 
 }  // namespace stucco::simulate::internal

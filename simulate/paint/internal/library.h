@@ -31,8 +31,9 @@ struct Palette {
 };
 
 // A wall's palette from a photo's: axes no longer than `most`, in logarithms of light, for a
-// picture's bare wall has shadows and other things on it, and a mean that walls can have.
-Palette Calmed(const Palette& palette, float most);
+// picture's bare wall has shadows and other things on it, and a mean at least as light as
+// `darkest`, for photos of walls in the shade say little of their albedo.
+Palette Calmed(const Palette& palette, float most, float darkest);
 
 // The colour that lies `a`, `b` and `c` standard deviations along the axes.
 Colour Pick(const Palette& palette, float a, float b, float c);

@@ -17,6 +17,7 @@ void PaintDoor(Tile& tile, const WallLook& look, const WallPart& part);
 void PaintShopWindow(Tile& tile, const WallLook& look, const WallPart& part);
 void PaintBalcony(Tile& tile, const WallLook& look, const WallPart& part);
 void PaintCornice(Tile& tile, const WallLook& look, const WallPart& part);
+void PaintLedge(Tile& tile, const WallLook& look, const WallPart& part);
 void PaintPlinth(Tile& tile, const WallLook& look, const WallPart& part);
 
 // Blocks at the wall's corners and bands at its floors, where the building has them.

@@ -18,7 +18,7 @@ struct WallLook {
   uint32_t wall = 0;
   float width_m = 0;
   float height_m = 0;
-  Colour surround;  // around openings, cornices: painted plaster or stone
+  Colour surround;  // around openings, cornices: painted plaster or stone; metal on glass walls
   Colour frame;     // of windows
   Colour shutter;   // and doors
   float soot = 0;   // 0 clean ... 1 never cleaned
