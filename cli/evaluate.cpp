@@ -39,6 +39,10 @@ std::string SurfaceText(const char* name, const SurfaceFigures& figures) {
                      Percent(figures.completeness), Percent(figures.completeness_all));
 }
 
+bool IsMeasured(const SurfaceFigures& figures) {
+  return std::isfinite(figures.error95_m) || std::isfinite(figures.completeness);
+}
+
 std::string ProxyText(const evaluate::ProxyFigures& proxy) {
   return fmt::format(
       "buildings   {} (truth {}): {} watertight, {} manifold, {} cross themselves\n"
@@ -59,24 +63,36 @@ std::string PlanText(const evaluate::PlanFigures& plan) {
       plan.method, plan.photos, plan.hovers, plan.length_m, plan.time_min, plan.battery_percent);
 }
 
+// Nothing where nothing was measured: the notes say why.
+std::string SurfacesText(const Evaluation& evaluation) {
+  std::string rows;
+  if (IsMeasured(evaluation.dense)) rows += SurfaceText("cloud", evaluation.dense);
+  if (IsMeasured(evaluation.mesh)) rows += SurfaceText("mesh", evaluation.mesh);
+  const evaluate::ProxyFigures& proxy = evaluation.proxy;
+  if (IsMeasured(proxy.all)) {
+    rows += SurfaceText("model", proxy.all) + SurfaceText("  walls", proxy.wall) +
+            SurfaceText("  roofs", proxy.roof) + SurfaceText("  ground", proxy.ground);
+  }
+  if (rows.empty()) return "";
+  return fmt::format("\n{:<11} {:>12} {:>14} {:>14}\n", "", "95 % below", "complete: seen",
+                     "of everything") +
+         rows + fmt::format("(complete: within {:g} m)\n", evaluation.tolerance_m) +
+         (IsMeasured(proxy.all) ? "\n" + ProxyText(proxy) : "");
+}
+
+std::string PicturesText(const Evaluation& evaluation) {
+  if (evaluation.facades.empty() && evaluation.views.empty()) return "";
+  return fmt::format("\n{:<11} {:>7} {:>8} {:>7} {:>7} {:>7} {:>7}\n", "", "SSIM", "MS-SSIM",
+                     "PSNR", "GMSD", "FLIP", "LPIPS") +
+         PictureText("facades", evaluation.texture_mean) +
+         PictureText("held out", evaluation.views_mean) +
+         fmt::format("misregistration {} px\n", Decimal(evaluation.misregistration_px, 2));
+}
+
 std::string Text(const Evaluation& evaluation) {
   std::string text = evaluation.has_plan ? PlanText(evaluation.plan) : "";
   text += PosesText(evaluation.poses);
-  text += fmt::format("\n{:<11} {:>12} {:>14} {:>14}\n", "", "95 % below", "complete: seen",
-                      "of everything");
-  text += SurfaceText("cloud", evaluation.dense);
-  if (std::isfinite(evaluation.mesh.error95_m)) text += SurfaceText("mesh", evaluation.mesh);
-  text += SurfaceText("model", evaluation.proxy.all) +
-          SurfaceText("  walls", evaluation.proxy.wall) +
-          SurfaceText("  roofs", evaluation.proxy.roof) +
-          SurfaceText("  ground", evaluation.proxy.ground);
-  text += fmt::format("(complete: within {:g} m)\n\n", evaluation.tolerance_m);
-  text += ProxyText(evaluation.proxy);
-  text += fmt::format("\n{:<11} {:>7} {:>8} {:>7} {:>7} {:>7} {:>7}\n", "", "SSIM", "MS-SSIM",
-                      "PSNR", "GMSD", "FLIP", "LPIPS");
-  text += PictureText("facades", evaluation.texture_mean) +
-          PictureText("held out", evaluation.views_mean);
-  text += fmt::format("misregistration {} px\n", Decimal(evaluation.misregistration_px, 2));
+  text += SurfacesText(evaluation) + PicturesText(evaluation);
   for (const std::string& note : evaluation.notes) text += "note: " + note + "\n";
   return text;
 }

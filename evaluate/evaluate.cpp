@@ -8,6 +8,8 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "evaluate/attempt.h"
@@ -85,9 +87,10 @@ class Evaluator {
     Attempt(measured, measure, evaluation_);
   }
   // Whether the survey has a file; if not, says what is therefore not measured.
-  bool Has(const char* file, const char* measured) {
+  bool Has(std::string_view file, const char* measured) {
     if (fs::exists(request_.survey / file)) return true;
-    Note(fmt::format("{} not measured: there is no {}", measured, file));
+    Note(fmt::format("{} not measured: there is no {}; {} makes it", measured, file,
+                     file == kStatsFile ? "stucco plan" : "stucco run"));
     return false;
   }
 
@@ -103,7 +106,8 @@ class Evaluator {
     const Reconstruction result = ReadColmapModel(request_.survey / kSparseFolder);
     Georef georef;
     if (fs::exists(request_.survey / kGeorefFile)) {
-      georef = ReadGeoref(request_.survey / kGeorefFile);
+      Try("georeferenced positions are",
+          [&] { georef = ReadGeoref(request_.survey / kGeorefFile); });
     }
     PoseComparison poses = ComparePoses(result, georef, truth_.flight, truth_.info.georef);
     evaluation_.poses = poses.figures;

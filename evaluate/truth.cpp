@@ -69,6 +69,10 @@ Truth ReadTruth(const fs::path& scene, const fs::path& flight) {
     Refuse(fmt::format("{}: has no truth to measure against", scene.string()),
            "give a scene folder that stucco simulate city made");
   }
+  if (!fs::exists(scene / simulate::kTruthFacets)) {
+    Refuse(fmt::format("{}: there is no {} in it", scene.string(), simulate::kTruthFacets),
+           "make the scene again with stucco simulate city");
+  }
   truth.facets = ReadProxy(scene / simulate::kTruthFacets);
   if (!fs::exists(flight / simulate::kFlightFile)) {
     Refuse(fmt::format("{}: there is no {} in it", flight.string(), simulate::kFlightFile),

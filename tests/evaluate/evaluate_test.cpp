@@ -95,8 +95,12 @@ TEST(Evaluate, WhatIsNotThereIsNotedAndNotMeasured) {
   EXPECT_TRUE(std::isnan(found.dense.error95_m));
   EXPECT_FALSE(found.has_plan);
   EXPECT_EQ(found.proxy.watertight, 2);
-  EXPECT_THAT(found.notes, Contains("the cloud is not measured: there is no dense/cloud.ply"));
-  EXPECT_THAT(found.notes, Contains("the plan is not measured: there is no plan/stats.json"));
+  EXPECT_THAT(
+      found.notes,
+      Contains("the cloud is not measured: there is no dense/cloud.ply; stucco run makes it"));
+  EXPECT_THAT(
+      found.notes,
+      Contains("the plan is not measured: there is no plan/stats.json; stucco plan makes it"));
   fs::remove_all(made.survey / "calib");
   found = Evaluate(RequestFor(made));
   EXPECT_EQ(found.poses.posed, 0);
@@ -124,6 +128,11 @@ TEST(Evaluate, WhatIsDamagedIsNotedAndTheRestIsMeasured) {
   found = Evaluate(RequestFor(made));
   EXPECT_EQ(found.poses.posed, 13);
   EXPECT_THAT(found.notes, Contains(HasSubstr("scene.glb")));
+  WriteFile(made.survey / kGeorefFile, "{");
+  found = Evaluate(RequestFor(made));
+  EXPECT_NEAR(found.poses.position_max_m, 0, 1e-6);
+  EXPECT_TRUE(std::isnan(found.poses.georeferenced_mean_m));
+  EXPECT_THAT(found.notes, Contains(HasSubstr("georef.json")));
   fs::remove_all(made.survey / kSparseFolder);
   WriteFile(made.survey / kSparseFolder, "no folder");
   found = Evaluate(RequestFor(made));
@@ -174,6 +183,12 @@ TEST(Evaluate, RefusesAFlightInAnotherScene) {
   EvaluateRequest request = RequestFor(again);
   request.scene = other;
   ExpectRefused(request, ErrorKind::kBadInput, "was flown in");
+}
+
+TEST(Evaluate, RefusesASceneWithoutItsTruth) {
+  const MadeSurvey made = WriteMadeSurvey(Root(), {});
+  fs::remove(made.scene / simulate::kTruthFacets);
+  ExpectRefused(RequestFor(made), ErrorKind::kBadInput, "there is no truth/facets.json in it");
 }
 
 TEST(Evaluate, RefusesASceneThatWasMadeAnewSince) {
