@@ -56,10 +56,10 @@ struct FacadeFigures {
   double painted = 0;  // share of the truth's area that the result paints
   PictureFigures picture;
   double misregistration_px = kNotMeasured;
-  std::string problem;        // why a picture of the result could not be read; mostly empty
   std::string truth_picture;  // for the page, relative to the output folder; may be empty
   std::string result_picture;
   std::string error_picture;  // FLIP's map
+  std::string problem = {};   // why a picture of the result could not be read; mostly empty
 };
 
 struct HeldOutFigures {
