@@ -127,6 +127,35 @@ std::map<std::string, std::vector<Eigen::Vector3d>> CornersByElement(const Scene
   return corners;
 }
 
+// A texel of the truth's picture is the same place in the model: where the picture lies on a
+// triangle, it is not stretched.
+TEST_P(Cities, TexelsLieInTheModelWhereTheTruthSays) {
+  const test::TemporaryFolder folder;
+  const fs::path folder_of_scene = folder / "scene";
+  MakeCity(Coarse(GetParam(), 9), folder_of_scene);
+  const Scene scene = ReadScene(folder_of_scene);
+  std::map<std::string, TexturedFacet> textures;
+  for (const TexturedFacet& facet : ReadTextureSet(folder_of_scene / kTruthTextures).facets) {
+    textures[facet.id] = facet;
+  }
+  int checked = 0;
+  for (size_t i = 0; i < scene.triangles.size(); ++i) {
+    const std::string& id = scene.elements[scene.elements_of[i]];
+    const std::string& material = scene.materials[scene.materials_of[i]].name;
+    if (!textures.contains(id) || (material != id && material != id + "-pane")) continue;
+    const TexturedFacet& texture = textures.at(id);
+    for (const int vertex : scene.triangles[i]) {
+      const Eigen::Vector3d from = scene.positions[vertex].cast<double>() - texture.origin;
+      const Eigen::Vector2d texels = scene.uv[vertex].cast<double>().cwiseProduct(
+          Eigen::Vector2d(texture.width_px, texture.height_px));
+      ASSERT_NEAR(texels.x() * texture.metres_per_texel, from.dot(texture.u_axis), 1e-3) << id;
+      ASSERT_NEAR(texels.y() * texture.metres_per_texel, from.dot(texture.v_axis), 1e-3) << id;
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 1000);
+}
+
 // What is seen and what the truth says of it are one place: roofs wholly, walls but for their
 // relief, which leaves two fifths of them or more.
 TEST_P(Cities, TheModelLiesOnTheTruth) {
@@ -152,6 +181,25 @@ TEST_P(Cities, TheModelLiesOnTheTruth) {
       ASSERT_LT(farthest, roof ? kFloat_m : 1.5 + kFloat_m) << id;
     }
     EXPECT_GT(on_plane_m2, 0.4 * facet.area) << id;
+  }
+}
+
+TEST_P(Cities, TheGroundOfTheTruthIsThatOfTheModel) {
+  constexpr double kFloat_m = 1e-3;
+  const test::TemporaryFolder folder;
+  const fs::path scene = folder / "scene";
+  MakeCity(Coarse(GetParam(), 10), scene);
+  const std::vector<Eigen::Vector3d> drawn = CornersByElement(ReadScene(scene)).at("G0");
+  for (const auto& [id, facet] : FacetsById(scene)) {
+    if (!id.starts_with("G")) continue;  // the floors of buildings are B0001/G0
+    const auto on_plane = [&, &f = facet](const Eigen::Vector3d& corner) {
+      return std::abs(f.normal.dot(corner) - f.offset) < kFloat_m;
+    };
+    bool found = false;
+    for (size_t i = 0; i < drawn.size() && !found; i += 3) {
+      found = std::all_of(drawn.begin() + i, drawn.begin() + i + 3, on_plane);
+    }
+    EXPECT_TRUE(found) << id;
   }
 }
 

@@ -15,6 +15,7 @@
 #include "simulate/city/ground.h"
 #include "simulate/city/house_mesh.h"
 #include "simulate/city/make_city.h"
+#include "simulate/paint/paint.h"
 #include "survey/error.h"
 #include "tests/survey/support.h"
 
@@ -196,6 +197,36 @@ TEST_P(Towns, StreetsDoNotEndInTheFields) {
 
 INSTANTIATE_TEST_SUITE_P(Styles, Towns, testing::ValuesIn(CityStyles()),
                          [](const auto& test) { return test.param; });
+
+// The picture of a facade shows the design that its relief was built from.
+TEST(Town, PicturesOfFacadesShowWhatWasBuilt) {
+  constexpr double kTexel_m = 0.05;
+  const House house = LayOutTown("hamlet", 4).houses[0];
+  std::vector<std::string> facades(house.party.size());
+  for (size_t i = 0; i < facades.size(); ++i) facades[i] = "F" + std::to_string(i);
+  CityModel model;
+  TextureSet truth;
+  AddHouse(house, facades, kTexel_m, model, truth);
+  const Solid solid = SolidOf(house);
+  size_t openings = 0;
+  for (const Solid::Face& face : solid.faces) {
+    if (face.facet_class != FacetClass::kWall) continue;
+    Loop wall = Corners(solid, face.outer);
+    const double parapet = house.roof == RoofShape::kFlat ? house.parapet_m : 0;
+    const double eaves = wall[2].z() + parapet;
+    const double top = wall.size() == 5 ? wall[3].z() : eaves;
+    const WallDesign design =
+        DesignWall(house, {face.edge, (wall[1] - wall[0]).norm(), top, top - eaves});
+    const std::string& id = facades[face.edge];
+    const auto picture =
+        std::find_if(model.pictures.begin(), model.pictures.end(),
+                     [&](const PictureJob& job) { return job.truth_file == id + ".jpg"; });
+    ASSERT_NE(picture, model.pictures.end()) << id;
+    EXPECT_EQ(picture->paint().data, PaintWall(design, kTexel_m).data) << id;
+    openings += design.parts.size();
+  }
+  EXPECT_GT(openings, 4u);
+}
 
 // Mean difference of a picture's columns at a and b.
 double Step(const Image& image, int a, int b) {
