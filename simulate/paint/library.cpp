@@ -144,8 +144,11 @@ Palette Calmed(const Palette& palette, float most, float darkest) {
   constexpr float kLightest = 0.62f;
   Palette calmed = palette;
   Colour& mean = calmed.mean;
+  // Paint that is made lighter becomes paler.
+  const float photographed = Luminance(Pick(palette, 0, 0, 0));
+  const float pale = std::min(1.0f, std::sqrt(photographed / darkest));
   const float grey = (mean.r + mean.g + mean.b) / 3;
-  mean = Mix({grey, grey, grey}, mean, kChroma);
+  mean = Mix({grey, grey, grey}, mean, kChroma * pale);
   const float light = Luminance(Pick(calmed, 0, 0, 0));
   const float lift = std::log(std::clamp(light, darkest, kLightest) / light);
   mean = mean + Grey(lift);
