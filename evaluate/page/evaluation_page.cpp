@@ -21,15 +21,14 @@ std::string MeasuresSection(const Evaluation& evaluation) {
   if (evaluation.facades.empty() && evaluation.views.empty()) return "";
   return "<section aria-labelledby=\"measures\"><h2 id=\"measures\">What the figures mean</h2>"
          "<p>Every facade of the truth is drawn at right angles on the texels of the result, in "
-         "the "
-         "light of the middle of the flight. Both are compared where they overlap and the result "
-         "was painted from photos. One gain per colour for the whole survey is taken off, because "
-         "exposure and white balance cannot be known.</p><p>SSIM and MS-SSIM are 1 for equal "
-         "pictures, PSNR is at most 100 dB, and GMSD, FLIP and LPIPS are 0. Shift is the median "
-         "length of the optical flow from truth to result, in the texels that were compared. In "
-         "the "
-         "FLIP pictures black is no visible error, bright yellow the largest, and grey was not "
-         "measured.</p></section>";
+         "the light of the middle of the flight. Both are compared where they overlap and the "
+         "result was painted from photos. One gain per colour for the whole survey is taken off, "
+         "because exposure and white balance cannot be known. Photos held out have one gain per "
+         "photo and colour, and what their lens loses towards the corners is fitted.</p>"
+         "<p>SSIM and MS-SSIM are 1 for equal pictures, PSNR is at most 100 dB, and GMSD, FLIP "
+         "and LPIPS are 0. Shift is the median length of the optical flow from truth to result, "
+         "in the texels that were compared. In the FLIP pictures black is no visible error, "
+         "bright yellow the largest, and grey was not measured.</p></section>";
 }
 
 }  // namespace internal

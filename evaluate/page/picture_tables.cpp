@@ -18,6 +18,7 @@ struct Pictures {
   const std::string& truth;
   const std::string& result;
   const std::string& error;
+  const std::string& problem;
 };
 
 std::string Thumbnail(const std::string& path, const char* what, const std::string& name) {
@@ -30,7 +31,10 @@ std::string Thumbnail(const std::string& path, const char* what, const std::stri
 
 // Truth, result and error side by side; a script opens them large.
 std::string Triple(const Pictures& pictures) {
-  if (pictures.truth.empty()) return "<td class=\"triple quiet\">nothing painted</td>";
+  if (pictures.truth.empty()) {
+    const char* why = pictures.problem.empty() ? "nothing painted" : "a picture cannot be read";
+    return fmt::format("<td class=\"triple quiet\">{}</td>", why);
+  }
   return fmt::format(
       "<td class=\"triple\"><div class=\"side-by-side\" data-name=\"{}\">{}{}{}</div>"
       "</td>",
@@ -88,7 +92,8 @@ std::string FacadeRow(const FacadeFigures& facade, bool with_lpips) {
                                                  : "result: " + IsolatedHtml(facade.facet);
   return fmt::format("<tr><th scope=\"row\">{}<span class=\"quiet\">{}</span></th>",
                      IsolatedHtml(facade.id), facet) +
-         Triple({facade.id, facade.truth_picture, facade.result_picture, facade.error_picture}) +
+         Triple({facade.id, facade.truth_picture, facade.result_picture, facade.error_picture,
+                 facade.problem}) +
          NumberCell("Area", facade.area_m2, Area(facade.area_m2, /*metric=*/true)) +
          NumberCell("Painted", facade.painted, Percent(facade.painted)) +
          MeasureCells(facade.picture, with_lpips) +
@@ -129,7 +134,8 @@ std::string ViewsSection(const Evaluation& evaluation) {
   std::string rows;
   for (const HeldOutFigures& view : evaluation.views) {
     rows += "<tr><th scope=\"row\">" + IsolatedHtml(view.photo) + "</th>" +
-            Triple({view.photo, view.truth_picture, view.result_picture, view.error_picture}) +
+            Triple({view.photo, view.truth_picture, view.result_picture, view.error_picture,
+                    view.problem}) +
             MeasureCells(view.picture, with_lpips) + "</tr>";
   }
   return "<section aria-labelledby=\"views\"><h2 id=\"views\">Photos held out</h2><p "

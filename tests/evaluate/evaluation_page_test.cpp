@@ -59,6 +59,15 @@ TEST(EvaluationHtml, MakesTextOfNamesAndUrlsOfPaths) {
   EXPECT_THAT(html, HasSubstr("src=\"pictures/0000-a%20b%22c-truth.jpg\""));
 }
 
+TEST(EvaluationHtml, TellsWhatCannotBeReadFromWhatIsNotPainted) {
+  Evaluation evaluation;
+  evaluation.facades.resize(1);
+  EXPECT_THAT(EvaluationHtml(evaluation), HasSubstr("nothing painted"));
+  evaluation.facades[0].problem = "gone.png: cannot be read";
+  EXPECT_THAT(EvaluationHtml(evaluation), Not(HasSubstr("nothing painted")));
+  EXPECT_THAT(EvaluationHtml(evaluation), HasSubstr("a picture cannot be read"));
+}
+
 TEST(EvaluationHtml, LoadsNothingFromElsewhere) {
   const std::string html = EvaluationHtml(MadeEvaluation());
   EXPECT_THAT(html, HasSubstr("default-src 'none'"));
