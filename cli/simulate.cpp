@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 
 #include "cli/internal/json_output.h"
 #include "cli/internal/simulate_flight.h"
@@ -12,6 +13,7 @@
 #include "pipeline/shell.h"
 #include "simulate/city/make_city.h"
 #include "simulate/scene/scene_folder.h"
+#include "survey/error.h"
 
 namespace stucco {
 namespace {
