@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -45,6 +46,11 @@ class Random {
   double Normal() {
     const double radius = std::sqrt(-2 * std::log(1 - Unit()));
     return radius * std::cos(2 * std::numbers::pi * Unit());
+  }
+  Eigen::Vector3d NormalVector() {
+    const double x = Normal();
+    const double y = Normal();
+    return {x, y, Normal()};
   }
 
  private:

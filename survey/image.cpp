@@ -11,6 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "survey/encode_image.h"
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/internal/decode.h"
@@ -87,7 +88,7 @@ ImageSize ScaledSize(ImageSize full, int max_side_px) {
   return {scaled(full.width_px), scaled(full.height_px)};
 }
 
-void WriteImage(const Image& image, const std::filesystem::path& path, int quality) {
+std::string EncodeImage(const Image& image, const std::filesystem::path& path, int quality) {
   CheckIsWhole(image, path);
   const std::string extension = LowerCaseExtension(path);
   const bool is_jpeg = extension == ".jpg" || extension == ".jpeg";
@@ -113,7 +114,11 @@ void WriteImage(const Image& image, const std::filesystem::path& path, int quali
                 fmt::format("{}: cannot encode {} x {} pixels: {}", path.string(), image.width_px,
                             image.height_px, reason));
   }
-  WriteFile(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  return {bytes.begin(), bytes.end()};
+}
+
+void WriteImage(const Image& image, const std::filesystem::path& path, int quality) {
+  WriteFile(path, EncodeImage(image, path, quality));
 }
 
 Image ReadImage(const std::filesystem::path& path) {

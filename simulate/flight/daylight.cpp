@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace stucco::simulate {
 namespace {
 
-constexpr double kDegrees = 180 / 3.14159265358979323846;
+constexpr double kDegrees = 180 / std::numbers::pi;
 
 // Air before the sun, times that of a sun overhead.
 double AirMass(double elevation_deg) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "simulate/random.h"
 
@@ -25,8 +26,8 @@ double SlowWave(double time_s, Random& random) {
   constexpr double kShares[] = {0.5, 0.3, 0.2};
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
-    const double phase = 6.28318530717958647692 * random.Unit();
-    sum += kShares[i] * std::sin(6.28318530717958647692 * time_s / kPeriods_s[i] + phase);
+    const double turns = time_s / kPeriods_s[i] + random.Unit();
+    sum += kShares[i] * std::sin(2 * std::numbers::pi * turns);
   }
   return sum;
 }

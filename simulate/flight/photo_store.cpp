@@ -87,16 +87,6 @@ std::vector<std::string> OpenPhotoStore(const fs::path& survey, const Flight& fl
   return notes;
 }
 
-std::string JpegBytes(const Image& image, const fs::path& path, int quality) {
-  // Hidden, so that nobody takes it for a photo should it be left behind.
-  const fs::path partial = path.parent_path() / ("." + path.filename().string() + ".part.jpg");
-  WriteImage(image, partial, quality);
-  std::string bytes = ReadFile(partial);
-  std::error_code error;
-  fs::remove(partial, error);
-  return bytes;
-}
-
 std::string DepthBytes(const DepthMap& map) {
   const size_t pixels = map.depth_m.size();
   std::string bytes(12 + 8 * pixels, '\0');

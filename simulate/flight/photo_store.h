@@ -8,7 +8,6 @@
 
 #include "simulate/flight/flight_folder.h"
 #include "simulate/render/renderer.h"
-#include "survey/image.h"
 
 namespace stucco::simulate {
 
@@ -22,9 +21,6 @@ std::filesystem::path PathOfDepth(const std::filesystem::path& survey, const Flo
 // one are removed, with a note. Throws Error (kBadInput) where the photo folder holds photos of
 // which no flight knows, having changed nothing.
 std::vector<std::string> OpenPhotoStore(const std::filesystem::path& survey, const Flight& flight);
-
-// The picture as a JPEG file's content, by way of a file beside `path`.
-std::string JpegBytes(const Image& image, const std::filesystem::path& path, int quality);
 
 // docs/formats.md, dense/depth: depths alone, without normals and costs.
 std::string DepthBytes(const DepthMap& map);

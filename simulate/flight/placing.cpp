@@ -4,11 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
-#include <array>
+#include <cctype>
 #include <cmath>
+#include <numbers>
+#include <string_view>
 
 #include "survey/error.h"
 #include "survey/plan_frame.h"
@@ -16,24 +17,24 @@
 namespace stucco::simulate {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 constexpr char kModelHint[] =
     "use the plan that was made for this scene; for a model from elsewhere, --unit and --up say "
     "what its numbers mean";
 
-bool StartsWith(const SceneShape& scene, int element, std::string_view prefix) {
-  return element >= 0 && element < static_cast<int>(scene.elements.size()) &&
-         scene.elements[element].starts_with(prefix);
+std::string_view NameOf(const SceneShape& scene, int element) {
+  const bool is_known = element >= 0 && element < static_cast<int>(scene.elements.size());
+  return is_known ? std::string_view(scene.elements[element]) : std::string_view();
 }
 
 // "G0", "G1": the ground of a scene of ours.
 bool IsGround(const SceneShape& scene, int element) {
-  return StartsWith(scene, element, "G") && scene.elements[element].size() > 1 &&
-         std::isdigit(static_cast<unsigned char>(scene.elements[element][1]));
+  const std::string_view name = NameOf(scene, element);
+  return name.size() > 1 && name[0] == 'G' && std::isdigit(static_cast<unsigned char>(name[1]));
 }
 
 bool IsOccluder(const SceneShape& scene, int element) {
-  return StartsWith(scene, element, kOccluderPrefix);
+  return NameOf(scene, element).starts_with(kOccluderPrefix);
 }
 
 // All that a vertical line meets from `from` on; a long way, as scenes have many leaves.
@@ -199,14 +200,11 @@ std::optional<std::string> WhyBlocked(const SceneShape& scene, const Eigen::Vect
     const auto hit = scene.cast(place, {std::cos(angle), std::sin(angle), 0});
     if (hit && hit->distance < kFar_m && !IsOccluder(scene, hit->element)) ++closed;
   }
-  const bool has_floor = scene.cast(place, -Eigen::Vector3d::UnitZ()).has_value();
   if (closed > kSides - kOpen) {
-    const bool is_named = solid->element >= 0 &&
-                          solid->element < static_cast<int>(scene.elements.size()) &&
-                          !scene.elements[solid->element].empty();
-    return is_named ? fmt::format("stands inside {}", scene.elements[solid->element])
-                    : std::string("stands inside a building");
+    const std::string_view name = NameOf(scene, solid->element);
+    return fmt::format("stands inside {}", name.empty() ? "a building" : name);
   }
+  const bool has_floor = scene.cast(place, -Eigen::Vector3d::UnitZ()).has_value();
   if (!has_floor) return "is below the ground";
   return std::nullopt;
 }

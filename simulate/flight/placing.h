@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -20,8 +19,8 @@
 namespace stucco::simulate {
 
 // Renderer::Cast, or what stands for it in a test.
-using CastRay =
-    std::function<std::optional<RayHit>(const Eigen::Vector3d& from, const Eigen::Vector3d& to)>;
+using CastRay = std::function<std::optional<RayHit>(const Eigen::Vector3d& from,
+                                                    const Eigen::Vector3d& direction)>;
 
 // What is known about a scene without drawing it.
 struct SceneShape {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "simulate/flight/daylight.h"
 #include "simulate/flight/exposure.h"
@@ -113,12 +114,6 @@ void AddHeldOut(const SceneShape& scene, const Camera& lens, const FlightOptions
   }
 }
 
-Eigen::Vector3d NormalVector(Random& random) {
-  const double x = random.Normal();
-  const double y = random.Normal();
-  return {x, y, random.Normal()};
-}
-
 // Heights from satellites are about twice as uncertain as places.
 constexpr double kUpOverHorizontal = 1.5;
 const Eigen::Vector3d kRtkSigma_m(0.011, 0.011, 0.02);
@@ -172,7 +167,7 @@ SensorEffects EffectsOf(const PreparedFlight& prepared, size_t photo,
   // Two normal components of which the length's mean is the typical motion; turns about the axis
   // move the picture's border half as much.
   Random random(PhotoSeed(options, kMotionSeed, photo));
-  const double sigma_px = options.motion_blur_px / std::sqrt(std::acos(-1.0) / 2);
+  const double sigma_px = options.motion_blur_px / std::sqrt(std::numbers::pi / 2);
   const double x = sigma_px * random.Normal() / flown.camera.FocalX();
   const double y = sigma_px * random.Normal() / flown.camera.FocalY();
   const double z = sigma_px * random.Normal() / flown.camera.width_px;
@@ -186,10 +181,10 @@ PhotoMetadata MetadataOf(const PreparedFlight& prepared, size_t photo,
   const Shot& shot = prepared.shots[photo];
   Random of_flight(SeedOf(static_cast<uint64_t>(options.seed), kBiasSeed));
   Random of_photo(PhotoSeed(options, kReceiverSeed, photo));
-  const Eigen::Vector3d bias = options.gps_bias_m * NormalVector(of_flight).normalized();
+  const Eigen::Vector3d bias = options.gps_bias_m * of_flight.NormalVector().normalized();
   const Eigen::Vector3d sigma =
       options.rtk ? kRtkSigma_m : Eigen::Vector3d(1, 1, kUpOverHorizontal) * options.gps_sigma_m;
-  Eigen::Vector3d error = sigma.cwiseProduct(NormalVector(of_photo));
+  Eigen::Vector3d error = sigma.cwiseProduct(of_photo.NormalVector());
   if (!options.rtk) error += bias;
   const Eigen::Vector3d geodetic =
       GeodeticFromEnu(prepared.placed.world, flown.cam_from_world.Center() + error);

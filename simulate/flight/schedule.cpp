@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numbers>
 #include <numeric>
 
 #include "plan/path/energy.h"
@@ -25,12 +25,6 @@ constexpr uint64_t kHeldOutSeed = 0x8E1D;
 constexpr double kBetweenPhotos_s = 2.5;  // at one stop: turn the gimbal, settle, shoot
 constexpr double kTwice_s = 0.7;          // between a photo and its double
 constexpr double kNewBattery_s = 240;
-
-Eigen::Vector3d NormalVector(Random& random) {
-  const double x = random.Normal();
-  const double y = random.Normal();
-  return {x, y, random.Normal()};
-}
 
 std::vector<int> ViewsInOrder(const Plan& plan) {
   std::vector<int> order(plan.views.size());
@@ -125,8 +119,8 @@ Shot RealShot(const Plan& plan, int index, const FlightOptions& options) {
   shot.view = index;
   shot.position_m =
       view.position_m + options.position_sigma_m *
-                            (NormalVector(at_hover) * std::sqrt(1 - kDriftShare * kDriftShare) +
-                             NormalVector(of_view) * kDriftShare);
+                            (at_hover.NormalVector() * std::sqrt(1 - kDriftShare * kDriftShare) +
+                             of_view.NormalVector() * kDriftShare);
   shot.angles = WithNoise(view, options.gimbal_sigma_deg, of_view);
   return shot;
 }
@@ -197,7 +191,7 @@ Shot HeldOutShot(const Plan& plan, const std::vector<Shot>& shots, const FlightO
   shot.lost = false;
   shot.duplicate_of = -1;
   shot.number = number;
-  const double turn_rad = random.Uniform(0, 2 * 3.14159265358979323846);
+  const double turn_rad = random.Uniform(0, 2 * std::numbers::pi);
   const double move_m = random.Uniform(1, 3);
   shot.position_m =
       view.position_m + Eigen::Vector3d(move_m * std::cos(turn_rad), move_m * std::sin(turn_rad),

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "simulate/flight/photo_store.h"
+#include "survey/encode_image.h"
 #include "survey/files.h"
 #include "survey/parallel.h"
 
@@ -41,7 +42,7 @@ void TakePhoto(const PreparedFlight& prepared, size_t index, const Photographer&
       photographer.photograph(photo.camera, photo.cam_from_world, photo.light, threads);
   const Image image =
       Develop(std::move(light), photo.camera, EffectsOf(prepared, index, options), threads);
-  const std::string jpeg = JpegBytes(image, path, options.jpeg_quality);
+  const std::string jpeg = EncodeImage(image, path, options.jpeg_quality);
   WriteFileAtomically(path, WithMetadata(jpeg, MetadataOf(prepared, index, options)));
 }
 

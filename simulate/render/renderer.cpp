@@ -117,8 +117,7 @@ std::optional<RayHit> Renderer::Cast(const Eigen::Vector3d& from,
   internal::Ray ray;
   ray.origin = from.cast<float>();
   ray.direction = unit.cast<float>();
-  static const std::vector<bool> kNone;
-  const internal::Hit hit = state_->scene.Nearest(ray, kNone);
+  const internal::Hit hit = state_->scene.Nearest(ray, {});
   if (hit.triangle < 0) return std::nullopt;
   const internal::Surface& surface = state_->scene.surface(hit.triangle);
   Eigen::Vector3d normal = surface.normal.cast<double>();

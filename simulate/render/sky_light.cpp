@@ -64,7 +64,6 @@ Seen LookUp(const RayScene& scene, const Eigen::Vector3f& place, const Eigen::Ve
   const Eigen::Vector3f tangent = normal.unitOrthogonal();
   const Eigen::Vector3f other = normal.cross(tangent);
   const float turn = TurnAt(place);
-  static const std::vector<bool> kNone;
   Seen seen;
   for (int first = 0; first < rays; first += kLanes) {
     RayPack pack;
@@ -76,7 +75,7 @@ Seen LookUp(const RayScene& scene, const Eigen::Vector3f& place, const Eigen::Ve
       pack[lane].direction = radius * std::cos(angle) * tangent + radius * std::sin(angle) * other +
                              std::sqrt(1 - s.x()) * normal;
     }
-    const HitPack hits = scene.Nearest(pack, kLanes, kNone, /*neighbours=*/false);
+    const HitPack hits = scene.Nearest(pack, kLanes, {}, /*neighbours=*/false);
     for (int lane = 0; lane < kLanes; ++lane) {
       const Eigen::Vector3f& direction = pack[lane].direction;
       if (hits[lane].triangle < 0) {
