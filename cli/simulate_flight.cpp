@@ -111,6 +111,7 @@ void PrintFlight(const simulate::FlySummary& flight, const FlightArguments& argu
                        {"rendered", flight.rendered},
                        {"megapixels", flight.megapixels},
                        {"render_s", flight.render_s},
+                       {"cpu_s", flight.cpu_s},
                        {"notes", flight.notes},
                        {"truth", (fs::path(arguments.survey) / simulate::kFlightFile).string()},
                        {"next", next}};
@@ -122,9 +123,13 @@ void PrintFlight(const simulate::FlySummary& flight, const FlightArguments& argu
   std::string beside;
   if (flight.lost > 0) beside += fmt::format(", {} lost", flight.lost);
   if (flight.held_out > 0) beside += fmt::format(", {} held out", flight.held_out);
-  std::cout << fmt::format("{} photos{}; {} rendered, {:.1f} megapixels in {}\n", flight.photos,
+  std::string speed;
+  if (flight.cpu_s > 0 && flight.rendered > 0) {
+    speed = fmt::format(", {:.2f} a CPU second", flight.megapixels / flight.cpu_s);
+  }
+  std::cout << fmt::format("{} photos{}; {} rendered, {:.1f} megapixels in {}{}\n", flight.photos,
                            beside, flight.rendered, flight.megapixels,
-                           DurationText(flight.render_s))
+                           DurationText(flight.render_s), speed)
             << fmt::format("Truth: {}\nNext: {}\n",
                            (fs::path(arguments.survey) / simulate::kFlightFile).string(), next);
 }

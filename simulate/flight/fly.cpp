@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
 #include "simulate/flight/photo_store.h"
 #include "simulate/flight/prepare.h"
@@ -20,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Changes when the same flight gives other photos.
-constexpr char kFlightVersion[] = "1";
+constexpr char kFlightVersion[] = "2";
 
 fs::path PlanPath(const fs::path& given) {
   std::error_code error;
@@ -32,18 +33,15 @@ fs::path PlanPath(const fs::path& given) {
               "make one with stucco plan");
 }
 
-fs::path ModelPath(const fs::path& scene) {
-  std::error_code error;
-  return fs::is_directory(scene, error) ? scene / kSceneModel : scene;
-}
-
-std::string MadeFrom(const FlyRequest& request, const fs::path& plan, FlightOptions options) {
+std::string MadeFrom(const Scene& scene, const Georef& place, const fs::path& plan,
+                     FlightOptions options) {
   options.write_depth = false;  // changes no photo
   OptionTable table("simulate");
   Describe(table, options);
-  const std::string parts[] = {
-      kFlightVersion, HashFile(ModelPath(request.scene)), HashFile(plan), CanonicalText(table),
-      fmt::format("{} {}", static_cast<int>(request.reading.up), request.reading.unit_m)};
+  const std::string parts[] = {kFlightVersion, HashScene(scene),
+                               fmt::format("{} {} {} {}", place.frame, place.origin_latitude_deg,
+                                           place.origin_longitude_deg, place.origin_height_m),
+                               HashFile(plan), CanonicalText(table)};
   return HashParts(parts);
 }
 
@@ -97,11 +95,13 @@ FlySummary Fly(const FlyRequest& request, const FlightOptions& options,
   const fs::path plan_path = PlanPath(request.plan);
   const Plan plan = ReadPlan(plan_path);
   const SceneInfo info = ReadSceneInfo(request.scene);
-  const Renderer renderer(ReadScene(request.scene, request.reading));
+  Scene scene = ReadScene(request.scene, request.reading);
+  const std::string made_from = MadeFrom(scene, info.georef, plan_path, options);
+  const Renderer renderer(std::move(scene));
   PreparedFlight prepared = PrepareFlight(plan, info, ShapeOf(renderer), options);
   prepared.flight.scene = request.scene.string();
-  prepared.flight.scene_hash = HashFile(ModelPath(request.scene));
-  prepared.flight.made_from = MadeFrom(request, plan_path, options);
+  prepared.flight.scene_hash = HashFile(ModelFile(request.scene));
+  prepared.flight.made_from = made_from;
   if (renderer.scene().textures.empty()) {
     prepared.notes.push_back(
         "the scene has no textures: photos show plain colours, on which little can be matched");

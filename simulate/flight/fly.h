@@ -27,6 +27,7 @@ struct FlySummary {
   int rendered = 0;       // the others were there from an earlier call
   double megapixels = 0;  // of the rendered ones
   double render_s = 0;
+  double cpu_s = 0;                // of all threads in that time, encoding and all
   std::vector<std::string> notes;  // what to know about the result
 };
 

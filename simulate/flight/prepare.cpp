@@ -137,20 +137,23 @@ PreparedFlight PrepareFlight(const Plan& plan, const SceneInfo& info, const Scen
 void MeterFlight(const Photographer& photographer, const FlightOptions& options, int threads,
                  PreparedFlight& prepared) {
   constexpr int kWidth_px = 64;
-  std::vector<FlownPhoto>& photos = prepared.flight.photos;
+  std::vector<FlownPhoto*> photos;
+  for (FlownPhoto& photo : prepared.flight.photos) {
+    if (!photo.lost) photos.push_back(&photo);  // a camera in a wall would meter darkness
+  }
   std::vector<double> metered(photos.size());
   ParallelFor(photos.size(), threads, [&](size_t i) {
-    const Camera& lens = photos[i].camera;
+    const Camera& lens = photos[i]->camera;
     const int width_px = std::min(kWidth_px, lens.width_px);
     const int height_px = std::max(1, lens.height_px * width_px / lens.width_px);
     metered[i] = MeteredExposure(photographer.photograph(
-        Resized(lens, width_px, height_px), photos[i].cam_from_world, photos[i].light, 1));
+        Resized(lens, width_px, height_px), photos[i]->cam_from_world, photos[i]->light, 1));
   });
   const std::vector<double> exposures = Exposures(metered, options);
   for (size_t i = 0; i < photos.size(); ++i) {
-    photos[i].exposure = exposures[i];
-    photos[i].white_balance =
-        WhiteBalance(NeutralGains(photos[i].light), photos[i].time_s, options);
+    photos[i]->exposure = exposures[i];
+    photos[i]->white_balance =
+        WhiteBalance(NeutralGains(photos[i]->light), photos[i]->time_s, options);
   }
 }
 

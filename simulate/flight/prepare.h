@@ -37,7 +37,7 @@ struct PreparedFlight {
 PreparedFlight PrepareFlight(const Plan& plan, const SceneInfo& info, const SceneShape& scene,
                              const FlightOptions& options);
 
-// Meters every photo by a small picture and settles exposures and white balances.
+// Meters every photo that is taken by a small picture and settles exposures and white balances.
 void MeterFlight(const Photographer& photographer, const FlightOptions& options, int threads,
                  PreparedFlight& prepared);
 

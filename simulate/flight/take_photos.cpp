@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <mutex>
 
 #include "simulate/flight/photo_store.h"
@@ -74,8 +75,9 @@ FlySummary TakePhotos(const PreparedFlight& prepared, const Photographer& photog
       wanted.push_back(i);
     }
   }
-  const auto start = std::chrono::steady_clock::now();
   if (wanted.empty()) return summary;
+  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t cpu_start = std::clock();
   const Threads threads = Split(std::max(1, request.threads), photos[wanted[0]].camera);
   std::mutex mutex;
   size_t done = 0;
@@ -97,6 +99,7 @@ FlySummary TakePhotos(const PreparedFlight& prepared, const Photographer& photog
   });
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   summary.render_s = took.count();
+  summary.cpu_s = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
   return summary;
 }
 

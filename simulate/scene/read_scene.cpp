@@ -33,19 +33,6 @@ constexpr double kFarthest_m = 10000;
   throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", path.string(), why), remedy);
 }
 
-std::filesystem::path ModelPath(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) {
-    Refuse(path, "no such scene",
-           "give a scene folder (stucco simulate city) or a GLB or OBJ file");
-  }
-  if (!std::filesystem::is_directory(path)) return path;
-  if (!std::filesystem::exists(path / kSceneModel)) {
-    Refuse(path, fmt::format("no scene: there is no {} in it", kSceneModel),
-           "make it again with stucco simulate city");
-  }
-  return path / kSceneModel;
-}
-
 // Where a material's picture comes from: a number of an embedded one, or a file.
 struct PictureSource {
   const aiTexture* embedded = nullptr;
@@ -249,9 +236,22 @@ void ReadPictures(Conversion& conversion) {
 
 }  // namespace
 
+std::filesystem::path ModelFile(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) {
+    Refuse(path, "no such scene",
+           "give a scene folder (stucco simulate city) or a GLB or OBJ file");
+  }
+  if (!std::filesystem::is_directory(path)) return path;
+  if (!std::filesystem::exists(path / kSceneModel)) {
+    Refuse(path, fmt::format("no scene: there is no {} in it", kSceneModel),
+           "make it again with stucco simulate city");
+  }
+  return path / kSceneModel;
+}
+
 Scene ReadScene(const std::filesystem::path& path, const ModelReading& reading) {
   Conversion conversion;
-  conversion.path = ModelPath(path);
+  conversion.path = ModelFile(path);
   if (!(reading.unit_m > 0) || !std::isfinite(reading.unit_m)) {
     throw Error(ErrorKind::kUsage, fmt::format("a unit of {} m makes no sense", reading.unit_m));
   }

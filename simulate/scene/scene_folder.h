@@ -53,9 +53,15 @@ struct ModelReading {
   double unit_m = 1;  // metres in one unit of the file
 };
 
+// The model of a scene folder, or the model that `path` is. Throws Error (kBadInput): no such scene.
+std::filesystem::path ModelFile(const std::filesystem::path& path);
+
 // The model of a scene folder, or a model file, through assimp, with all its pictures. Throws Error
 // (kBadInput): no such file, no triangles, a picture missing or damaged, not finite.
 Scene ReadScene(const std::filesystem::path& path, const ModelReading& reading = {});
+
+// Of all in a scene that its pictures depend on, texels too.
+std::string HashScene(const Scene& scene);
 
 // GLB with its pictures inside (JPEG where they have three channels, PNG with alpha).
 void WriteGlb(const Scene& scene, const std::filesystem::path& path);

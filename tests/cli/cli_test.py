@@ -309,6 +309,18 @@ f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\nf 9 10 11 12
         again = self.fly(*self.scene_and_plan(), "--lost-share", "0.2", "--no-sun", "--json")
         self.assertEqual(json.loads(self.check(again).stdout)["rendered"], 0)
 
+    def test_a_scene_that_was_changed_is_flown_again(self):
+        model, plan = self.scene_and_plan()
+        paint = self.root / "house.mtl"
+        paint.write_text("newmtl wall\nKd 0.8 0.2 0.2\n")
+        model.write_text("mtllib house.mtl\nusemtl wall\n" + self.MODEL)
+        self.check(self.fly(model, plan, "--quiet"))
+        paint.write_text("newmtl wall\nKd 0.2 0.2 0.8\n")
+        again = json.loads(self.check(self.fly(model, plan, "--json")).stdout)
+        self.assertEqual(again["rendered"], 5)
+        self.assertGreater(again["cpu_s"], 0)
+        self.assertIn("5 photos of the flight before were replaced", again["notes"])
+
     def test_what_cannot_be_flown_leaves_no_survey(self):
         model, plan = self.scene_and_plan()
         self.refused(stucco.run("simulate", model, "-o", self.root / "survey"), 2, "no plan")

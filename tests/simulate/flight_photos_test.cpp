@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstring>
-#include <fstream>
 
 #include "simulate/flight/photo_store.h"
 #include "simulate/flight/prepare.h"
@@ -198,6 +198,26 @@ TEST(PrepareFlight, SingleBlockedViewsAreSkippedAndManyAreAnError) {
     EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
     EXPECT_THAT(error.what(), HasSubstr("3 of 40 views"));
     EXPECT_THAT(error.what(), HasSubstr("h0002v0 stands inside"));
+  }
+}
+
+TEST(MeterFlight, WhatIsNotTakenHasNoSayInTheExposure) {
+  FlightOptions options = SmallPhotos();
+  options.lost_share = 0.3;
+  options.position_sigma_m = options.gimbal_sigma_deg = 0;
+  PreparedFlight prepared = PrepareFlight(MadePlan(20), MadeSceneInfo(), MadeScene(), options);
+  Photographer photographer = MadePhotographer();
+  std::atomic<int> metered = 0;
+  photographer.photograph = [&metered, photograph = photographer.photograph](
+                                const Camera& camera, const Pose& pose, const Light& light,
+                                int threads) {
+    ++metered;
+    return photograph(camera, pose, light, threads);
+  };
+  MeterFlight(photographer, options, 2, prepared);
+  EXPECT_EQ(metered, 14);
+  for (const FlownPhoto& photo : prepared.flight.photos) {
+    EXPECT_EQ(photo.exposure == 1, photo.lost) << photo.path;
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "simulate/scene/scene_folder.h"
@@ -52,6 +53,27 @@ std::string WhatRefuses(const std::filesystem::path& path, const ModelReading& r
     return std::string(error.what()) + " | " + error.remedy();
   }
   return "accepted";
+}
+
+TEST_F(ReadSceneTest, HashTellsAllThatPicturesDependOn) {
+  WritePicture();
+  const Scene scene = ReadScene(WriteObj());
+  const std::string hash = HashScene(scene);
+  EXPECT_EQ(HashScene(ReadScene(folder_ / "wall.obj")), hash);
+  const auto changes = [&](const std::function<void(Scene&)>& change) {
+    Scene other = scene;
+    change(other);
+    return HashScene(other) != hash;
+  };
+  EXPECT_TRUE(changes([](Scene& s) { s.positions[0].x() += 1e-3f; }));
+  EXPECT_TRUE(changes([](Scene& s) { s.uv[1].y() += 1e-3f; }));
+  EXPECT_TRUE(changes([](Scene& s) { std::swap(s.triangles[0], s.triangles[1]); }));
+  EXPECT_TRUE(changes([](Scene& s) { s.materials[0].gloss += 0.1f; }));
+  EXPECT_TRUE(changes([](Scene& s) { s.textures[0].data.back() ^= 1; }));
+  EXPECT_TRUE(changes([](Scene& s) { s.elements[0] += "a"; }));
+  // A picture beside the model is part of the scene.
+  WriteImage(testing::Checkerboard(2, 1, 5), folder_ / "brick.png");
+  EXPECT_NE(HashScene(ReadScene(folder_ / "wall.obj")), hash);
 }
 
 TEST_F(ReadSceneTest, TakesObjWithItsPicture) {
