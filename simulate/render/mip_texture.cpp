@@ -69,7 +69,19 @@ float Log2(float value) {
   return exponent + m * (1.4243f + m * (-0.5850f + m * 0.1607f));
 }
 
+// Half axes of the ellipse that a pixel's circle becomes are the singular values of [a b]; here the
+// larger eigenvalue of [p q; q r] = [a b] [a b]^T.
+float LongerSquared(float p, float q, float r) {
+  return (p + r) / 2 + std::sqrt((p - r) * (p - r) / 4 + q * q);
+}
+
 }  // namespace
+
+float LongerAxis(const Footprint& footprint, float width, float height) {
+  const float ax = footprint.right.x() * width, ay = footprint.right.y() * height;
+  const float bx = footprint.down.x() * width, by = footprint.down.y() * height;
+  return std::sqrt(LongerSquared(ax * ax + bx * bx, ax * ay + bx * by, ay * ay + by * by));
+}
 
 MipTexture::MipTexture(const Image& image, bool repeats) : repeats_(repeats) {
   size_t texels = 0;
@@ -213,12 +225,10 @@ Eigen::Array4f MipTexture::Sample(const Footprint& footprint) const {
   const float y = uv.y() * height;
   const float ax = footprint.right.x() * width, ay = footprint.right.y() * height;
   const float bx = footprint.down.x() * width, by = footprint.down.y() * height;
-  // Half axes of the ellipse that a pixel's circle becomes: singular values of [a b].
   const float p = ax * ax + bx * bx;
   const float q = ax * ay + bx * by;
   const float r = ay * ay + by * by;
-  const float spread = std::sqrt((p - r) * (p - r) / 4 + q * q);
-  const float longer_squared = (p + r) / 2 + spread;
+  const float longer_squared = LongerSquared(p, q, r);
   if (!std::isfinite(longer_squared)) return Trilinear(x, y, std::numeric_limits<float>::max());
   if (longer_squared <= 1) return Trilinear(x, y, 0);  // magnified
   const float longer = std::sqrt(longer_squared);

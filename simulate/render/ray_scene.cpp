@@ -63,6 +63,10 @@ void FindUvSlopes(const Eigen::Vector3d& e1, const Eigen::Vector3d& e2,
   surface.v_slope = (uv_edges(1, 0) * b1_slope + uv_edges(1, 1) * b2_slope).cast<float>();
 }
 
+bool HasGrain(const Material& material) {
+  return material.texture >= 0 && !material.cut_out && material.gloss <= kLeastGloss;
+}
+
 bool StaysInside(const Eigen::Vector2f& uv) {
   constexpr float kSlack = 1e-3f;
   return uv.minCoeff() >= -kSlack && uv.maxCoeff() <= 1 + kSlack;
@@ -142,18 +146,28 @@ void RayScene::MakeTextures() {
     }
   }
   std::vector<char> is_cut_out(scene_.textures.size(), false);
+  std::vector<char> has_grain(scene_.textures.size(), false);
   for (const Material& material : scene_.materials) {
-    if (material.cut_out && material.texture >= 0) is_cut_out[material.texture] = true;
+    if (material.texture < 0) continue;
+    if (material.cut_out) is_cut_out[material.texture] = true;
+    if (HasGrain(material)) has_grain[material.texture] = true;
   }
   textures_.resize(scene_.textures.size());
+  grains_.resize(scene_.textures.size());
   masks_.resize(scene_.textures.size());
   constexpr int kAll = std::numeric_limits<int>::max();
   ParallelFor(textures_.size(), kAll, [&](size_t i) {
     Image& image = scene_.textures[i];
     textures_[i] = std::make_unique<MipTexture>(image, repeats[i]);
     if (is_cut_out[i]) masks_[i] = std::make_unique<AlphaMask>(image, repeats[i]);
+    if (has_grain[i]) grains_[i] = std::make_unique<TextureGrain>(image, static_cast<uint32_t>(i));
     std::vector<uint8_t>().swap(image.data);
   });
+}
+
+const TextureGrain* RayScene::grain(int material) const {
+  const Material& m = scene_.materials[material];
+  return HasGrain(m) ? grains_[m.texture].get() : nullptr;
 }
 
 RayScene::Leaf RayScene::LeafOf(int triangle) const {

@@ -12,7 +12,6 @@ constexpr float kGroundAlbedo = 0.18f;  // of land beyond the scene: fields, woo
 // A clean double pane reflects about 8 % at right angles (four faces of 4 %, half of it absorbed
 // and passed between them).
 constexpr float kPaneReflectance = 0.08f;
-constexpr float kLeastGloss = 0.05f;
 
 // How the sky's brightness changes with the height over the horizon (z of the direction). Both have
 // a cosine-weighted mean of 1 over the hemisphere, so that Light::sky is what open ground gets.
@@ -120,6 +119,7 @@ Eigen::Array3f Shader::Matt(const Footprint& footprint, const Place& place,
   }
   const Light& light = lighting.light;
   if (!light.lit) return albedo;
+  if (const TextureGrain* grain = scene->grain(surface.material)) albedo *= grain->At(footprint);
   const float side = surface.normal.dot(direction) > 0 ? -1.0f : 1.0f;
   float slant = std::max(0.0f, side * surface.normal.dot(light.to_sun.cast<float>()));
   // Leaves stand in all directions and pass part of the light.

@@ -18,6 +18,10 @@ struct Footprint {
   Eigen::Vector2f down = Eigen::Vector2f::Zero();
 };
 
+// The longer half axis, in texels of a picture of this size, of the ellipse that a footprint is
+// when the pixel is a circle of radius 1.
+float LongerAxis(const Footprint& footprint, float width, float height);
+
 // A picture with its halved copies (Williams, "Pyramidal parametrics", SIGGRAPH 1983), averaged in
 // linear light. Texel (c, r) of level l covers the texels c 2^l ... (c + 1) 2^l - 1 of the picture,
 // as far as there are any, so that nothing shifts where a side is no power of two. Texels lie in

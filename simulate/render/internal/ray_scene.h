@@ -14,11 +14,13 @@
 
 #include "simulate/render/internal/alpha_mask.h"
 #include "simulate/render/internal/mip_texture.h"
+#include "simulate/render/internal/texture_grain.h"
 #include "simulate/scene/scene.h"
 
 namespace stucco::simulate::internal {
 
-inline constexpr int kLanes = 8;  // rays that travel together
+inline constexpr int kLanes = 8;             // rays that travel together
+inline constexpr float kLeastGloss = 0.05f;  // of what mirrors
 
 // A triangle as shading needs it: what a place on its plane has for uv is a linear function of the
 // place, which, unlike barycentric coordinates, stays well conditioned on slivers.
@@ -74,6 +76,8 @@ class RayScene {
     const int texture = scene_.materials[material].texture;
     return texture < 0 ? nullptr : textures_[texture].get();
   }
+  // Detail below the texels; none for what mirrors, is cut out or has no texture.
+  const TextureGrain* grain(int material) const;
   Eigen::Vector2f UvAt(int triangle, const Eigen::Vector3f& place) const {
     const Surface& s = surfaces_[triangle];
     const Eigen::Vector3f way = place - s.corner;
@@ -105,6 +109,7 @@ class RayScene {
   Scene scene_;
   std::vector<Surface> surfaces_;
   std::vector<std::unique_ptr<MipTexture>> textures_;
+  std::vector<std::unique_ptr<TextureGrain>> grains_;
   std::vector<std::unique_ptr<AlphaMask>> masks_;  // of textures that are cut out
   std::array<Part, 2> parts_;                      // solid, cut out; the index is Embree's geomID
   RTCDevice device_ = nullptr;
