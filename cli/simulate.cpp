@@ -118,6 +118,10 @@ void AddSimulate(CLI::App& app, Program& program) {
   AddFlightOptions(verb, arguments->flight);
   verb.callback([&program, arguments] {
     program.action = [&program, arguments] {
+      if (arguments->out.empty()) {
+        throw Error(ErrorKind::kUsage, "-o: the name of the folder is empty",
+                    "say which folder to make");
+      }
       FlightArguments& flight = arguments->flight;
       if (arguments->scene == "city" && flight.plan.empty()) {
         return SimulateCity(*arguments, program.common);

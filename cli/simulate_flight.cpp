@@ -165,7 +165,6 @@ void AddFlightOptions(CLI::App& verb, FlightArguments& arguments) {
       ->type_name("AXIS")
       ->group(kGroup);
   verb.add_option("--unit", arguments.unit_m, "Metres in one unit of a model (default 1)")
-      ->check(CLI::PositiveNumber)
       ->type_name("METRES")
       ->group(kGroup);
 }

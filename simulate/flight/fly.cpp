@@ -69,6 +69,19 @@ Photographer PhotographerOf(const Renderer& renderer) {
   return photographer;
 }
 
+// Says which files an error is about, and what to do where nobody else does.
+template <typename Fn>
+auto About(const std::string& files, const char* remedy, const Fn& fn) {
+  try {
+    return fn();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kBadInput) throw;
+    const std::string what = error.what();
+    throw Error(error.kind(), what.starts_with(files) ? what : fmt::format("{}: {}", files, what),
+                error.remedy().empty() ? remedy : error.remedy());
+  }
+}
+
 // The survey keeps the plan that it was flown by.
 void KeepPlan(const fs::path& plan, const fs::path& survey) {
   const fs::path kept = survey / kPlanFile;
@@ -93,12 +106,15 @@ FlySummary Fly(const FlyRequest& request, const FlightOptions& options,
     real.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   }
   const fs::path plan_path = PlanPath(request.plan);
-  const Plan plan = ReadPlan(plan_path);
+  const Plan plan = About(plan_path.string(), "make the plan again with stucco plan",
+                          [&] { return ReadPlan(plan_path); });
   const SceneInfo info = ReadSceneInfo(request.scene);
   Scene scene = ReadScene(request.scene, request.reading);
   const std::string made_from = MadeFrom(scene, info.georef, plan_path, options);
   const Renderer renderer(std::move(scene));
-  PreparedFlight prepared = PrepareFlight(plan, info, ShapeOf(renderer), options);
+  const std::string both = fmt::format("{} in {}", plan_path.string(), request.scene.string());
+  PreparedFlight prepared =
+      About(both, "", [&] { return PrepareFlight(plan, info, ShapeOf(renderer), options); });
   prepared.flight.scene = request.scene.string();
   prepared.flight.scene_hash = HashFile(ModelFile(request.scene));
   prepared.flight.made_from = made_from;

@@ -52,16 +52,21 @@ std::vector<RayHit> HitsAlong(const SceneShape& scene, Eigen::Vector3d from,
   return hits;
 }
 
-// The ground below a place: what is called so, else the lowest surface.
-std::optional<double> GroundAt(const SceneShape& scene, const Eigen::Vector2d& place) {
+// What there is at a place, from the top down, without trees and cars.
+std::vector<RayHit> SurfacesAt(const SceneShape& scene, const Eigen::Vector2d& place) {
   const Eigen::Vector3d above(place.x(), place.y(), scene.box.max().z() + 1);
-  std::optional<double> lowest;
-  for (const RayHit& hit : HitsAlong(scene, above, -Eigen::Vector3d::UnitZ())) {
-    if (IsOccluder(scene, hit.element)) continue;
+  auto hits = HitsAlong(scene, above, -Eigen::Vector3d::UnitZ());
+  std::erase_if(hits, [&](const RayHit& hit) { return IsOccluder(scene, hit.element); });
+  return hits;
+}
+
+// The ground among them: what is called so, else the lowest.
+std::optional<double> GroundOf(const SceneShape& scene, const std::vector<RayHit>& surfaces) {
+  for (const RayHit& hit : surfaces) {
     if (IsGround(scene, hit.element)) return hit.point.z();
-    lowest = hit.point.z();
   }
-  return lowest;
+  if (surfaces.empty()) return std::nullopt;
+  return surfaces.back().point.z();
 }
 
 Eigen::Vector3d WorldAtHeight(const PlacedPlan& placed, const Eigen::Vector2d& position,
@@ -113,6 +118,46 @@ void RequireSamePlace(const Plan& plan, const PlacedPlan& placed, const SceneSha
               kModelHint);
 }
 
+// Whether something high stands behind a wall of the plan and nothing before it; nothing where the
+// scene has no ground.
+std::optional<bool> Stands(const PlannedFacade& wall, const PlacedPlan& placed,
+                           const SceneShape& scene) {
+  constexpr double kBehind_m = 1;
+  constexpr double kBefore_m = 2;  // more than balconies
+  constexpr double kHigh_m = 2;
+  const Eigen::Vector2d along = (wall.b_m - wall.a_m).normalized();
+  const Eigen::Vector2d outwards(along.y(), -along.x());
+  const Eigen::Vector2d middle = (wall.a_m + wall.b_m) / 2;
+  const auto surfaces_at = [&](const Eigen::Vector2d& place) {
+    const double height_m = placed.world.origin_height_m;
+    return SurfacesAt(scene, WorldAtHeight(placed, place, height_m).head<2>());
+  };
+  const auto before = surfaces_at(middle + kBefore_m * outwards);
+  const auto behind = surfaces_at(middle - kBehind_m * outwards);
+  const auto ground = GroundOf(scene, before);
+  if (!ground || behind.empty()) return std::nullopt;
+  const double high = *ground + kHigh_m;
+  return behind.front().point.z() > high && before.front().point.z() < high;
+}
+
+// Models from elsewhere all lie about their origin, as plans do: that something is there does not
+// mean that it is what was planned for.
+void RequireWalls(const Plan& plan, const PlacedPlan& placed, const SceneShape& scene) {
+  size_t known = 0;
+  size_t standing = 0;
+  for (const PlannedFacade& wall : plan.facades) {
+    const auto stands = Stands(wall, placed, scene);
+    if (!stands) continue;
+    ++known;
+    if (*stands) ++standing;
+  }
+  if (2 * standing >= known) return;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("the plan is for another place: {} of its {} walls stand in the scene",
+                          standing, known),
+              kModelHint);
+}
+
 }  // namespace
 
 PlacedPlan PlacePlan(const Plan& plan, const SceneInfo& info, const SceneShape& scene) {
@@ -129,11 +174,12 @@ PlacedPlan PlacePlan(const Plan& plan, const SceneInfo& info, const SceneShape& 
     placed.world.metric = true;
   }
   RequireSamePlace(plan, placed, scene);
+  RequireWalls(plan, placed, scene);
   if (plan.origin.height_m != 0) return placed;
   // Of a plan without terrain only the heights above the ground are known.
   for (const Eigen::Vector2d& place : {Eigen::Vector2d(0, 0), plan.home_m.head<2>().eval()}) {
     const Eigen::Vector3d in_world = WorldAtHeight(placed, place, placed.world.origin_height_m);
-    if (const auto ground = GroundAt(scene, in_world.head<2>())) {
+    if (const auto ground = GroundOf(scene, SurfacesAt(scene, in_world.head<2>()))) {
       // The way back through geodetic coordinates takes the earth's curvature along.
       placed.height_m = GeodeticFromEnu(placed.world, {in_world.x(), in_world.y(), *ground}).z();
       return placed;
@@ -207,6 +253,27 @@ std::optional<std::string> WhyBlocked(const SceneShape& scene, const Eigen::Vect
   const bool has_floor = scene.cast(place, -Eigen::Vector3d::UnitZ()).has_value();
   if (!has_floor) return "is below the ground";
   return std::nullopt;
+}
+
+std::optional<std::string> CrownAround(const SceneShape& scene, const Eigen::Vector3d& place) {
+  // Beside a tree, leaves hide at most half of what is around. Points of a sphere by the golden
+  // angle; what looks down may meet the ground between stem and leaves.
+  constexpr int kDirections = 64;
+  constexpr int kHidden = 45;
+  constexpr double kWide_m = 8;
+  const double golden = kPi * (3 - std::sqrt(5));
+  int hidden = 0;
+  std::string_view name;
+  for (int i = 0; i < kDirections; ++i) {
+    const double z = 1 - (2 * i + 1.0) / kDirections;
+    const double r = std::sqrt(1 - z * z);
+    const auto hit = scene.cast(place, {r * std::cos(i * golden), r * std::sin(i * golden), z});
+    if (!hit || hit->distance > kWide_m || !IsOccluder(scene, hit->element)) continue;
+    ++hidden;
+    name = NameOf(scene, hit->element);
+  }
+  if (hidden < kHidden) return std::nullopt;
+  return std::string(name);
 }
 
 }  // namespace stucco::simulate

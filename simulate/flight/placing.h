@@ -38,7 +38,8 @@ struct PlacedPlan {
 
 // A scene that does not say where it lies is taken to be in the frame of the plan. The plan's z = 0
 // is origin.height_m; where that is 0 (a plan without terrain) it is the scene's ground at the
-// plan's origin. Throws Error (kBadInput) when the plan's footprints are not where the scene is.
+// plan's origin. Throws Error (kBadInput) when the plan's footprints are not where the scene is, or
+// fewer than half of its walls stand there.
 PlacedPlan PlacePlan(const Plan& plan, const SceneInfo& info, const SceneShape& scene);
 
 Eigen::Vector3d WorldFromPlan(const PlacedPlan& placed, const Eigen::Vector3d& position_m);
@@ -53,5 +54,8 @@ Pose CameraPose(const PlacedPlan& placed, const Eigen::Vector3d& position_m,
 // Why no drone can be at a place: "stands inside B0001/R0", "is below the ground"; nothing when it
 // can.
 std::optional<std::string> WhyBlocked(const SceneShape& scene, const Eigen::Vector3d& place);
+
+// The tree in whose crown a place is, of which no map knows: nothing where there is none.
+std::optional<std::string> CrownAround(const SceneShape& scene, const Eigen::Vector3d& place);
 
 }  // namespace stucco::simulate

@@ -55,6 +55,7 @@ void Append(const Shot& shot, const Camera& lens, const FlightOptions& options,
 struct BlockedView {
   std::string id;
   std::string why;
+  bool is_planned = true;  // the plan is to blame; not for trees, which no map has
 };
 
 // Where no camera can be, no photo is taken.
@@ -62,19 +63,24 @@ std::vector<BlockedView> LoseBlockedPhotos(const SceneShape& scene, PreparedFlig
   std::vector<BlockedView> blocked;
   for (size_t i = 0; i < prepared.shots.size(); ++i) {
     FlownPhoto& photo = prepared.flight.photos[i];
-    const auto why = WhyBlocked(scene, photo.cam_from_world.Center());
-    if (!why) continue;
+    const Eigen::Vector3d place = photo.cam_from_world.Center();
+    const auto why = WhyBlocked(scene, place);
+    const auto crown = why ? std::nullopt : CrownAround(scene, place);
+    if (!why && !crown) continue;
     photo.lost = true;
     prepared.shots[i].lost = true;
-    if (prepared.shots[i].duplicate_of < 0) blocked.push_back({photo.view, *why});
+    if (prepared.shots[i].duplicate_of >= 0) continue;
+    blocked.push_back({photo.view, why ? *why : "stands in " + *crown, why.has_value()});
   }
   return blocked;
 }
 
 void RequireFewBlocked(const std::vector<BlockedView>& blocked, PreparedFlight& prepared) {
   const size_t views = prepared.plan.views.size();
+  const auto misplanned = static_cast<size_t>(
+      std::count_if(blocked.begin(), blocked.end(), [](auto& view) { return view.is_planned; }));
   constexpr size_t kOneIn = 20;
-  if (blocked.size() == views || (blocked.size() > 1 && blocked.size() * kOneIn > views)) {
+  if (blocked.size() == views || (misplanned > 1 && misplanned * kOneIn > views)) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("the cameras of {} of {} views cannot be where the plan wants them: "
                             "view {} {}",
@@ -104,7 +110,10 @@ void AddHeldOut(const SceneShape& scene, const Camera& lens, const FlightOptions
     for (; attempt < kAttempts; ++attempt) {
       const Shot shot = HeldOutShot(prepared.plan, shots, options, number, attempt);
       const Pose pose = CameraPose(prepared.placed, shot.position_m, shot.angles);
-      if (WhyBlocked(scene, pose.Center()) || !HasClearView(scene, pose)) continue;
+      if (WhyBlocked(scene, pose.Center()) || CrownAround(scene, pose.Center()) ||
+          !HasClearView(scene, pose)) {
+        continue;
+      }
       Append(shot, lens, options, prepared);
       break;
     }

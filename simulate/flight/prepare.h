@@ -33,7 +33,8 @@ struct PreparedFlight {
 };
 
 // Throws Error (kBadInput) when the plan is for another place and when more than one view in twenty
-// is inside a building or below the ground; single ones are lost, with a note.
+// is inside a building or below the ground; single ones are lost, with a note, and so are those in
+// the crowns of trees.
 PreparedFlight PrepareFlight(const Plan& plan, const SceneInfo& info, const SceneShape& scene,
                              const FlightOptions& options);
 

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <sstream>
 
 #include "simulate/scene/scene_folder.h"
 #include "survey/decode_image.h"
@@ -27,6 +28,7 @@ constexpr double kSmallest_m = 1;
 constexpr double kLargest_m = 10000;
 // At ten kilometres from the origin floats are a millimetre apart.
 constexpr double kFarthest_m = 10000;
+constexpr char kExportAgain[] = "export the model again";
 
 [[noreturn]] void Refuse(const std::filesystem::path& path, const std::string& why,
                          const std::string& remedy = {}) {
@@ -163,12 +165,14 @@ void AppendNode(Conversion& conversion, const aiNode& node,
 
 void CheckPlaces(const Conversion& conversion) {
   const Scene& scene = conversion.scene;
-  if (scene.triangles.empty()) Refuse(conversion.path, "there are no triangles in it");
+  if (scene.triangles.empty()) {
+    Refuse(conversion.path, "there are no triangles in it", kExportAgain);
+  }
   Eigen::Vector3f low = Eigen::Vector3f::Constant(std::numeric_limits<float>::infinity());
   Eigen::Vector3f high = -low;
   for (size_t i = 0; i < scene.positions.size(); ++i) {
     if (!scene.positions[i].allFinite() || !scene.uv[i].allFinite()) {
-      Refuse(conversion.path, fmt::format("vertex {} is not finite", i));
+      Refuse(conversion.path, fmt::format("vertex {} is not finite", i), kExportAgain);
     }
   }
   for (const Eigen::Vector3i& triangle : scene.triangles) {
@@ -234,6 +238,25 @@ void ReadPictures(Conversion& conversion) {
   }
 }
 
+// Assimp goes on without the materials that it does not find.
+void RequireMaterials(const std::filesystem::path& model) {
+  if (model.extension() != ".obj" && model.extension() != ".OBJ") return;
+  std::istringstream lines(ReadFile(model));
+  std::string line;
+  while (std::getline(lines, line)) {
+    if (!line.starts_with("mtllib ")) continue;
+    const size_t end = line.find_last_not_of(" \t\r");
+    const std::filesystem::path file = model.parent_path() / line.substr(7, end - 6);
+    auto beside = model;  // which assimp tries as well
+    if (std::filesystem::exists(file) ||
+        std::filesystem::exists(beside.replace_extension(".mtl"))) {
+      continue;
+    }
+    Refuse(model, fmt::format("its materials {} are missing", file.string()),
+           "put them beside the model, or remove its mtllib line to fly it without textures");
+  }
+}
+
 }  // namespace
 
 std::filesystem::path ModelFile(const std::filesystem::path& path) {
@@ -253,8 +276,10 @@ Scene ReadScene(const std::filesystem::path& path, const ModelReading& reading) 
   Conversion conversion;
   conversion.path = ModelFile(path);
   if (!(reading.unit_m > 0) || !std::isfinite(reading.unit_m)) {
-    throw Error(ErrorKind::kUsage, fmt::format("a unit of {} m makes no sense", reading.unit_m));
+    throw Error(ErrorKind::kUsage, fmt::format("a unit of {:g} m makes no sense", reading.unit_m),
+                "say how many metres one unit of the model has: --unit 0.001 for millimetres");
   }
+  RequireMaterials(conversion.path);
   Assimp::Importer importer;
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_COLORS |
                                                           aiComponent_TANGENTS_AND_BITANGENTS |
@@ -263,7 +288,7 @@ Scene ReadScene(const std::filesystem::path& path, const ModelReading& reading) 
                                        aiProcess_Triangulate | aiProcess_RemoveComponent);
   if (!conversion.model || !conversion.model->mRootNode) {
     Refuse(conversion.path, fmt::format("cannot be read as a model: {}", importer.GetErrorString()),
-           "models are read as GLB, glTF or OBJ");
+           "models are read as GLB, glTF or OBJ; copy or export one again that was cut short");
   }
   conversion.y_up = reading.up != UpAxis::kZ;
   conversion.unit_m = reading.unit_m;

@@ -328,6 +328,17 @@ f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\nf 9 10 11 12
         self.refused(self.fly(model, plan, "--scale", "7"), 2, "scale")
         self.refused(self.fly(self.root / "none.glb", plan), 3, "none.glb")
         self.refused(self.fly(model, plan, "--unit", "0.001"), 3, "--unit")
+        self.refused(self.fly(model, plan, "--unit", "-1"), 2, "--unit")
+        self.refused(stucco.run("simulate", model, plan, "-o", ""), 2, "-o")
+        empty = self.root / "empty.json"
+        empty.write_text("")
+        self.refused(self.fly(model, empty), 3, "empty.json", "stucco plan")
+        self.refused(self.fly(*self.scene_and_plan(
+            views=[], facades=[])), 3, "plan.json", "no views")
+        self.refused(self.fly(*self.scene_and_plan(camera={})), 3, "plan.json", "camera")
+        cut = self.root / "cut.obj"
+        cut.write_text("")
+        self.refused(self.fly(cut, plan), 3, "cut.obj", "export")
         far = {"footprints": [{"building": "B0001",
                                "rings_m": [[[900, 0], [912, 0], [912, 8], [900, 8]]]}]}
         self.refused(self.fly(*self.scene_and_plan(**far)), 3, "another place")

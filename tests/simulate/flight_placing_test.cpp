@@ -88,6 +88,21 @@ TEST(Placing, PlansForOtherPlacesAreRefused) {
   EXPECT_THAT(ProblemOf(antipode, MadeScene()), HasSubstr("another place"));
 }
 
+TEST(Placing, ModelsThatAreNotWhatWasPlannedForAreRefused) {
+  // All lie about their origin; only the walls tell them apart.
+  Plan plan = MadePlan(2);
+  plan.facades[0].a_m.x() += 30;
+  plan.facades[0].b_m.x() += 30;
+  EXPECT_THAT(ProblemOf(plan, MadeScene()), HasSubstr("0 of its 1 walls"));
+  plan = MadePlan(2);
+  std::swap(plan.facades[0].a_m, plan.facades[0].b_m);  // built on the wrong side
+  EXPECT_THAT(ProblemOf(plan, MadeScene()), HasSubstr("0 of its 1 walls"));
+  plan.facades.push_back(MadePlan(2).facades[0]);
+  EXPECT_EQ(ProblemOf(plan, MadeScene()), "");  // half of them do
+  plan.facades.clear();
+  EXPECT_EQ(ProblemOf(plan, MadeScene()), "");
+}
+
 TEST(Placing, AModelInMillimetresOrKilometresIsRefusedWithAHint) {
   SceneShape small = MadeScene();
   small.box = Eigen::AlignedBox3d(Eigen::Vector3d(-0.1, -0.1, 0), Eigen::Vector3d(0.1, 0.1, 0.01));
@@ -101,6 +116,41 @@ TEST(Placing, CamerasInsideHousesOrUnderGroundAreFound) {
   EXPECT_EQ(WhyBlocked(scene, {6, 4, 13}), "stands inside B0001");
   EXPECT_EQ(WhyBlocked(scene, {6, -15, 9}), "is below the ground");
   EXPECT_EQ(WhyBlocked(scene, {500, 500, 5}), std::nullopt);  // beyond the ground's edge
+}
+
+TEST(Placing, CamerasInTheCrownsOfTreesAreFound) {
+  SceneShape scene = MadeScene();
+  scene.elements.push_back("occluder/tree-001");
+  const Eigen::Vector3d crown(30, 0, 6);
+  constexpr double kRadius = 3;
+  // Leaves are seen from within and from outside: where a ray enters, else where it leaves.
+  scene.cast = [=, without = scene.cast](const Eigen::Vector3d& from,
+                                         const Eigen::Vector3d& direction) {
+    auto hit = without(from, direction);
+    const double along = (crown - from).dot(direction);
+    const double reach = kRadius * kRadius - ((crown - from).squaredNorm() - along * along);
+    if (reach < 0) return hit;
+    const double enters = along - std::sqrt(reach), leaves = along + std::sqrt(reach);
+    const double distance = enters > 0 ? enters : leaves;
+    if (distance > 0 && (!hit || distance < hit->distance)) {
+      hit = RayHit{from + distance * direction, -direction, distance, 2};
+    }
+    return hit;
+  };
+  EXPECT_EQ(CrownAround(scene, crown), "occluder/tree-001");
+  EXPECT_EQ(CrownAround(scene, crown + Eigen::Vector3d(2.5, 0, 0)), "occluder/tree-001");
+  EXPECT_EQ(CrownAround(scene, crown + Eigen::Vector3d(3.1, 0, 0)), std::nullopt);
+  EXPECT_EQ(CrownAround(scene, {6, -15, 5}), std::nullopt);
+  // The views there are lost, however many they are; the plan cannot know.
+  Plan plan = MadePlan(20);
+  for (int i = 0; i < 6; ++i) plan.views[i].position_m = crown;
+  FlightOptions options;
+  options.position_sigma_m = 0;
+  const PreparedFlight prepared = PrepareFlight(plan, MadeSceneInfo(), scene, options);
+  EXPECT_TRUE(prepared.flight.photos[5].lost);
+  EXPECT_FALSE(prepared.flight.photos[6].lost);
+  ASSERT_EQ(prepared.notes.size(), 6u);
+  EXPECT_EQ(prepared.notes[0], "view h0000v0 stands in occluder/tree-001: no photo");
 }
 
 }  // namespace

@@ -152,6 +152,9 @@ TEST_F(ReadSceneTest, NamesWhatIsMissing) {
   EXPECT_THAT(WhatRefuses(folder_ / "nowhere.glb"), HasSubstr("no such scene"));
   EXPECT_THAT(WhatRefuses(folder_), HasSubstr("there is no scene.glb in it"));
   EXPECT_THAT(WhatRefuses(WriteObj()), HasSubstr("brick.png is missing"));
+  WriteObj();
+  std::filesystem::rename(folder_ / "wall.mtl", folder_ / "other.mtl");
+  EXPECT_THAT(WhatRefuses(folder_ / "wall.obj"), HasSubstr("wall.mtl are missing"));
   EXPECT_THAT(WhatRefuses(Write("text.glb", "hello")), HasSubstr("cannot be read as a model"));
   EXPECT_THAT(WhatRefuses(Write("dots.obj", "v 0 0 0\nv 5 0 0\nv 0 5 0\n")), HasSubstr("dots.obj"));
 }
