@@ -15,9 +15,12 @@ namespace {
 constexpr int kTile_px = 32;
 // Neighbours whose colours differ by less than this share need no more rays: nobody sees the edge.
 constexpr float kLeastContrast = 1 / 48.0f;
+// Within a pane, where curtains and what is mirrored have contrasts of their own.
+constexpr float kPaneContrast = 1 / 10.0f;
 
 // What the ray through a pixel's centre met, for the comparison with its neighbours.
-constexpr uint32_t kNothing = 0x3fffffffu;
+constexpr uint32_t kNothing = 0x1fffffffu;
+constexpr uint32_t kPane = 0x20000000u;
 constexpr uint32_t kInSun = 0x40000000u;
 constexpr uint32_t kLeaf = 0x80000000u;
 
@@ -86,9 +89,10 @@ class Drawing {
   Radiance Take() { return std::move(picture_); }
 
  private:
-  struct Group {  // rays of one pixel that met the same triangle
+  struct Group {  // rays of one pixel that met the same triangle; each by itself on a pane
     Place sum;
     int rays = 0;
+    const ViewRay* ray = nullptr;  // on a pane
   };
   struct Traced {
     std::array<ViewRay, kLanes> rays;
@@ -180,7 +184,8 @@ void Drawing::DrawCentres(const Tile& tile) {
       Put(at, shader_.Radiance(ray, place));
       const int material = shader_.scene->surface(hit.triangle).material;
       const bool leaf = shader_.scene->scene().materials[material].cut_out;
-      marks_[at] = static_cast<uint32_t>(hit.triangle) | (in_sun ? kInSun : 0) | (leaf ? kLeaf : 0);
+      marks_[at] = static_cast<uint32_t>(hit.triangle) | (in_sun ? kInSun : 0) |
+                   (leaf ? kLeaf : 0) | (shader_.Mirrors(hit.triangle) ? kPane : 0);
     }
   });
 }
@@ -207,11 +212,13 @@ bool Drawing::LieOnOneSurface(int a, int b, int x, int y) const {
 bool Drawing::Differ(size_t a, size_t b, int x, int y) const {
   const uint32_t one = marks_[a];
   const uint32_t other = marks_[b];
-  if (one == other) return false;
+  if (one == other && !(one & kPane)) return false;
   const Eigen::Array3f first = Colour(a);
   const Eigen::Array3f second = Colour(b);
   const float contrast = ((first - second).abs() / (first + second + 1e-3f)).maxCoeff();
   if (contrast < kLeastContrast) return false;
+  if ((one & other & kPane) && contrast > kPaneContrast) return true;
+  if (one == other) return false;
   if ((one ^ other) & kInSun) return true;
   const uint32_t t = TriangleOf(one);
   const uint32_t u = TriangleOf(other);
@@ -241,13 +248,16 @@ Eigen::Array3f Drawing::Resolve(const Eigen::Vector2i& pixel, const Traced& trac
       sum += Background(shader_.lighting.light, ray.direction.normalized());
       continue;
     }
-    int g = 0;
+    // What a pane mirrors changes from ray to ray.
+    const bool mirrors = shader_.Mirrors(hit.triangle);
+    int g = mirrors ? group_count : 0;
     while (g < group_count && groups[g].sum.triangle != hit.triangle) ++g;
     Place& place = groups[g].sum;
     if (g == group_count) {
       ++group_count;
       place.triangle = hit.triangle;
       place.point.setZero();
+      if (mirrors) groups[g].ray = &traced.rays[i];
     }
     ++groups[g].rays;
     place.point += ray.origin + hit.at * ray.direction;
@@ -266,7 +276,7 @@ Eigen::Array3f Drawing::Resolve(const Eigen::Vector2i& pixel, const Traced& trac
     place.b2 /= rays_of;
     place.in_sun /= rays_of;
     place.pixel_side = std::sqrt(rays_of / static_cast<float>(count));
-    sum += rays_of * shader_.Radiance(centre, place);
+    sum += rays_of * shader_.Radiance(groups[g].ray ? *groups[g].ray : centre, place);
   }
   return sum / static_cast<float>(count);
 }

@@ -109,6 +109,12 @@ Ray Shader::ToSun(const Eigen::Vector3f& point, int triangle,
   return {point + side * lift * normal, lighting.light.to_sun.cast<float>()};
 }
 
+bool Shader::Mirrors(int triangle) const {
+  const Surface& surface = scene->surface(triangle);
+  return lighting.light.lit && scene->scene().materials[surface.material].gloss > kLeastGloss &&
+         surface.normal.squaredNorm() > 0;
+}
+
 Eigen::Array3f Shader::Matt(const Footprint& footprint, const Place& place,
                             const Eigen::Vector3f& direction) const {
   const Surface& surface = scene->surface(place.triangle);
@@ -152,6 +158,7 @@ Eigen::Array3f Shader::Mirrored(const ViewRay& ray, const Place& place,
   there.at = hit.at;
   there.b1 = hit.b1;
   there.b2 = hit.b2;
+  there.pixel_side = place.pixel_side;
   if (FacesSun(hit.triangle, mirrored.ray.direction)) {
     RayPack pack;
     pack[0] = ToSun(there.point, hit.triangle, mirrored.ray.direction);
@@ -171,7 +178,7 @@ Eigen::Array3f Shader::Radiance(const ViewRay& ray, const Place& place) const {
   if (!light.lit) return colour;
   const Material& material = scene->scene().materials[surface.material];
   const float length = ray.ray.direction.norm();
-  if (material.gloss > kLeastGloss && surface.normal.squaredNorm() > 0) {
+  if (Mirrors(place.triangle)) {
     const float facing = surface.normal.dot(ray.ray.direction) / length;
     const Eigen::Vector3f normal = facing > 0 ? Eigen::Vector3f(-surface.normal) : surface.normal;
     // Schlick, "An inexpensive BRDF model for physically-based rendering" (1994).

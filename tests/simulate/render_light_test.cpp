@@ -191,6 +191,31 @@ TEST(RenderLight, EdgesAreAntiAliased) {
   EXPECT_GT(between, 40);
 }
 
+TEST(RenderLight, EdgesInAMirrorAreAntiAliased) {
+  Scene scene;
+  Material pane;
+  pane.gloss = 1;
+  pane.colour.setZero();
+  testing::AddQuad(scene, {{-5, 0, 5}, {10, 0, 0}, {0, 0, -10}}, testing::AddMaterial(scene, pane));
+  // Behind the camera, black before the sky; its edge runs slantwise.
+  testing::AddQuad(scene, {{5, -20, 15}, {-5.5f, 0, 0}, {1, 0, -30}}, AddBlack(scene));
+  const Renderer renderer(std::move(scene));
+  const Radiance picture = renderer.Photograph(testing::Pinhole(100, 100, 100),
+                                               LookAt({0, -10, 0}, {0, 0, 0}), SkyOnly());
+  int black = 0, between = 0;
+  for (int y = 5; y < 40; ++y) {  // above the horizon
+    const auto at = [&](int x) { return picture.rgb[3 * (static_cast<size_t>(y) * 100 + x)]; };
+    const float sky = at(10);
+    ASSERT_GT(sky, 0.02f);
+    for (int x = 40; x < 60; ++x) {
+      black += at(x) < 0.05f * sky;
+      between += at(x) > 0.1f * sky && at(x) < 0.9f * sky;
+    }
+  }
+  EXPECT_GT(black, 100);
+  EXPECT_GT(between, 20);
+}
+
 TEST(RenderLight, CutOutLetsSightAndSunThrough) {
   Scene scene;
   const int white = testing::AddTexture(scene, testing::Plain(255));

@@ -42,6 +42,8 @@ struct Shader {
 
   // What a ray that met a triangle sees there.
   Eigen::Array3f Radiance(const ViewRay& ray, const Place& place) const;
+  // True for panes, which mirror more than nothing.
+  bool Mirrors(int triangle) const;
   // True where the sun can shine on this side of the triangle.
   bool FacesSun(int triangle, const Eigen::Vector3f& direction) const;
   // The way from a place towards the sun.
