@@ -53,7 +53,8 @@ struct ModelReading {
   double unit_m = 1;  // metres in one unit of the file
 };
 
-// The model of a scene folder, or the model that `path` is. Throws Error (kBadInput): no such scene.
+// The model of a scene folder, or the model that `path` is. Throws Error (kBadInput): no such
+// scene.
 std::filesystem::path ModelFile(const std::filesystem::path& path);
 
 // The model of a scene folder, or a model file, through assimp, with all its pictures. Throws Error
