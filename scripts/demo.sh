@@ -13,7 +13,10 @@ stucco=build/dev/cli/stucco
 demo=build/demo
 survey=$demo/survey
 mkdir -p "$demo"
-[ -f "$demo/scene/scene.glb" ] || "$stucco" simulate city -o "$demo/scene" --style hamlet >&2
+if [ ! -f "$demo/scene/scene.json" ]; then # written last
+  rm -rf "$demo/scene"
+  "$stucco" simulate city -o "$demo/scene" --style hamlet >&2
+fi
 # A small camera, and few pairs and small pictures below: a quarter of an hour instead of hours.
 [ -f "$survey/plan/plan.json" ] || "$stucco" plan "$demo/scene/map.geojson" -o "$survey" \
   --camera 17.3x13mm,12.29mm,1000x750 --gsd 0.05 --altitude 25 >&2
