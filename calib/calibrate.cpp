@@ -79,8 +79,8 @@ double FocalSigmaRatio(const CapturedCamera& camera) {
   return camera.focal_source == "default" ? 0.5 : 0.1;
 }
 
-Scene MakeScene(const CalibOptions& options, const Photos& photos,
-                const std::vector<Features>& features, const std::vector<VerifiedPair>& pairs) {
+Scene MakeScene(const CalibOptions& options, const Photos& photos, const DetectedFeatures& features,
+                const std::vector<VerifiedPair>& pairs) {
   Scene scene;
   for (const CapturedCamera& captured : photos.captures.cameras) {
     // What was given as the truth keeps its own model; the rest is calibrated with the wished one.
@@ -97,9 +97,10 @@ Scene MakeScene(const CalibOptions& options, const Photos& photos,
     photo.name = photos.usable[i]->path;
     photo.camera = photos.usable[i]->camera;
     photo.keypoint_sigma_px = DetectionScale(options, *photos.usable[i]);
-    for (const Keypoint& k : features[i].keypoints) photo.keypoints.emplace_back(k.x, k.y);
-    photo.colors = features[i].colors;
-    num_keypoints.push_back(features[i].size());
+    Features all = features.AllOf(static_cast<int>(i));
+    for (const Keypoint& k : all.keypoints) photo.keypoints.emplace_back(k.x, k.y);
+    photo.colors = std::move(all.colors);
+    num_keypoints.push_back(photo.keypoints.size());
     scene.photos.push_back(std::move(photo));
   }
   std::vector<PhotoPair> matches;
@@ -286,8 +287,10 @@ void Describe(OptionTable& table, CalibOptions& options) {
 
 void RunCalib(const CalibOptions& options, StageContext& context) {
   const Photos photos = ReadPhotos(context);
-  const std::vector<Features> features = DetectAll(options, photos.usable, context);
-  std::vector<VerifiedPair> pairs = MatchAll(options, photos.usable, features, context);
+  const Guidance guidance = GuideByPlan(options, photos.captures, photos.usable, context);
+  const PhotoSet set{photos.captures, photos.usable, guidance};
+  const DetectedFeatures features = DetectAll(options, set, context);
+  std::vector<VerifiedPair> pairs = MatchAll(options, set, features, context);
 
   Scene scene = MakeScene(options, photos, features, pairs);
   GuessFocalLengths(photos, pairs, context, scene);

@@ -9,6 +9,8 @@
 #include <random>
 #include <set>
 
+#include "survey/attitude.h"
+
 namespace stucco {
 namespace {
 
@@ -207,11 +209,8 @@ std::optional<Eigen::Vector3d> UpFromGimbal(const std::vector<const CapturedPhot
   for (size_t i = 0; i < captures.size(); ++i) {
     const auto& gimbal = captures[i]->gimbal;
     if (!gimbal || !scene.photos[i].pose) continue;
-    const double pitch = gimbal->pitch_deg * kRadians;
-    // A level camera has "up" at -y, one that looks straight down at -z; roll turns it about z.
-    const Eigen::Vector3d up_level(0, -std::cos(pitch), std::sin(pitch));
-    const Eigen::Vector3d up_in_cam =
-        Eigen::AngleAxisd(-gimbal->roll_deg * kRadians, Eigen::Vector3d::UnitZ()) * up_level;
+    // The yaw does not matter for it.
+    const Eigen::Vector3d up_in_cam = CamFromEnu(*gimbal) * Eigen::Vector3d::UnitZ();
     ups.push_back(scene.photos[i].pose->rotation.conjugate() * up_in_cam);
     sum += ups.back();
   }

@@ -3,8 +3,8 @@
 #include "calib/matches.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "calib/best_two.h"
 #include "calib/descriptors.h"
 
 namespace stucco {
@@ -13,27 +13,6 @@ namespace {
 // Columns per block: 512 descriptors are 128 KB and stay in the cache while all rows pass over
 // them.
 constexpr int kBlock = 512;
-
-// The largest and second largest product of one row or column seen so far.
-struct BestTwo {
-  int32_t best = -1;
-  int32_t second = -1;
-  int32_t index = -1;
-
-  void Offer(int32_t product, int32_t candidate) {
-    if (product > best) {
-      second = best;
-      best = product;
-      index = candidate;
-    } else if (product > second) {
-      second = product;
-    }
-  }
-  bool PassesRatio(double ratio) const { return index >= 0 && Angle(best) < ratio * Angle(second); }
-  static double Angle(int32_t product) {
-    return std::acos(std::clamp(product / (kDescriptorUnit * kDescriptorUnit), -1.0, 1.0));
-  }
-};
 
 // Largest value of a block, so that most rows need no further look.
 __attribute__((target_clones("arch=haswell", "default"))) int32_t Largest(const int32_t* values,
@@ -81,14 +60,7 @@ std::vector<Match> MatchDescriptors(const std::vector<int16_t>& first,
     }
     for (int c = 0; c < columns; ++c) of_second[begin + c] = {best[c], next[c], index[c]};
   }
-  std::vector<Match> matches;
-  for (int i = 0; i < num_first; ++i) {
-    const int j = of_first[i].index;
-    if (j < 0 || of_second[j].index != i) continue;
-    if (of_first[i].PassesRatio(ratio) && of_second[j].PassesRatio(ratio))
-      matches.push_back({i, j});
-  }
-  return matches;
+  return MutualMatches(of_first, of_second, ratio);
 }
 
 }  // namespace stucco

@@ -55,6 +55,19 @@ void AddNearest(int photo, int num_photos, int count, const Distance& distance,
   }
 }
 
+void AddMostAlike(int photo, const std::vector<std::vector<float>>& signatures, int count,
+                  std::set<std::pair<int, int>>& pairs) {
+  const auto distance = [&](int other) -> double {
+    if (signatures[photo].empty() || signatures[other].empty()) return INFINITY;
+    double product = 0;
+    for (size_t i = 0; i < signatures[photo].size(); ++i) {
+      product += signatures[photo][i] * signatures[other][i];
+    }
+    return -product;
+  };
+  AddNearest(photo, static_cast<int>(signatures.size()), count, distance, pairs);
+}
+
 }  // namespace
 
 std::vector<std::pair<int, int>> SelectPairs(
@@ -74,16 +87,16 @@ std::vector<std::pair<int, int>> SelectPairs(
           return positions[a] && positions[b] ? (*positions[a] - *positions[b]).norm() : INFINITY;
         },
         pairs);
-    AddNearest(
-        a, count, options.neighbours,
-        [&](int b) -> double {
-          if (signatures[a].empty() || signatures[b].empty()) return INFINITY;
-          double product = 0;
-          for (size_t i = 0; i < signatures[a].size(); ++i)
-            product += signatures[a][i] * signatures[b][i];
-          return -product;
-        },
-        pairs);
+    AddMostAlike(a, signatures, options.neighbours, pairs);
+  }
+  return {pairs.begin(), pairs.end()};
+}
+
+std::vector<std::pair<int, int>> MostAlike(const std::vector<std::vector<float>>& signatures,
+                                           int count) {
+  std::set<std::pair<int, int>> pairs;
+  for (size_t a = 0; a < signatures.size(); ++a) {
+    AddMostAlike(static_cast<int>(a), signatures, count, pairs);
   }
   return {pairs.begin(), pairs.end()};
 }

@@ -24,6 +24,11 @@ std::vector<std::pair<int, int>> SelectPairs(
     const PairOptions& options, const std::vector<std::optional<Eigen::Vector3d>>& positions,
     const std::vector<std::vector<float>>& signatures);
 
+// Pairs (a, b), a < b, ascending: each photo with the `count` others of the most similar
+// appearance.
+std::vector<std::pair<int, int>> MostAlike(const std::vector<std::vector<float>>& signatures,
+                                           int count);
+
 // Appearance of a photo as one vector: VLAD (Jegou et al. 2010) with intra-normalisation over
 // `words` (rows of 128), from at most 1000 of its descriptors.
 std::vector<float> Signature(const Features& features, const std::vector<float>& words);

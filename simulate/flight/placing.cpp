@@ -11,6 +11,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "survey/attitude.h"
 #include "survey/error.h"
 #include "survey/plan_frame.h"
 
@@ -210,20 +211,9 @@ Eigen::Matrix3d PlanAxesAt(const PlacedPlan& placed, const Eigen::Vector3d& posi
 
 Pose CameraPose(const PlacedPlan& placed, const Eigen::Vector3d& position_m,
                 const GimbalAngles& angles) {
-  const double yaw = angles.yaw_deg * kPi / 180;
-  const double pitch = angles.pitch_deg * kPi / 180;
-  const double roll = angles.roll_deg * kPi / 180;
-  const Eigen::Vector3d forward(std::sin(yaw) * std::cos(pitch), std::cos(yaw) * std::cos(pitch),
-                                std::sin(pitch));
-  const Eigen::Vector3d level_right(std::cos(yaw), -std::sin(yaw), 0);
-  const Eigen::Vector3d level_down = forward.cross(level_right);
-  Eigen::Matrix3d cam_from_plan;
-  cam_from_plan.row(0) = std::cos(roll) * level_right + std::sin(roll) * level_down;
-  cam_from_plan.row(1) = -std::sin(roll) * level_right + std::cos(roll) * level_down;
-  cam_from_plan.row(2) = forward;
   Pose pose;
-  pose.rotation = Eigen::Quaterniond(cam_from_plan * PlanAxesAt(placed, position_m).transpose());
-  pose.rotation.normalize();
+  const Eigen::Quaterniond enu_from_plan(PlanAxesAt(placed, position_m));
+  pose.rotation = (CamFromEnu(angles) * enu_from_plan.conjugate()).normalized();
   pose.translation = -(pose.rotation * WorldFromPlan(placed, position_m));
   return pose;
 }

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "calib/expect/site.h"
+#include "survey/camera.h"
+#include "survey/plan.h"
+#include "survey/pose.h"
+#include "survey/stage.h"
+
+namespace stucco {
+
+// What the photos should show of the site, from their expected poses.
+struct ExpectedViews {
+  std::vector<std::optional<Pose>> poses;  // cam_from_plan
+  std::vector<SitePoint> points;
+  // Per photo: indices of the points it should see, ascending. Empty without an expected pose.
+  std::vector<std::vector<int>> seen;
+};
+
+struct ExpectInput {
+  const Plan& plan;
+  std::vector<std::optional<Pose>> poses;  // cam_from_plan
+  std::vector<const Camera*> cameras;      // per photo
+};
+
+// Points that project into the photo, turn towards it, and are hidden by no building.
+ExpectedViews ExpectViews(ExpectInput input, const StageContext& context);
+
+// Pairs (a, b), a < b, ascending: of each photo, the `count` others that should share most of what
+// it sees under angles and scales that features match at.
+std::vector<std::pair<int, int>> OverlappingPairs(const ExpectedViews& views, int count);
+
+// A pair of photos that should both show a part of one wall, and at least one of them so obliquely
+// that features only match once the wall is rectified.
+struct WallPair {
+  int first = 0;  // photos, first < second
+  int second = 0;
+  int wall = 0;  // index into Plan::facades
+  auto operator<=>(const WallPair&) const = default;
+};
+
+// Of each photo and each wall it sees, up to `count` frontal and as many oblique partners: those
+// that share most of it. Ascending.
+std::vector<WallPair> ObliqueWallPairs(const ExpectedViews& views, int count);
+
+}  // namespace stucco

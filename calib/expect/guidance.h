@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calib/calibrate.h"
+#include "calib/expect/expected_views.h"
+#include "calib/wall_features.h"
+#include "survey/captures.h"
+#include "survey/stage.h"
+
+namespace stucco {
+
+// The part of a wall that a photo should show, for rectifying it.
+struct ExpectedWall {
+  WallView view;
+  std::string key;  // hashes everything that `view` depends on
+};
+
+// What the plan lets the search for matches expect.
+struct Guidance {
+  std::vector<bool> expected;                         // per photo: the plan says where it was taken
+  std::vector<std::pair<int, int>> pairs;             // that should overlap
+  std::vector<WallPair> wall_pairs;                   // to match on a rectified wall
+  std::map<std::pair<int, int>, ExpectedWall> walls;  // of (photo, wall) in wall_pairs
+};
+
+// Nothing expected, and no pairs, where the survey has no plan or the photos are not of it.
+Guidance GuideByPlan(const CalibOptions& options, const Captures& captures,
+                     const std::vector<const CapturedPhoto*>& photos, const StageContext& context);
+
+}  // namespace stucco

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/expect/site.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "survey/proxy.h"
+#include "survey/rasterize.h"
+#include "survey/triangulate.h"
+
+namespace stucco {
+namespace {
+
+constexpr double kMargin_m = 30;        // of ground around the buildings
+constexpr double kOffSurface_m = 0.05;  // so that a point's own surface hides it from nobody
+
+// Middles of equal parts of [from, to], none longer than `spacing`.
+std::vector<double> Middles(double from, double to, double spacing) {
+  const int count = std::max(1, static_cast<int>(std::ceil((to - from) / spacing)));
+  std::vector<double> middles(count);
+  for (int i = 0; i < count; ++i) middles[i] = from + (to - from) * (i + 0.5) / count;
+  return middles;
+}
+
+void SampleWall(const PlannedFacade& facade, int wall, double spacing_m,
+                std::vector<SitePoint>& points) {
+  const double length = (facade.b_m - facade.a_m).norm();
+  if (length <= 0) return;
+  const Eigen::Vector2d along = (facade.b_m - facade.a_m) / length;
+  const Eigen::Vector2d out(along.y(), -along.x());  // the building is on the left
+  for (const double z : Middles(facade.z_m.from_m, facade.z_m.to_m, spacing_m)) {
+    for (const double u : Middles(0, length, spacing_m)) {
+      const Eigen::Vector2d place = facade.a_m + u * along + kOffSurface_m * out;
+      points.push_back({{place.x(), place.y(), z}, {out.x(), out.y(), 0}, wall});
+    }
+  }
+}
+
+// The site from above in square cells, with the footprint that covers each or lies nearest.
+struct GroundPlan {
+  Eigen::Vector2d low = Eigen::Vector2d::Zero();
+  double cell_m = 1;
+  int columns = 0;
+  int rows = 0;
+  std::vector<int> nearest;  // index of a footprint, -1: none
+  std::vector<bool> covered;
+
+  Eigen::Vector2d Middle(size_t cell) const {
+    return low + cell_m * Eigen::Vector2d(static_cast<double>(cell % columns) + 0.5,
+                                          static_cast<double>(cell / columns) + 0.5);
+  }
+};
+
+GroundPlan EmptyGroundPlan(const Plan& plan, double cell_m) {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high = -low;
+  for (const PlannedFootprint& footprint : plan.footprints) {
+    for (const Eigen::Vector2d& p : footprint.rings_m.front()) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  }
+  GroundPlan ground;
+  ground.cell_m = cell_m;
+  ground.low = low.array() - kMargin_m;
+  ground.columns = static_cast<int>(std::ceil((high.x() + kMargin_m - ground.low.x()) / cell_m));
+  ground.rows = static_cast<int>(std::ceil((high.y() + kMargin_m - ground.low.y()) / cell_m));
+  const size_t count = static_cast<size_t>(ground.columns) * ground.rows;
+  ground.nearest.assign(count, -1);
+  ground.covered.assign(count, false);
+  return ground;
+}
+
+// Marks the cells whose middle is inside the footprint.
+void Cover(const PlannedFootprint& footprint, int index, GroundPlan& ground) {
+  Eigen::Vector2d low = footprint.rings_m.front().front();
+  Eigen::Vector2d high = low;
+  for (const Eigen::Vector2d& p : footprint.rings_m.front()) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const Eigen::Vector2i first = ((low - ground.low) / ground.cell_m).array().floor().cast<int>();
+  const Eigen::Vector2i last = ((high - ground.low) / ground.cell_m).array().floor().cast<int>();
+  const Eigen::Vector2i size = last - first + Eigen::Vector2i::Ones();
+  std::vector<std::vector<Eigen::Vector2d>> rings = footprint.rings_m;
+  for (auto& ring : rings) {
+    for (Eigen::Vector2d& p : ring) p = (p - ground.low) / ground.cell_m - first.cast<double>();
+  }
+  const std::vector<uint8_t> inside = RasterizeRings(rings, size.x(), size.y());
+  for (int row = 0; row < size.y(); ++row) {
+    for (int column = 0; column < size.x(); ++column) {
+      if (!inside[static_cast<size_t>(row) * size.x() + column]) continue;
+      const size_t cell =
+          static_cast<size_t>(first.y() + row) * ground.columns + first.x() + column;
+      ground.covered[cell] = true;
+      ground.nearest[cell] = index;
+    }
+  }
+}
+
+// Hands the index of a footprint on from cell to cell.
+void SpreadNearest(GroundPlan& ground) {
+  std::vector<size_t> front;
+  for (size_t cell = 0; cell < ground.nearest.size(); ++cell) {
+    if (ground.covered[cell]) front.push_back(cell);
+  }
+  for (size_t i = 0; i < front.size(); ++i) {
+    const int column = static_cast<int>(front[i] % ground.columns);
+    const int row = static_cast<int>(front[i] / ground.columns);
+    for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+      const int x = column + dx;
+      const int y = row + dy;
+      if (x < 0 || y < 0 || x >= ground.columns || y >= ground.rows) continue;
+      const size_t next = static_cast<size_t>(y) * ground.columns + x;
+      if (ground.nearest[next] >= 0) continue;
+      ground.nearest[next] = ground.nearest[front[i]];
+      front.push_back(next);
+    }
+  }
+}
+
+void SampleFromAbove(const Plan& plan, double spacing_m, std::vector<SitePoint>& points) {
+  GroundPlan ground = EmptyGroundPlan(plan, spacing_m);
+  for (size_t i = 0; i < plan.footprints.size(); ++i) {
+    Cover(plan.footprints[i], static_cast<int>(i), ground);
+  }
+  SpreadNearest(ground);
+  for (size_t cell = 0; cell < ground.nearest.size(); ++cell) {
+    if (ground.nearest[cell] < 0) continue;
+    const Interval& z = plan.footprints[ground.nearest[cell]].z_m;
+    const Eigen::Vector2d place = ground.Middle(cell);
+    const double surface = ground.covered[cell] ? z.to_m : z.from_m;
+    points.push_back({{place.x(), place.y(), surface + kOffSurface_m}, Eigen::Vector3d::UnitZ()});
+  }
+}
+
+}  // namespace
+
+std::vector<SitePoint> SampleSite(const Plan& plan, double spacing_m) {
+  std::vector<SitePoint> points;
+  for (size_t i = 0; i < plan.facades.size(); ++i) {
+    SampleWall(plan.facades[i], static_cast<int>(i), spacing_m, points);
+  }
+  if (!plan.footprints.empty()) SampleFromAbove(plan, spacing_m, points);
+  return points;
+}
+
+SiteMesh MeshOfSite(const Plan& plan) {
+  SiteMesh mesh;
+  for (const PlannedFootprint& footprint : plan.footprints) {
+    Facet roof;
+    roof.offset = footprint.z_m.to_m;
+    for (const auto& ring : footprint.rings_m) {
+      std::vector<Eigen::Vector3d> edge;
+      for (const Eigen::Vector2d& p : ring) edge.emplace_back(p.x(), p.y(), footprint.z_m.to_m);
+      (&ring == &footprint.rings_m.front() ? roof.outer : roof.holes.emplace_back()) = edge;
+      for (size_t i = 0; i < ring.size(); ++i) {
+        const Eigen::Vector2d& a = ring[i];
+        const Eigen::Vector2d& b = ring[(i + 1) % ring.size()];
+        const auto first = static_cast<uint32_t>(mesh.vertices.size());
+        for (const double z : {footprint.z_m.from_m, footprint.z_m.to_m}) {
+          mesh.vertices.emplace_back(a.x(), a.y(), z);
+          mesh.vertices.emplace_back(b.x(), b.y(), z);
+        }
+        mesh.triangles.push_back({first, first + 1, first + 3});
+        mesh.triangles.push_back({first, first + 3, first + 2});
+      }
+    }
+    const FacetTriangles cap = TriangulateFacet(roof);
+    const auto first = static_cast<uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), cap.vertices.begin(), cap.vertices.end());
+    for (const auto& t : cap.triangles) {
+      mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace stucco

@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/wall_features.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "calib/best_two.h"
+#include "calib/descriptors.h"
+
+namespace stucco {
+namespace {
+
+constexpr double kMostPixels = 8e6;
+constexpr double kLikeScale = 2.5;
+// A keypoint's descriptor reaches this many standard deviations of its blob in each direction.
+constexpr double kSupport = 6;
+
+// A picture of a part of the wall: columns along it, rows downwards.
+struct WallRaster {
+  Eigen::Vector3d corner = Eigen::Vector3d::Zero();  // top left
+  Eigen::Vector3d along = Eigen::Vector3d::UnitX();
+  double pixel_m = 1;
+  int width_px = 0;
+  int height_px = 0;
+
+  Eigen::Vector3d Place(double x, double y) const {
+    return corner + pixel_m * (x * along - y * Eigen::Vector3d::UnitZ());
+  }
+};
+
+Eigen::Vector3d AlongWall(const PlannedFacade& wall) {
+  const Eigen::Vector2d way = (wall.b_m - wall.a_m).normalized();
+  return {way.x(), way.y(), 0};
+}
+
+// As fine as the photo is where the wall is nearest, so that nothing is lost.
+WallRaster RasterOf(const WallView& view, double focal_px) {
+  WallRaster raster;
+  raster.along = AlongWall(view.wall);
+  const Eigen::Vector3d foot(view.wall.a_m.x(), view.wall.a_m.y(), 0);
+  raster.corner =
+      foot + view.along_m.from_m * raster.along + view.z_m.to_m * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d center = view.cam_from_plan.Center();
+  const double u =
+      std::clamp((center - foot).dot(raster.along), view.along_m.from_m, view.along_m.to_m);
+  const double z = std::clamp(center.z(), view.z_m.from_m, view.z_m.to_m);
+  const double nearest = (foot + u * raster.along + z * Eigen::Vector3d::UnitZ() - center).norm();
+  const double finest = std::sqrt(view.along_m.length_m() * view.z_m.length_m() / kMostPixels);
+  raster.pixel_m = std::max({nearest / focal_px, finest, 1e-4});
+  raster.width_px = std::max(1, static_cast<int>(view.along_m.length_m() / raster.pixel_m));
+  raster.height_px = std::max(1, static_cast<int>(view.z_m.length_m() / raster.pixel_m));
+  return raster;
+}
+
+Image Rectify(const Image& image, const Camera& camera, const Pose& pose,
+              const WallRaster& raster) {
+  cv::Mat at(raster.height_px, raster.width_px, CV_32FC2);
+  for (int y = 0; y < raster.height_px; ++y) {
+    for (int x = 0; x < raster.width_px; ++x) {
+      const auto pixel = camera.Project(pose * raster.Place(x + 0.5, y + 0.5));
+      at.at<cv::Point2f>(y, x) = pixel ? cv::Point2f(static_cast<float>(pixel->x() - 0.5),
+                                                     static_cast<float>(pixel->y() - 0.5))
+                                       : cv::Point2f(-10, -10);
+    }
+  }
+  const cv::Mat photo(image.height_px, image.width_px, CV_8UC3,
+                      const_cast<uint8_t*>(image.data.data()));
+  Image rectified{raster.width_px, raster.height_px, 3, {}};
+  rectified.data.resize(static_cast<size_t>(raster.width_px) * raster.height_px * 3);
+  cv::Mat target(raster.height_px, raster.width_px, CV_8UC3, rectified.data.data());
+  cv::remap(photo, target, at, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  return rectified;
+}
+
+// Whether the photo shows all of a square around the place.
+bool Shows(const Camera& camera, const Pose& pose, const WallRaster& raster, const Keypoint& k) {
+  const double reach = kSupport * k.scale;
+  for (const double dx : {-reach, reach}) {
+    for (const double dy : {-reach, reach}) {
+      const auto pixel = camera.Project(pose * raster.Place(k.x + dx, k.y + dy));
+      if (!pixel || !camera.Contains(*pixel)) return false;
+    }
+  }
+  return true;
+}
+
+bool IsLike(const OnWall& a, const OnWall& b, double reach_m) {
+  return std::abs(a.along_m - b.along_m) <= reach_m && std::abs(a.z_m - b.z_m) <= reach_m &&
+         a.scale_m <= kLikeScale * b.scale_m && b.scale_m <= kLikeScale * a.scale_m;
+}
+
+// Keypoints in the order of their places along the wall.
+struct AlongOrder {
+  std::vector<int> index;
+  std::vector<float> along_m;
+  std::vector<int16_t> descriptors;
+};
+
+AlongOrder SortAlong(const WallKeypoints& keypoints) {
+  AlongOrder order;
+  order.index.resize(keypoints.places.size());
+  std::iota(order.index.begin(), order.index.end(), 0);
+  std::stable_sort(order.index.begin(), order.index.end(), [&](int a, int b) {
+    return keypoints.places[a].along_m < keypoints.places[b].along_m;
+  });
+  for (const int i : order.index) {
+    order.along_m.push_back(keypoints.places[i].along_m);
+    const auto row =
+        keypoints.descriptors.begin() + static_cast<std::ptrdiff_t>(i) * kDescriptorSize;
+    order.descriptors.insert(order.descriptors.end(), row, row + kDescriptorSize);
+  }
+  return order;
+}
+
+}  // namespace
+
+Features DetectOnWall(const Image& image, const Camera& camera, const WallView& view,
+                      int max_features) {
+  const Camera scaled = Resized(camera, image.width_px, image.height_px);
+  const WallRaster raster = RasterOf(view, scaled.FocalX());
+  const ImageSize size{raster.width_px, raster.height_px};
+  const Features on_raster =
+      DetectFeatures(Rectify(image, scaled, view.cam_from_plan, raster), size, {0, max_features});
+  Features features;
+  for (size_t i = 0; i < on_raster.size(); ++i) {
+    const Keypoint& k = on_raster.keypoints[i];
+    if (!Shows(camera, view.cam_from_plan, raster, k)) continue;
+    const Eigen::Vector3d in_cam = view.cam_from_plan * raster.Place(k.x, k.y);
+    const auto pixel = camera.Project(in_cam);
+    if (!pixel) continue;
+    const double scale_px = k.scale * raster.pixel_m / in_cam.norm() * camera.FocalX();
+    features.keypoints.push_back({static_cast<float>(pixel->x()), static_cast<float>(pixel->y()),
+                                  static_cast<float>(scale_px)});
+    features.colors.push_back(on_raster.colors[i]);
+    features.descriptors.push_back(on_raster.descriptors[i]);
+  }
+  return features;
+}
+
+std::vector<OnWall> PlacesOnWall(const Features& features, const Camera& camera,
+                                 const WallView& view) {
+  const Eigen::Vector3d along = AlongWall(view.wall);
+  const Eigen::Vector3d normal(along.y(), -along.x(), 0);
+  const Eigen::Vector3d foot(view.wall.a_m.x(), view.wall.a_m.y(), 0);
+  const Pose plan_from_cam = view.cam_from_plan.Inverse();
+  const double distance = (plan_from_cam.translation - foot).dot(normal);
+  std::vector<OnWall> places;
+  for (const Keypoint& k : features.keypoints) {
+    OnWall place;
+    if (const auto ray = camera.Unproject({k.x, k.y})) {
+      const Eigen::Vector3d way = plan_from_cam.rotation * ray->homogeneous();
+      const Eigen::Vector3d in_plan = plan_from_cam.translation - distance / way.dot(normal) * way;
+      const double scale = k.scale / camera.FocalX() * (in_plan - plan_from_cam.translation).norm();
+      place = {static_cast<float>((in_plan - foot).dot(along)), static_cast<float>(in_plan.z()),
+               static_cast<float>(scale)};
+    }
+    places.push_back(place);
+  }
+  return places;
+}
+
+std::vector<Match> MatchOnWall(const WallKeypoints& first, const WallKeypoints& second,
+                               double reach_m, double ratio) {
+  const AlongOrder columns = SortAlong(second);
+  std::vector<BestTwo> of_first(first.places.size());
+  std::vector<BestTwo> of_second(second.places.size());
+  std::vector<int32_t> products(second.places.size());
+  for (size_t row = 0; row < first.places.size(); ++row) {
+    const OnWall& place = first.places[row];
+    const auto near = [&](double along) {
+      return std::lower_bound(columns.along_m.begin(), columns.along_m.end(), along) -
+             columns.along_m.begin();
+    };
+    const auto begin = near(place.along_m - reach_m);
+    const auto end = near(place.along_m + reach_m);
+    DotProducts(first.descriptors.data() + row * kDescriptorSize,
+                columns.descriptors.data() + begin * kDescriptorSize, static_cast<int>(end - begin),
+                products.data());
+    for (auto c = begin; c < end; ++c) {
+      const int other = columns.index[c];
+      if (!IsLike(place, second.places[other], reach_m)) continue;
+      of_first[row].Offer(products[c - begin], other);
+      of_second[other].Offer(products[c - begin], static_cast<int>(row));
+    }
+  }
+  return MutualMatches(of_first, of_second, ratio);
+}
+
+}  // namespace stucco

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/attitude.h"
+
+#include <cmath>
+
+namespace stucco {
+
+Eigen::Quaterniond CamFromEnu(const GimbalAngles& angles) {
+  constexpr double kRadians = M_PI / 180;
+  const double yaw = angles.yaw_deg * kRadians;
+  const double pitch = angles.pitch_deg * kRadians;
+  const double roll = angles.roll_deg * kRadians;
+  const Eigen::Vector3d forward(std::sin(yaw) * std::cos(pitch), std::cos(yaw) * std::cos(pitch),
+                                std::sin(pitch));
+  const Eigen::Vector3d level_right(std::cos(yaw), -std::sin(yaw), 0);
+  const Eigen::Vector3d level_down = forward.cross(level_right);
+  Eigen::Matrix3d cam_from_enu;
+  cam_from_enu.row(0) = std::cos(roll) * level_right + std::sin(roll) * level_down;
+  cam_from_enu.row(1) = -std::sin(roll) * level_right + std::cos(roll) * level_down;
+  cam_from_enu.row(2) = forward;
+  return Eigen::Quaterniond(cam_from_enu).normalized();
+}
+
+}  // namespace stucco

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "survey/captures.h"
+
+namespace stucco {
+
+// Rotation of a camera with these angles: east-north-up directions into the camera frame (x right,
+// y down, z forward). Roll is clockwise as seen from behind the camera.
+Eigen::Quaterniond CamFromEnu(const GimbalAngles& angles);
+
+}  // namespace stucco
