@@ -11,6 +11,7 @@
 
 #include "calib/adjust.h"
 #include "calib/correspond.h"
+#include "calib/expect/contradictions.h"
 #include "calib/focal.h"
 #include "calib/georeference.h"
 #include "calib/mapper.h"
@@ -79,8 +80,9 @@ double FocalSigmaRatio(const CapturedCamera& camera) {
   return camera.focal_source == "default" ? 0.5 : 0.1;
 }
 
-Scene MakeScene(const CalibOptions& options, const Photos& photos, const DetectedFeatures& features,
-                const std::vector<VerifiedPair>& pairs) {
+// Without tracks.
+Scene MakeScene(const CalibOptions& options, const Photos& photos,
+                const DetectedFeatures& features) {
   Scene scene;
   for (const CapturedCamera& captured : photos.captures.cameras) {
     // What was given as the truth keeps its own model; the rest is calibrated with the wished one.
@@ -91,7 +93,6 @@ Scene MakeScene(const CalibOptions& options, const Photos& photos, const Detecte
     const Camera camera = AsModel(captured.intrinsics, model);
     scene.cameras.push_back({camera, camera, FocalSigmaRatio(captured)});
   }
-  std::vector<size_t> num_keypoints;
   for (size_t i = 0; i < photos.usable.size(); ++i) {
     ScenePhoto photo;
     photo.name = photos.usable[i]->path;
@@ -100,14 +101,29 @@ Scene MakeScene(const CalibOptions& options, const Photos& photos, const Detecte
     Features all = features.AllOf(static_cast<int>(i));
     for (const Keypoint& k : all.keypoints) photo.keypoints.emplace_back(k.x, k.y);
     photo.colors = std::move(all.colors);
-    num_keypoints.push_back(photo.keypoints.size());
     scene.photos.push_back(std::move(photo));
   }
+  return scene;
+}
+
+void AddTracks(const std::vector<VerifiedPair>& pairs, Scene& scene) {
+  std::vector<size_t> num_keypoints;
+  for (const ScenePhoto& photo : scene.photos) num_keypoints.push_back(photo.keypoints.size());
   std::vector<PhotoPair> matches;
   for (const VerifiedPair& pair : pairs) matches.push_back(pair.pair);
   scene.tracks = BuildTracks(num_keypoints, std::move(matches));
   IndexTracks(scene);
-  return scene;
+}
+
+void QuestionPairs(const Guidance& guidance, const Scene& scene, const StageContext& context,
+                   std::vector<VerifiedPair>& pairs) {
+  if (!guidance.views) return;
+  const int dropped = DropContradictions(*guidance.views, scene, pairs);
+  if (dropped == 0) return;
+  context.progress->Note(fmt::format(
+      "{} pairs of photos are not used: their matches contradict the plan, as those of something "
+      "that repeats itself do",
+      dropped));
 }
 
 // Cameras whose metadata say nothing get a focal length from the epipolar geometries of their
@@ -269,9 +285,10 @@ void Describe(OptionTable& table, CalibOptions& options) {
   table.Add("match_ratio", options.match_ratio, 0.3, 0.99,
             "A match's descriptor angle must be below this share of the second best one's.");
   table.Add("exhaustive_below", options.exhaustive_below, 2, 100000,
-            "Up to this many photos every pair is matched.");
+            "Up to this many photos every pair is matched, unless a plan says which overlap.");
   table.Add("neighbours", options.neighbours, 2, 1000,
-            "In larger sets: photos matched with each by position, and as many by appearance.");
+            "Photos matched with each: those that should overlap most by the plan; without one, the "
+            "nearest by position and as many by appearance.");
   table.Add("camera_model", options.camera_model, {"PINHOLE", "OPENCV", "FULL_OPENCV"},
             "COLMAP's name of the lens model that is calibrated.");
   table.Add("refine_principal_point", options.refine_principal_point,
@@ -292,8 +309,10 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   const DetectedFeatures features = DetectAll(options, set, context);
   std::vector<VerifiedPair> pairs = MatchAll(options, set, features, context);
 
-  Scene scene = MakeScene(options, photos, features, pairs);
+  Scene scene = MakeScene(options, photos, features);
   GuessFocalLengths(photos, pairs, context, scene);
+  QuestionPairs(guidance, scene, context, pairs);
+  AddTracks(pairs, scene);
   MapperOptions mapper;
   mapper.min_angle_rad = options.min_angle_deg * kRadians;
   mapper.refine_principal_point = options.refine_principal_point;

@@ -91,7 +91,6 @@ std::vector<std::vector<float>> Signatures(const std::vector<Features>& features
 std::vector<std::pair<int, int>> ChoosePairs(const CalibOptions& options, const PhotoSet& set,
                                              const std::vector<Features>& features) {
   const int count = static_cast<int>(set.photos.size());
-  const std::vector<bool>& expected = set.guidance.expected;
   const bool guided = !set.guidance.pairs.empty() && count > kExhaustiveWithPlan;
   std::vector<std::vector<float>> signatures(count);
   if (guided || count > options.exhaustive_below) signatures = Signatures(features);
@@ -99,8 +98,9 @@ std::vector<std::pair<int, int>> ChoosePairs(const CalibOptions& options, const 
                             RoughPositions(set.photos), signatures);
   if (!guided) return likely;
   // The plan knows better than nearness what overlaps; looks are there for where it is wrong.
-  std::erase_if(likely,
-                [&](const auto& pair) { return expected[pair.first] && expected[pair.second]; });
+  std::erase_if(likely, [&](const auto& pair) {
+    return set.guidance.Expects(pair.first) && set.guidance.Expects(pair.second);
+  });
   const auto alike = MostAlike(signatures, std::min(options.neighbours, kAlikeWithPlan));
   std::set<std::pair<int, int>> pairs(likely.begin(), likely.end());
   pairs.insert(alike.begin(), alike.end());

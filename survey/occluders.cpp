@@ -66,8 +66,10 @@ Occluders::~Occluders() = default;
 Occluders::Occluders(Occluders&&) noexcept = default;
 Occluders& Occluders::operator=(Occluders&&) noexcept = default;
 
-bool Occluders::Block(const Eigen::Vector3d& from, const Eigen::Vector3d& way, double reach) const {
-  const Eigen::Vector3f start = (from - state_->center).cast<float>();
+namespace {
+
+RTCRay MakeRay(const Eigen::Vector3d& from, const Eigen::Vector3d& way, float reach) {
+  const Eigen::Vector3f start = from.cast<float>();
   const Eigen::Vector3f direction = way.cast<float>();
   RTCRay ray{};
   ray.org_x = start.x();
@@ -77,12 +79,31 @@ bool Occluders::Block(const Eigen::Vector3d& from, const Eigen::Vector3d& way, d
   ray.dir_y = direction.y();
   ray.dir_z = direction.z();
   ray.tnear = 0;
-  ray.tfar = static_cast<float>(reach);
+  ray.tfar = reach;
   ray.mask = std::numeric_limits<unsigned>::max();
+  return ray;
+}
+
+}  // namespace
+
+bool Occluders::Block(const Eigen::Vector3d& from, const Eigen::Vector3d& way, double reach) const {
+  RTCRay ray = MakeRay(from - state_->center, way, static_cast<float>(reach));
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcOccluded1(state_->scene, &context, &ray);
   return ray.tfar < 0;
+}
+
+std::optional<double> Occluders::FirstHit(const Eigen::Vector3d& from,
+                                          const Eigen::Vector3d& way) const {
+  RTCRayHit hit{};
+  hit.ray = MakeRay(from - state_->center, way, std::numeric_limits<float>::infinity());
+  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(state_->scene, &context, &hit);
+  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return hit.ray.tfar;
 }
 
 }  // namespace stucco

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace stucco {
@@ -23,6 +24,9 @@ class Occluders {
   // Whether any triangle meets the segment that begins at `from` and leads as far as `reach` times
   // `way`. In float, from the middle of all vertices.
   bool Block(const Eigen::Vector3d& from, const Eigen::Vector3d& way, double reach) const;
+
+  // Distance to the first triangle along a ray, in lengths of `way`; nothing where it meets none.
+  std::optional<double> FirstHit(const Eigen::Vector3d& from, const Eigen::Vector3d& way) const;
 
  private:
   struct State;

@@ -9,7 +9,6 @@
 #include <map>
 #include <set>
 
-#include "survey/occluders.h"
 #include "survey/parallel.h"
 
 namespace stucco {
@@ -71,13 +70,12 @@ bool InPicture(const Camera& camera, const Eigen::Vector3d& in_cam) {
 
 std::vector<int> SeenBy(const Pose& pose, const Camera& camera,
                         const std::vector<SitePoint>& points, std::vector<int> candidates,
-                        const Occluders& buildings) {
+                        const Occluders& site) {
   const Eigen::Vector3d center = pose.Center();
   std::erase_if(candidates, [&](int i) {
     const Eigen::Vector3d way = center - points[i].position;
     return way.dot(points[i].normal) < kLeastFacing * way.norm() ||
-           !InPicture(camera, pose * points[i].position) ||
-           buildings.Block(points[i].position, way, 1);
+           !InPicture(camera, pose * points[i].position) || site.Block(points[i].position, way, 1);
   });
   std::sort(candidates.begin(), candidates.end());
   return candidates;
@@ -128,19 +126,19 @@ std::vector<int> Best(const std::map<int, int>& partners, int least, int count) 
 }  // namespace
 
 ExpectedViews ExpectViews(ExpectInput input, const StageContext& context) {
-  ExpectedViews views;
-  views.poses = std::move(input.poses);
-  views.points = SampleSite(input.plan, kSpacing_m);
-  views.seen.resize(views.poses.size());
   const SiteMesh mesh = MeshOfSite(input.plan);
-  const Occluders buildings(mesh.vertices, mesh.triangles);
+  ExpectedViews views{std::move(input.poses),
+                      SampleSite(input.plan, kSpacing_m),
+                      {},
+                      Occluders(mesh.vertices, mesh.triangles)};
+  views.seen.resize(views.poses.size());
   const double reach_m = kReach * std::max(input.plan.safe_altitude_m, input.plan.d_max_m);
   const PointGrid grid(views.points, reach_m / 4);
   ParallelFor(views.poses.size(), context.threads, [&](size_t i) {
     const auto& pose = views.poses[i];
     if (!pose) return;
     views.seen[i] = SeenBy(*pose, *input.cameras[i], views.points,
-                           grid.Near(pose->Center().head<2>(), reach_m), buildings);
+                           grid.Near(pose->Center().head<2>(), reach_m), views.site);
   });
   return views;
 }

@@ -9,6 +9,7 @@
 
 #include "calib/expect/site.h"
 #include "survey/camera.h"
+#include "survey/occluders.h"
 #include "survey/plan.h"
 #include "survey/pose.h"
 #include "survey/stage.h"
@@ -21,6 +22,7 @@ struct ExpectedViews {
   std::vector<SitePoint> points;
   // Per photo: indices of the points it should see, ascending. Empty without an expected pose.
   std::vector<std::vector<int>> seen;
+  Occluders site;  // buildings and ground
 };
 
 struct ExpectInput {

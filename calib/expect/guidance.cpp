@@ -55,15 +55,13 @@ std::string KeyOf(const WallView& view, const Camera& camera) {
 Guidance GuideByPlan(const CalibOptions& options, const Captures& captures,
                      const std::vector<const CapturedPhoto*>& photos, const StageContext& context) {
   Guidance guidance;
-  guidance.expected.assign(photos.size(), false);
   const std::optional<Plan> plan = PlanOfSurvey(context);
   if (!plan) return guidance;
   ExpectInput input{*plan, ExpectedPoses(*plan, photos), {}};
   for (const CapturedPhoto* photo : photos) {
     input.cameras.push_back(&captures.cameras[photo->camera].intrinsics);
   }
-  const ExpectedViews views = ExpectViews(std::move(input), context);
-  for (size_t i = 0; i < photos.size(); ++i) guidance.expected[i] = !views.seen[i].empty();
+  const ExpectedViews& views = guidance.views.emplace(ExpectViews(std::move(input), context));
   guidance.pairs = OverlappingPairs(views, options.neighbours);
   guidance.wall_pairs = ObliqueWallPairs(views, kWallPartners);
   for (const WallPair& pair : guidance.wall_pairs) {

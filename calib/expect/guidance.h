@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,13 +24,16 @@ struct ExpectedWall {
 
 // What the plan lets the search for matches expect.
 struct Guidance {
-  std::vector<bool> expected;                         // per photo: the plan says where it was taken
+  std::optional<ExpectedViews> views;                 // nothing without a plan
   std::vector<std::pair<int, int>> pairs;             // that should overlap
   std::vector<WallPair> wall_pairs;                   // to match on a rectified wall
   std::map<std::pair<int, int>, ExpectedWall> walls;  // of (photo, wall) in wall_pairs
+
+  // Whether the plan says what the photo should see.
+  bool Expects(int photo) const { return views && !views->seen[photo].empty(); }
 };
 
-// Nothing expected, and no pairs, where the survey has no plan or the photos are not of it.
+// Empty where the survey has no plan.
 Guidance GuideByPlan(const CalibOptions& options, const Captures& captures,
                      const std::vector<const CapturedPhoto*>& photos, const StageContext& context);
 

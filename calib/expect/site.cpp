@@ -14,7 +14,9 @@
 namespace stucco {
 namespace {
 
-constexpr double kMargin_m = 30;        // of ground around the buildings
+constexpr double kMargin_m = 30;      // of ground around the buildings to sample
+constexpr double kFarMargin_m = 200;  // and to stop rays
+constexpr double kFarCell_m = 8;
 constexpr double kOffSurface_m = 0.05;  // so that a point's own surface hides it from nobody
 
 // Middles of equal parts of [from, to], none longer than `spacing`.
@@ -54,7 +56,7 @@ struct GroundPlan {
   }
 };
 
-GroundPlan EmptyGroundPlan(const Plan& plan, double cell_m) {
+GroundPlan EmptyGroundPlan(const Plan& plan, double cell_m, double margin_m) {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector2d high = -low;
   for (const PlannedFootprint& footprint : plan.footprints) {
@@ -65,9 +67,9 @@ GroundPlan EmptyGroundPlan(const Plan& plan, double cell_m) {
   }
   GroundPlan ground;
   ground.cell_m = cell_m;
-  ground.low = low.array() - kMargin_m;
-  ground.columns = static_cast<int>(std::ceil((high.x() + kMargin_m - ground.low.x()) / cell_m));
-  ground.rows = static_cast<int>(std::ceil((high.y() + kMargin_m - ground.low.y()) / cell_m));
+  ground.low = low.array() - margin_m;
+  ground.columns = static_cast<int>(std::ceil((high.x() + margin_m - ground.low.x()) / cell_m));
+  ground.rows = static_cast<int>(std::ceil((high.y() + margin_m - ground.low.y()) / cell_m));
   const size_t count = static_cast<size_t>(ground.columns) * ground.rows;
   ground.nearest.assign(count, -1);
   ground.covered.assign(count, false);
@@ -122,18 +124,68 @@ void SpreadNearest(GroundPlan& ground) {
   }
 }
 
-void SampleFromAbove(const Plan& plan, double spacing_m, std::vector<SitePoint>& points) {
-  GroundPlan ground = EmptyGroundPlan(plan, spacing_m);
+GroundPlan MakeGroundPlan(const Plan& plan, double cell_m, double margin_m) {
+  GroundPlan ground = EmptyGroundPlan(plan, cell_m, margin_m);
   for (size_t i = 0; i < plan.footprints.size(); ++i) {
     Cover(plan.footprints[i], static_cast<int>(i), ground);
   }
   SpreadNearest(ground);
+  return ground;
+}
+
+void SampleFromAbove(const Plan& plan, double spacing_m, std::vector<SitePoint>& points) {
+  const GroundPlan ground = MakeGroundPlan(plan, spacing_m, kMargin_m);
   for (size_t cell = 0; cell < ground.nearest.size(); ++cell) {
     if (ground.nearest[cell] < 0) continue;
     const Interval& z = plan.footprints[ground.nearest[cell]].z_m;
     const Eigen::Vector2d place = ground.Middle(cell);
     const double surface = ground.covered[cell] ? z.to_m : z.from_m;
     points.push_back({{place.x(), place.y(), surface + kOffSurface_m}, Eigen::Vector3d::UnitZ()});
+  }
+}
+
+void AddQuad(const std::array<Eigen::Vector3d, 4>& corners, SiteMesh& mesh) {
+  const auto first = static_cast<uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.triangles.push_back({first, first + 2, first + 3});
+}
+
+void AddPrism(const PlannedFootprint& footprint, SiteMesh& mesh) {
+  const Interval& z = footprint.z_m;
+  Facet roof;
+  roof.offset = z.to_m;
+  for (const auto& ring : footprint.rings_m) {
+    std::vector<Eigen::Vector3d> edge;
+    for (const Eigen::Vector2d& p : ring) edge.emplace_back(p.x(), p.y(), z.to_m);
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const Eigen::Vector3d& a = edge[i];
+      const Eigen::Vector3d& b = edge[(i + 1) % ring.size()];
+      const Eigen::Vector3d down(0, 0, z.from_m - z.to_m);
+      AddQuad({a + down, b + down, b, a}, mesh);
+    }
+    (roof.outer.empty() ? roof.outer : roof.holes.emplace_back()) = std::move(edge);
+  }
+  const FacetTriangles cap = TriangulateFacet(roof);
+  const auto first = static_cast<uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), cap.vertices.begin(), cap.vertices.end());
+  for (const auto& t : cap.triangles) {
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+}
+
+void AddGround(const Plan& plan, SiteMesh& mesh) {
+  const GroundPlan ground = MakeGroundPlan(plan, kFarCell_m, kFarMargin_m);
+  for (size_t cell = 0; cell < ground.nearest.size(); ++cell) {
+    if (ground.nearest[cell] < 0) continue;
+    const Eigen::Vector2d middle = ground.Middle(cell);
+    const double z = plan.footprints[ground.nearest[cell]].z_m.from_m;
+    const double half = kFarCell_m / 2;
+    AddQuad({Eigen::Vector3d(middle.x() - half, middle.y() - half, z),
+             {middle.x() + half, middle.y() - half, z},
+             {middle.x() + half, middle.y() + half, z},
+             {middle.x() - half, middle.y() + half, z}},
+            mesh);
   }
 }
 
@@ -150,32 +202,8 @@ std::vector<SitePoint> SampleSite(const Plan& plan, double spacing_m) {
 
 SiteMesh MeshOfSite(const Plan& plan) {
   SiteMesh mesh;
-  for (const PlannedFootprint& footprint : plan.footprints) {
-    Facet roof;
-    roof.offset = footprint.z_m.to_m;
-    for (const auto& ring : footprint.rings_m) {
-      std::vector<Eigen::Vector3d> edge;
-      for (const Eigen::Vector2d& p : ring) edge.emplace_back(p.x(), p.y(), footprint.z_m.to_m);
-      (&ring == &footprint.rings_m.front() ? roof.outer : roof.holes.emplace_back()) = edge;
-      for (size_t i = 0; i < ring.size(); ++i) {
-        const Eigen::Vector2d& a = ring[i];
-        const Eigen::Vector2d& b = ring[(i + 1) % ring.size()];
-        const auto first = static_cast<uint32_t>(mesh.vertices.size());
-        for (const double z : {footprint.z_m.from_m, footprint.z_m.to_m}) {
-          mesh.vertices.emplace_back(a.x(), a.y(), z);
-          mesh.vertices.emplace_back(b.x(), b.y(), z);
-        }
-        mesh.triangles.push_back({first, first + 1, first + 3});
-        mesh.triangles.push_back({first, first + 3, first + 2});
-      }
-    }
-    const FacetTriangles cap = TriangulateFacet(roof);
-    const auto first = static_cast<uint32_t>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), cap.vertices.begin(), cap.vertices.end());
-    for (const auto& t : cap.triangles) {
-      mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-    }
-  }
+  for (const PlannedFootprint& footprint : plan.footprints) AddPrism(footprint, mesh);
+  if (!plan.footprints.empty()) AddGround(plan, mesh);
   return mesh;
 }
 

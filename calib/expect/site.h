@@ -22,7 +22,7 @@ struct SitePoint {
 // on grids with this spacing. The ground is level at the foot of the nearest building.
 std::vector<SitePoint> SampleSite(const Plan& plan, double spacing_m);
 
-// Buildings as prisms without floor.
+// Buildings as prisms without floor, and the ground far around them.
 struct SiteMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<uint32_t, 3>> triangles;

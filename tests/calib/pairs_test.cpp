@@ -62,6 +62,13 @@ TEST(SelectPairs, MixesPositionAndAppearance) {
   EXPECT_TRUE(found.contains({7, 8}));  // near
 }
 
+TEST(MostAlike, PairsEachPhotoWithThoseThatLookLikeIt) {
+  const std::vector<std::vector<float>> signatures = {{1, 0}, {0, 1}, {0.8f, 0.6f}, {}};
+  EXPECT_EQ(MostAlike(signatures, 1), (Pairs{{0, 2}, {1, 2}}));
+  EXPECT_EQ(MostAlike(signatures, 5), (Pairs{{0, 1}, {0, 2}, {1, 2}}));
+  EXPECT_TRUE(MostAlike({}, 5).empty());
+}
+
 TEST(SelectPairs, TakesWhatFollows) {
   const Pairs pairs = SelectPairs({.exhaustive_below = 2, .neighbours = 1, .followers = 2},
                                   Positions(4), std::vector<std::vector<float>>(4));

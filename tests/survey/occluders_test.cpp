@@ -34,6 +34,15 @@ TEST(Occluders, BlockNothingBesideBeforeOrBehind) {
   EXPECT_FALSE(square.Block({0, 0, 0}, {-1, 0, 0}, 10));
 }
 
+TEST(Occluders, SayHowFarTheFirstOneIs) {
+  const Occluders square = SquareEastOf(Vector3d::Zero());
+  EXPECT_NEAR(square.FirstHit({0, 0, 0}, {1, 0, 0}).value_or(-1), 5, 1e-6);
+  EXPECT_NEAR(square.FirstHit({0, 0, 0}, {10, 1, 1}).value_or(-1), 0.5, 1e-6);
+  EXPECT_NEAR(square.FirstHit({10, 0, 0}, {-1, 0, 0}).value_or(-1), 5, 1e-6);
+  EXPECT_FALSE(square.FirstHit({0, 0, 0}, {-1, 0, 0}));
+  EXPECT_FALSE(square.FirstHit({0, 3, 0}, {1, 0, 0}));
+}
+
 TEST(Occluders, KeepCentimetresFarFromTheOrigin) {
   const Vector3d far(4.5e5, 5.5e6, 300);
   const Occluders square = SquareEastOf(far);
