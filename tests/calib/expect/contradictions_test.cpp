@@ -74,7 +74,7 @@ TEST_F(Contradictions, LetsPairsStayWhoseRecordsAreMetresAndDegreesOff) {
 TEST_F(Contradictions, TakesOutWhatMatchesSomewhereElse) {
   Match(0, 1, 60, Vector3d::Zero());
   Match(2, 3, 60, Vector3d::Zero());
-  Match(0, 3, 80, {-18, 0, 0});  // a pattern of the ground that repeats after 18 m
+  Match(0, 3, 80, {18, 0, 0});  // a pattern of the ground that repeats after 18 m
   EXPECT_EQ(Drop(), 1);
   ASSERT_EQ(pairs_.size(), 2u);
   EXPECT_EQ(pairs_[0].pair.second, 1);
@@ -93,7 +93,7 @@ TEST_F(Contradictions, BelievesAPhotoMoreThanARecordThatFitsNoneOfItsPairs) {
 TEST_F(Contradictions, SaysNothingWithoutARecordOrWithTooFewMatches) {
   Match(0, 1, 60, Vector3d::Zero());
   Match(2, 3, 60, Vector3d::Zero());
-  Match(0, 3, 5, {-18, 0, 0});
+  Match(0, 3, 5, {18, 0, 0});
   EXPECT_EQ(Drop(), 0);
   Match(1, 2, 60, {-18, 0, 0});
   recorded_[1].reset();

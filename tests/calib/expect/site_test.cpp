@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "survey/occluders.h"
 #include "tests/calib/expect/made_site.h"
 
@@ -44,8 +46,8 @@ TEST(SampleSite, LaysTheGroundAtTheFootOfTheNearestHouse) {
   plan.footprints[1].z_m = {5, 17};
   for (const SitePoint& p : SampleSite(plan, 2)) {
     if (p.wall >= 0 || p.position.z() > 10) continue;
-    if (p.position.y() > -15) EXPECT_NEAR(p.position.z(), 0, 0.1) << p.position.transpose();
-    if (p.position.y() < -25) EXPECT_NEAR(p.position.z(), 5, 0.1) << p.position.transpose();
+    if (std::abs(p.position.y() + 20) < 5) continue;  // half way
+    EXPECT_NEAR(p.position.z(), p.position.y() > -20 ? 0 : 5, 0.1) << p.position.transpose();
   }
 }
 
