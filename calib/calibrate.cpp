@@ -286,9 +286,10 @@ void Describe(OptionTable& table, CalibOptions& options) {
             "A match's descriptor angle must be below this share of the second best one's.");
   table.Add("exhaustive_below", options.exhaustive_below, 2, 100000,
             "Up to this many photos every pair is matched, unless a plan says which overlap.");
-  table.Add("neighbours", options.neighbours, 2, 1000,
-            "Photos matched with each: those that should overlap most by the plan; without one, the "
-            "nearest by position and as many by appearance.");
+  table.Add(
+      "neighbours", options.neighbours, 2, 1000,
+      "Photos matched with each: those that should overlap most by the plan; without one, the "
+      "nearest by position and as many by appearance.");
   table.Add("camera_model", options.camera_model, {"PINHOLE", "OPENCV", "FULL_OPENCV"},
             "COLMAP's name of the lens model that is calibrated.");
   table.Add("refine_principal_point", options.refine_principal_point,
