@@ -8,16 +8,13 @@
 #include "calib/descriptors.h"
 
 namespace stucco {
-namespace {
 
-double Angle(int32_t product) {
+double DescriptorAngle(int32_t product) {
   return std::acos(std::clamp(product / (kDescriptorUnit * kDescriptorUnit), -1.0, 1.0));
 }
 
-}  // namespace
-
 bool BestTwo::PassesRatio(double ratio) const {
-  return index >= 0 && Angle(best) < ratio * Angle(second);
+  return index >= 0 && DescriptorAngle(best) < ratio * DescriptorAngle(second);
 }
 
 std::vector<Match> MutualMatches(const std::vector<BestTwo>& of_first,

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "calib/matches.h"
 
 namespace stucco {
+
+// Angle between descriptors with this product, as UnitDescriptors scales them.
+double DescriptorAngle(int32_t product);
 
 // The largest and second largest product of a descriptor with others seen so far.
 struct BestTwo {
@@ -17,13 +21,16 @@ struct BestTwo {
 
   void Offer(int32_t product, int32_t candidate) {
     if (product > best) {
-      second = best;
+      second = std::max(second, best);
       best = product;
       index = candidate;
     } else if (product > second) {
       second = product;
     }
   }
+  // What is no candidate itself, but would be as likely if it is as similar.
+  void Rival(int32_t product) { second = std::max(second, product); }
+
   // Lowe's test on the angles between the descriptors.
   bool PassesRatio(double ratio) const;
 };

@@ -10,11 +10,12 @@
 #include <filesystem>
 
 #include "calib/adjust.h"
-#include "calib/correspond.h"
+#include "calib/detect_photos.h"
 #include "calib/expect/contradictions.h"
 #include "calib/focal.h"
 #include "calib/georeference.h"
 #include "calib/mapper.h"
+#include "calib/match_photos.h"
 #include "calib/panorama.h"
 #include "calib/summarize.h"
 #include "calib/tracks.h"

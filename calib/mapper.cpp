@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "calib/adjust.h"
+#include "calib/groups.h"
 #include "calib/resect.h"
 #include "calib/triangulate.h"
 #include "survey/error.h"
@@ -315,21 +315,16 @@ struct Component {
 
 // Largest first.
 std::vector<Component> Components(size_t num_photos, const std::vector<VerifiedPair>& pairs) {
-  std::vector<int> parent(num_photos);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int photo) {
-    while (parent[photo] != photo) photo = parent[photo] = parent[parent[photo]];
-    return photo;
-  };
+  Groups groups(num_photos);
   for (const VerifiedPair& pair : pairs) {
     if (pair.pair.matches.size() < kSureMatches) continue;
-    parent[root(pair.pair.first)] = root(pair.pair.second);
+    groups.Join(pair.pair.first, pair.pair.second);
   }
   std::vector<Component> components(num_photos);
-  for (size_t i = 0; i < num_photos; ++i) ++components[root(static_cast<int>(i))].num_photos;
+  for (size_t i = 0; i < num_photos; ++i) ++components[groups.Of(static_cast<int>(i))].num_photos;
   for (const VerifiedPair& pair : pairs) {
     if (pair.pair.matches.size() < kSureMatches) continue;
-    components[root(pair.pair.first)].pairs.push_back(pair);
+    components[groups.Of(pair.pair.first)].pairs.push_back(pair);
   }
   std::erase_if(components, [](const Component& c) { return c.num_photos < 2; });
   std::stable_sort(components.begin(), components.end(),

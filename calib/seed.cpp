@@ -5,7 +5,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "calib/groups.h"
 
 namespace stucco {
 namespace {
@@ -113,20 +114,13 @@ void ClassifyMotion(const Scene& scene, double max_misfit, VerifiedPair& pair) {
 std::vector<std::vector<int>> RotationGroups(const Scene& scene,
                                              const std::vector<VerifiedPair>& pairs) {
   const int num_photos = static_cast<int>(scene.photos.size());
-  std::vector<int> group(num_photos);
-  std::iota(group.begin(), group.end(), 0);
-  const auto root = [&](int photo) {
-    while (group[photo] != photo) photo = group[photo];
-    return photo;
-  };
+  Groups groups(scene.photos.size());
   for (const VerifiedPair& pair : pairs) {
     if (!pair.rotation_only || HasParallax(scene, pair.pair)) continue;
-    const int a = root(pair.pair.first);
-    const int b = root(pair.pair.second);
-    group[std::max(a, b)] = std::min(a, b);
+    groups.Join(pair.pair.first, pair.pair.second);
   }
   std::vector<std::vector<int>> members(num_photos);
-  for (int photo = 0; photo < num_photos; ++photo) members[root(photo)].push_back(photo);
+  for (int photo = 0; photo < num_photos; ++photo) members[groups.Of(photo)].push_back(photo);
   std::erase_if(members, [](const std::vector<int>& m) { return m.size() < 3; });
   return members;
 }

@@ -11,12 +11,17 @@
 
 #include "calib/best_two.h"
 #include "calib/descriptors.h"
+#include "calib/project_inside.h"
 
 namespace stucco {
 namespace {
 
-constexpr double kMostPixels = 8e6;
+constexpr int kLongestSide_px = 30000;  // remap takes no more than 32767
 constexpr double kLikeScale = 2.5;
+// What is as similar within this multiple of the reach makes a match doubtful: windows repeat, and
+// the record may be off by more than the reach.
+constexpr double kRivals = 2.5;
+constexpr double kLonelyAngle_rad = 0.6;
 // A keypoint's descriptor reaches this many standard deviations of its blob in each direction.
 constexpr double kSupport = 6;
 
@@ -33,15 +38,15 @@ struct WallRaster {
   }
 };
 
-Eigen::Vector3d AlongWall(const PlannedFacade& wall) {
-  const Eigen::Vector2d way = (wall.b_m - wall.a_m).normalized();
+Eigen::Vector3d Level(const Eigen::Vector2d& way) {
   return {way.x(), way.y(), 0};
 }
 
-// As fine as the photo is where the wall is nearest, so that nothing is lost.
-WallRaster RasterOf(const WallView& view, double focal_px) {
+// As fine as the photo is where the wall is nearest, so that nothing is lost, but with no more
+// pixels than the photo has.
+WallRaster RasterOf(const WallView& view, const Camera& camera) {
   WallRaster raster;
-  raster.along = AlongWall(view.wall);
+  raster.along = Level(view.wall.along());
   const Eigen::Vector3d foot(view.wall.a_m.x(), view.wall.a_m.y(), 0);
   raster.corner =
       foot + view.along_m.from_m * raster.along + view.z_m.to_m * Eigen::Vector3d::UnitZ();
@@ -50,8 +55,10 @@ WallRaster RasterOf(const WallView& view, double focal_px) {
       std::clamp((center - foot).dot(raster.along), view.along_m.from_m, view.along_m.to_m);
   const double z = std::clamp(center.z(), view.z_m.from_m, view.z_m.to_m);
   const double nearest = (foot + u * raster.along + z * Eigen::Vector3d::UnitZ() - center).norm();
-  const double finest = std::sqrt(view.along_m.length_m() * view.z_m.length_m() / kMostPixels);
-  raster.pixel_m = std::max({nearest / focal_px, finest, 1e-4});
+  const double most_px = static_cast<double>(camera.width_px) * camera.height_px;
+  const double finest = std::sqrt(view.along_m.length_m() * view.z_m.length_m() / most_px);
+  const double longest_m = std::max(view.along_m.length_m(), view.z_m.length_m());
+  raster.pixel_m = std::max({nearest / camera.FocalX(), finest, longest_m / kLongestSide_px, 1e-4});
   raster.width_px = std::max(1, static_cast<int>(view.along_m.length_m() / raster.pixel_m));
   raster.height_px = std::max(1, static_cast<int>(view.z_m.length_m() / raster.pixel_m));
   return raster;
@@ -62,7 +69,7 @@ Image Rectify(const Image& image, const Camera& camera, const Pose& pose,
   cv::Mat at(raster.height_px, raster.width_px, CV_32FC2);
   for (int y = 0; y < raster.height_px; ++y) {
     for (int x = 0; x < raster.width_px; ++x) {
-      const auto pixel = camera.Project(pose * raster.Place(x + 0.5, y + 0.5));
+      const auto pixel = ProjectInside(camera, pose * raster.Place(x + 0.5, y + 0.5));
       at.at<cv::Point2f>(y, x) = pixel ? cv::Point2f(static_cast<float>(pixel->x() - 0.5),
                                                      static_cast<float>(pixel->y() - 0.5))
                                        : cv::Point2f(-10, -10);
@@ -82,16 +89,24 @@ bool Shows(const Camera& camera, const Pose& pose, const WallRaster& raster, con
   const double reach = kSupport * k.scale;
   for (const double dx : {-reach, reach}) {
     for (const double dy : {-reach, reach}) {
-      const auto pixel = camera.Project(pose * raster.Place(k.x + dx, k.y + dy));
-      if (!pixel || !camera.Contains(*pixel)) return false;
+      if (!ProjectInside(camera, pose * raster.Place(k.x + dx, k.y + dy))) return false;
     }
   }
   return true;
 }
 
-bool IsLike(const OnWall& a, const OnWall& b, double reach_m) {
-  return std::abs(a.along_m - b.along_m) <= reach_m && std::abs(a.z_m - b.z_m) <= reach_m &&
-         a.scale_m <= kLikeScale * b.scale_m && b.scale_m <= kLikeScale * a.scale_m;
+// The larger of the distances along the wall and in height.
+double Apart(const OnWall& a, const OnWall& b) {
+  return std::max(std::abs(a.along_m - b.along_m), std::abs(a.z_m - b.z_m));
+}
+
+bool IsOfLikeSize(const OnWall& a, const OnWall& b) {
+  return a.scale_m <= kLikeScale * b.scale_m && b.scale_m <= kLikeScale * a.scale_m;
+}
+
+// Without a rival to compare with, a match must be good by itself.
+bool IsSure(const BestTwo& match) {
+  return match.second >= 0 || DescriptorAngle(match.best) < kLonelyAngle_rad;
 }
 
 // Keypoints in the order of their places along the wall.
@@ -122,7 +137,7 @@ AlongOrder SortAlong(const WallKeypoints& keypoints) {
 Features DetectOnWall(const Image& image, const Camera& camera, const WallView& view,
                       int max_features) {
   const Camera scaled = Resized(camera, image.width_px, image.height_px);
-  const WallRaster raster = RasterOf(view, scaled.FocalX());
+  const WallRaster raster = RasterOf(view, scaled);
   const ImageSize size{raster.width_px, raster.height_px};
   const Features on_raster =
       DetectFeatures(Rectify(image, scaled, view.cam_from_plan, raster), size, {0, max_features});
@@ -131,7 +146,7 @@ Features DetectOnWall(const Image& image, const Camera& camera, const WallView& 
     const Keypoint& k = on_raster.keypoints[i];
     if (!Shows(camera, view.cam_from_plan, raster, k)) continue;
     const Eigen::Vector3d in_cam = view.cam_from_plan * raster.Place(k.x, k.y);
-    const auto pixel = camera.Project(in_cam);
+    const auto pixel = ProjectInside(camera, in_cam);
     if (!pixel) continue;
     const double scale_px = k.scale * raster.pixel_m / in_cam.norm() * camera.FocalX();
     features.keypoints.push_back({static_cast<float>(pixel->x()), static_cast<float>(pixel->y()),
@@ -144,8 +159,8 @@ Features DetectOnWall(const Image& image, const Camera& camera, const WallView& 
 
 std::vector<OnWall> PlacesOnWall(const Features& features, const Camera& camera,
                                  const WallView& view) {
-  const Eigen::Vector3d along = AlongWall(view.wall);
-  const Eigen::Vector3d normal(along.y(), -along.x(), 0);
+  const Eigen::Vector3d along = Level(view.wall.along());
+  const Eigen::Vector3d normal = Level(view.wall.outwards());
   const Eigen::Vector3d foot(view.wall.a_m.x(), view.wall.a_m.y(), 0);
   const Pose plan_from_cam = view.cam_from_plan.Inverse();
   const double distance = (plan_from_cam.translation - foot).dot(normal);
@@ -176,19 +191,30 @@ std::vector<Match> MatchOnWall(const WallKeypoints& first, const WallKeypoints& 
       return std::lower_bound(columns.along_m.begin(), columns.along_m.end(), along) -
              columns.along_m.begin();
     };
-    const auto begin = near(place.along_m - reach_m);
-    const auto end = near(place.along_m + reach_m);
+    const auto begin = near(place.along_m - kRivals * reach_m);
+    const auto end = near(place.along_m + kRivals * reach_m);
     DotProducts(first.descriptors.data() + row * kDescriptorSize,
                 columns.descriptors.data() + begin * kDescriptorSize, static_cast<int>(end - begin),
                 products.data());
     for (auto c = begin; c < end; ++c) {
       const int other = columns.index[c];
-      if (!IsLike(place, second.places[other], reach_m)) continue;
-      of_first[row].Offer(products[c - begin], other);
-      of_second[other].Offer(products[c - begin], static_cast<int>(row));
+      const double apart = Apart(place, second.places[other]);
+      if (apart > kRivals * reach_m || !IsOfLikeSize(place, second.places[other])) continue;
+      const int32_t product = products[c - begin];
+      if (apart <= reach_m) {
+        of_first[row].Offer(product, other);
+        of_second[other].Offer(product, static_cast<int>(row));
+      } else {
+        of_first[row].Rival(product);
+        of_second[other].Rival(product);
+      }
     }
   }
-  return MutualMatches(of_first, of_second, ratio);
+  std::vector<Match> matches = MutualMatches(of_first, of_second, ratio);
+  std::erase_if(matches, [&](const Match& match) {
+    return !IsSure(of_first[match.first]) || !IsSure(of_second[match.second]);
+  });
+  return matches;
 }
 
 }  // namespace stucco

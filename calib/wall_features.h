@@ -48,7 +48,8 @@ struct WallKeypoints {
 };
 
 // Mutual nearest neighbours among keypoints of like size within `reach_m` of each other on the
-// wall, which pass the ratio test there: what repeats along the wall farther off does not confuse.
+// wall, which pass the ratio test among those within 2.5 times as much: what repeats along the wall
+// farther off does not confuse.
 std::vector<Match> MatchOnWall(const WallKeypoints& first, const WallKeypoints& second,
                                double reach_m, double ratio);
 

@@ -8,18 +8,12 @@
 #include <limits>
 
 #include "proxy/grid_index.h"
+#include "survey/median.h"
 
 namespace stucco {
 namespace {
 
 constexpr size_t kProbes = 3000;
-
-double Median(std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Eigen::Vector3d SizeOfMiddle(const Samples& samples) {
   Eigen::Vector3d size;
@@ -80,19 +74,19 @@ CloudScale MeasureScale(const Samples& samples, const Stations& stations) {
     const double nearest = NearestDistance(samples, index, i, guess / 4);
     if (std::isfinite(nearest)) values.push_back(nearest);
   }
-  scale.spacing = Median(values);
+  scale.spacing = Median(values).value_or(0);
   values.clear();
   for (size_t i = 0; i < samples.size(); i += stride) {
     const double noise = LocalNoise(samples, index, i, 4 * scale.spacing);
     if (noise >= 0) values.push_back(noise);
   }
-  scale.noise = Median(values);
+  scale.noise = Median(values).value_or(0);
   values.clear();
   for (size_t i = 0; i < samples.size(); i += stride) {
     if (samples.stations[i] < 0) continue;
     values.push_back((stations.all[samples.stations[i]].center - samples.positions[i]).norm());
   }
-  scale.viewing_distance = Median(values);
+  scale.viewing_distance = Median(values).value_or(0);
   return scale;
 }
 

@@ -61,7 +61,7 @@ struct FacadeQuality {
   double sum() const { return q_s + q_d + q_u + q_c; }
 };
 
-// A wall of the map from a to b, the building on its left.
+// A wall of the map from a to b, the building on its left; never without length.
 struct PlannedFacade {
   std::string id;  // B0012/F03
   Eigen::Vector2d a_m = Eigen::Vector2d::Zero();
@@ -72,6 +72,10 @@ struct PlannedFacade {
   FacadeQuality predicted;
   std::vector<Interval> unobservable_m;  // along the wall: no view from between the
                                          // buildings captures it (cocapture only)
+
+  double length_m() const { return (b_m - a_m).norm(); }
+  Eigen::Vector2d along() const { return (b_m - a_m).normalized(); }
+  Eigen::Vector2d outwards() const { return {along().y(), -along().x()}; }
 };
 
 struct PlannedFootprint {

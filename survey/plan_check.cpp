@@ -92,7 +92,7 @@ Index CheckFacades(const Checker& check) {
     const std::string entry = "facade " + facade.id;
     check.Require(!facade.id.empty(), entry, "has an empty id");
     check.Require(index.emplace(facade.id, &facade).second, entry, "occurs twice");
-    const double length = (facade.b_m - facade.a_m).norm();
+    const double length = facade.length_m();
     check.Require(std::isfinite(length) && length > 0, entry, "has no length");
     check.Require(IsForward(facade.z_m), entry, "has a \"z_m\" that runs backwards");
     for (const Interval& part : facade.unobservable_m) {
@@ -110,7 +110,7 @@ void CheckTarget(const Checker& check, const std::string& entry, const PlannedTa
     check.Fail(entry,
                fmt::format("is meant for facade \"{}\", which does not exist", target.facade));
   }
-  const double length = (found->second->b_m - found->second->a_m).norm();
+  const double length = found->second->length_m();
   check.Require(
       IsWithin(target.along_m, length), entry,
       fmt::format("has a target beyond the {:.3f} m of facade {}", length, target.facade));
@@ -222,7 +222,7 @@ void ResolveWholeFacades(Plan& plan) {
       const auto found = index.find(target.facade);
       if (found == index.end()) continue;  // the check says so
       const PlannedFacade& facade = *found->second;
-      if (std::isinf(target.along_m.to_m)) target.along_m.to_m = (facade.b_m - facade.a_m).norm();
+      if (std::isinf(target.along_m.to_m)) target.along_m.to_m = facade.length_m();
       if (std::isinf(target.z_m.to_m)) target.z_m = facade.z_m;
     }
   }

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "calib/project_inside.h"
 #include "survey/parallel.h"
 
 namespace stucco {
@@ -19,6 +20,8 @@ constexpr double kSpacing_m = 2;
 // Farther than this multiple of the farthest distance that the plan counts on, photos show the site
 // too small for its features to match.
 constexpr double kReach = 4;
+constexpr double kLeastReach_m = 100;
+constexpr double kMostReach_m = 1000;
 // A surface seen at a flatter angle shows nothing that matches.
 const double kLeastFacing = std::cos(80 * kRadians);
 // SIFT matches about these changes of direction and scale (Mikolajczyk et al. 2005).
@@ -27,6 +30,8 @@ constexpr double kAlikeScale = 3;
 // Seen from farther off the normal, a wall matches better once it is rectified.
 const double kFrontal = std::cos(35 * kRadians);
 constexpr double kAlikeScaleOfWalls = 8;
+// More walls of one photo are too small in it to add anything, and each costs a search.
+constexpr size_t kWallsOfPhoto = 8;
 // Fewer common points are chance.
 constexpr int kLeastShared = 6;
 constexpr double kLeastShare = 0.05;  // of what the photo sees
@@ -62,12 +67,6 @@ class PointGrid {
   std::map<std::pair<int, int>, std::vector<int>> cells_;
 };
 
-bool InPicture(const Camera& camera, const Eigen::Vector3d& in_cam) {
-  if (in_cam.z() <= 0 || !camera.IsInvertibleAt(in_cam.hnormalized())) return false;
-  const auto pixel = camera.Project(in_cam);
-  return pixel && camera.Contains(*pixel);
-}
-
 std::vector<int> SeenBy(const Pose& pose, const Camera& camera,
                         const std::vector<SitePoint>& points, std::vector<int> candidates,
                         const Occluders& site) {
@@ -75,7 +74,8 @@ std::vector<int> SeenBy(const Pose& pose, const Camera& camera,
   std::erase_if(candidates, [&](int i) {
     const Eigen::Vector3d way = center - points[i].position;
     return way.dot(points[i].normal) < kLeastFacing * way.norm() ||
-           !InPicture(camera, pose * points[i].position) || site.Block(points[i].position, way, 1);
+           !ProjectInside(camera, pose * points[i].position) ||
+           site.Block(points[i].position, way, 1);
   });
   std::sort(candidates.begin(), candidates.end());
   return candidates;
@@ -83,56 +83,101 @@ std::vector<int> SeenBy(const Pose& pose, const Camera& camera,
 
 // How a photo sees a point.
 struct Sight {
-  int photo = 0;
   Eigen::Vector3d way = Eigen::Vector3d::Zero();  // unit, from the point to the camera
   double distance_m = 0;
 };
 
-// Calls `fn(point, sights)` for every point that at least two photos should see.
-template <typename Fn>
-void ForEachShared(const ExpectedViews& views, const Fn& fn) {
-  std::vector<std::vector<Sight>> sights(views.points.size());
-  for (size_t photo = 0; photo < views.seen.size(); ++photo) {
-    if (!views.poses[photo]) continue;
-    const Eigen::Vector3d center = views.poses[photo]->Center();
-    for (const int point : views.seen[photo]) {
-      const Eigen::Vector3d way = center - views.points[point].position;
-      const double distance = way.norm();
-      sights[point].push_back({static_cast<int>(photo), way / distance, distance});
+// Who sees what, from both sides.
+class Sights {
+ public:
+  explicit Sights(const ExpectedViews& views) : views_(views), photos_of_(views.points.size()) {
+    for (size_t photo = 0; photo < views.seen.size(); ++photo) {
+      centers_.push_back(views.poses[photo] ? views.poses[photo]->Center()
+                                            : Eigen::Vector3d::Zero());
+      for (const int point : views.seen[photo])
+        photos_of_[point].push_back(static_cast<int>(photo));
     }
   }
-  for (size_t point = 0; point < sights.size(); ++point) {
-    if (sights[point].size() > 1) fn(views.points[point], sights[point]);
+  const std::vector<int>& PhotosOf(int point) const { return photos_of_[point]; }
+  Sight Of(int photo, int point) const {
+    const Eigen::Vector3d way = centers_[photo] - views_.points[point].position;
+    const double distance_m = way.norm();
+    return {way / distance_m, distance_m};
   }
-}
+
+ private:
+  const ExpectedViews& views_;
+  std::vector<Eigen::Vector3d> centers_;
+  std::vector<std::vector<int>> photos_of_;
+};
 
 double ScaleChange(const Sight& a, const Sight& b) {
   return std::max(a.distance_m / b.distance_m, b.distance_m / a.distance_m);
 }
 
-// The `count` of `partners` (photo -> common points) with most of them; of equal ones the first.
-std::vector<int> Best(const std::map<int, int>& partners, int least, int count) {
+// The `count` photos with most of the `shared` points (by photo), at least `least`; of equal ones
+// the first.
+std::vector<int> Best(const std::vector<int>& shared, int least, int count) {
   std::vector<std::pair<int, int>> order;  // (-points, photo)
-  for (const auto& [photo, shared] : partners) {
-    if (shared >= least) order.emplace_back(-shared, photo);
+  for (size_t photo = 0; photo < shared.size(); ++photo) {
+    if (shared[photo] >= least) order.emplace_back(-shared[photo], static_cast<int>(photo));
   }
   std::sort(order.begin(), order.end());
   if (static_cast<int>(order.size()) > count) order.resize(count);
   std::vector<int> best;
-  for (const auto& [shared, photo] : order) best.push_back(photo);
+  for (const auto& [points, photo] : order) best.push_back(photo);
   return best;
+}
+
+// The area that photos within `reach_m` may show.
+Eigen::AlignedBox2d AreaOf(const std::vector<std::optional<Pose>>& poses, double reach_m) {
+  Eigen::AlignedBox2d area;
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(reach_m);
+  for (const auto& pose : poses) {
+    if (!pose) continue;
+    const Eigen::Vector2d place = pose->Center().head<2>();
+    area.extend(Eigen::AlignedBox2d(place - reach, place + reach));
+  }
+  return area;
+}
+
+// Where the points of one wall begin and end in `seen` of a photo.
+struct WallRange {
+  int wall = 0;
+  size_t begin = 0;
+  size_t end = 0;
+};
+
+// The walls that a photo shows most of, at most kWallsOfPhoto; ascending.
+std::vector<WallRange> WallsOf(const ExpectedViews& views, size_t photo) {
+  std::vector<WallRange> walls;
+  const std::vector<int>& seen = views.seen[photo];
+  for (size_t i = 0; i < seen.size(); ++i) {
+    const int wall = views.points[seen[i]].wall;
+    if (wall < 0) continue;
+    if (walls.empty() || walls.back().wall != wall) walls.push_back({wall, i, i});
+    walls.back().end = i + 1;
+  }
+  std::stable_sort(walls.begin(), walls.end(), [](const WallRange& a, const WallRange& b) {
+    return a.end - a.begin > b.end - b.begin;
+  });
+  if (walls.size() > kWallsOfPhoto) walls.resize(kWallsOfPhoto);
+  std::sort(walls.begin(), walls.end(),
+            [](const WallRange& a, const WallRange& b) { return a.wall < b.wall; });
+  return walls;
 }
 
 }  // namespace
 
 ExpectedViews ExpectViews(ExpectInput input, const StageContext& context) {
   const SiteMesh mesh = MeshOfSite(input.plan);
-  ExpectedViews views{std::move(input.poses),
-                      SampleSite(input.plan, kSpacing_m),
-                      {},
-                      Occluders(mesh.vertices, mesh.triangles)};
+  const double reach_m =
+      std::clamp(kReach * std::max(input.plan.safe_altitude_m, input.plan.d_max_m), kLeastReach_m,
+                 kMostReach_m);
+  std::vector<SitePoint> points = SampleSite(input.plan, kSpacing_m, AreaOf(input.poses, reach_m));
+  ExpectedViews views{
+      std::move(input.poses), std::move(points), {}, Occluders(mesh.vertices, mesh.triangles)};
   views.seen.resize(views.poses.size());
-  const double reach_m = kReach * std::max(input.plan.safe_altitude_m, input.plan.d_max_m);
   const PointGrid grid(views.points, reach_m / 4);
   ParallelFor(views.poses.size(), context.threads, [&](size_t i) {
     const auto& pose = views.poses[i];
@@ -143,53 +188,60 @@ ExpectedViews ExpectViews(ExpectInput input, const StageContext& context) {
   return views;
 }
 
-std::vector<std::pair<int, int>> OverlappingPairs(const ExpectedViews& views, int count) {
-  std::vector<std::map<int, int>> partners(views.seen.size());
-  ForEachShared(views, [&](const SitePoint&, const std::vector<Sight>& sights) {
-    for (const Sight& a : sights) {
-      for (const Sight& b : sights) {
-        if (a.photo == b.photo || a.way.dot(b.way) < kAlikeDirection) continue;
-        if (ScaleChange(a, b) < kAlikeScale) ++partners[a.photo][b.photo];
+std::vector<std::pair<int, int>> OverlappingPairs(const ExpectedViews& views, int count,
+                                                  int threads) {
+  const Sights sights(views);
+  std::vector<std::vector<int>> partners(views.seen.size());
+  ParallelFor(views.seen.size(), threads, [&](size_t photo) {
+    const int a = static_cast<int>(photo);
+    std::vector<int> shared(views.seen.size(), 0);
+    for (const int point : views.seen[photo]) {
+      const Sight sight = sights.Of(a, point);
+      for (const int b : sights.PhotosOf(point)) {
+        const Sight other = sights.Of(b, point);
+        shared[b] += b != a && sight.way.dot(other.way) >= kAlikeDirection &&
+                     ScaleChange(sight, other) < kAlikeScale;
       }
     }
+    const double share = kLeastShare * static_cast<double>(views.seen[photo].size());
+    partners[photo] = Best(shared, std::max(kLeastShared, static_cast<int>(share)), count);
   });
   std::set<std::pair<int, int>> pairs;
-  for (size_t photo = 0; photo < partners.size(); ++photo) {
-    const int a = static_cast<int>(photo);
-    const int least =
-        std::max(kLeastShared,
-                 static_cast<int>(kLeastShare * static_cast<double>(views.seen[photo].size())));
-    for (const int b : Best(partners[photo], least, count)) {
-      pairs.emplace(std::min(a, b), std::max(a, b));
-    }
+  for (int a = 0; a < static_cast<int>(partners.size()); ++a) {
+    for (const int b : partners[a]) pairs.emplace(std::min(a, b), std::max(a, b));
   }
   return {pairs.begin(), pairs.end()};
 }
 
-std::vector<WallPair> ObliqueWallPairs(const ExpectedViews& views, int count) {
-  // Common points by (photo, wall), with frontal and oblique partners apart.
-  std::map<std::pair<int, int>, std::array<std::map<int, int>, 2>> partners;
-  ForEachShared(views, [&](const SitePoint& point, const std::vector<Sight>& sights) {
-    if (point.wall < 0) return;
-    for (const Sight& a : sights) {
-      const bool a_frontal = a.way.dot(point.normal) > kFrontal;
-      for (const Sight& b : sights) {
-        const bool b_frontal = b.way.dot(point.normal) > kFrontal;
-        if (a.photo == b.photo || (a_frontal && b_frontal)) continue;
-        if (ScaleChange(a, b) > kAlikeScaleOfWalls) continue;
-        ++partners[{a.photo, point.wall}][b_frontal ? 0 : 1][b.photo];
+std::vector<WallPair> ObliqueWallPairs(const ExpectedViews& views, int count, int threads) {
+  const Sights sights(views);
+  std::vector<std::vector<WallPair>> of_photo(views.seen.size());
+  ParallelFor(views.seen.size(), threads, [&](size_t photo) {
+    const int a = static_cast<int>(photo);
+    for (const WallRange& wall : WallsOf(views, photo)) {
+      std::array<std::vector<int>, 2> shared;  // with frontal and with oblique photos
+      shared.fill(std::vector<int>(views.seen.size(), 0));
+      for (size_t i = wall.begin; i < wall.end; ++i) {
+        const int point = views.seen[photo][i];
+        const Eigen::Vector3d& normal = views.points[point].normal;
+        const Sight sight = sights.Of(a, point);
+        const bool is_frontal = sight.way.dot(normal) > kFrontal;
+        for (const int b : sights.PhotosOf(point)) {
+          const Sight other = sights.Of(b, point);
+          const bool other_frontal = other.way.dot(normal) > kFrontal;
+          if (a == b || (is_frontal && other_frontal)) continue;
+          if (ScaleChange(sight, other) <= kAlikeScaleOfWalls) ++shared[other_frontal ? 0 : 1][b];
+        }
+      }
+      for (const auto& with : shared) {
+        for (const int b : Best(with, kLeastShared, count)) {
+          of_photo[photo].push_back({std::min(a, b), std::max(a, b), wall.wall});
+        }
       }
     }
   });
   std::set<WallPair> pairs;
-  for (const auto& [photo_and_wall, by_direction] : partners) {
-    const auto [a, wall] = photo_and_wall;
-    for (const auto& shared : by_direction) {
-      for (const int b : Best(shared, kLeastShared, count)) {
-        pairs.insert({std::min(a, b), std::max(a, b), wall});
-      }
-    }
-  }
+  for (const auto& each : of_photo) pairs.insert(each.begin(), each.end());
   return {pairs.begin(), pairs.end()};
 }
 

@@ -36,7 +36,8 @@ ExpectedViews ExpectViews(ExpectInput input, const StageContext& context);
 
 // Pairs (a, b), a < b, ascending: of each photo, the `count` others that should share most of what
 // it sees under angles and scales that features match at.
-std::vector<std::pair<int, int>> OverlappingPairs(const ExpectedViews& views, int count);
+std::vector<std::pair<int, int>> OverlappingPairs(const ExpectedViews& views, int count,
+                                                  int threads);
 
 // A pair of photos that should both show a part of one wall, and at least one of them so obliquely
 // that features only match once the wall is rectified.
@@ -47,8 +48,8 @@ struct WallPair {
   auto operator<=>(const WallPair&) const = default;
 };
 
-// Of each photo and each wall it sees, up to `count` frontal and as many oblique partners: those
-// that share most of it. Ascending.
-std::vector<WallPair> ObliqueWallPairs(const ExpectedViews& views, int count);
+// Of each photo and each of the eight walls it sees most of, up to `count` frontal and as many
+// oblique partners: those that share most of it. Ascending.
+std::vector<WallPair> ObliqueWallPairs(const ExpectedViews& views, int count, int threads);
 
 }  // namespace stucco

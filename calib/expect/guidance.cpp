@@ -22,9 +22,9 @@ constexpr int kWallPartners = 6;
 // Along the wall and in height, what the photo should see of it.
 WallView ViewOfWall(const Plan& plan, const ExpectedViews& views, int photo, int wall) {
   const PlannedFacade& facade = plan.facades[wall];
-  const double length_m = (facade.b_m - facade.a_m).norm();
-  const Eigen::Vector2d along = (facade.b_m - facade.a_m) / length_m;
-  WallView view{facade, {length_m, 0}, {facade.z_m.to_m, facade.z_m.from_m}, *views.poses[photo]};
+  const Eigen::Vector2d along = facade.along();
+  WallView view{
+      facade, {facade.length_m(), 0}, {facade.z_m.to_m, facade.z_m.from_m}, *views.poses[photo]};
   const auto include = [](double value, Interval& interval) {
     interval.from_m = std::min(interval.from_m, value);
     interval.to_m = std::max(interval.to_m, value);
@@ -62,8 +62,8 @@ Guidance GuideByPlan(const CalibOptions& options, const Captures& captures,
     input.cameras.push_back(&captures.cameras[photo->camera].intrinsics);
   }
   const ExpectedViews& views = guidance.views.emplace(ExpectViews(std::move(input), context));
-  guidance.pairs = OverlappingPairs(views, options.neighbours);
-  guidance.wall_pairs = ObliqueWallPairs(views, kWallPartners);
+  guidance.pairs = OverlappingPairs(views, options.neighbours, context.threads);
+  guidance.wall_pairs = ObliqueWallPairs(views, kWallPartners, context.threads);
   for (const WallPair& pair : guidance.wall_pairs) {
     for (const int photo : {pair.first, pair.second}) {
       auto [place, is_new] = guidance.walls.try_emplace({photo, pair.wall});

@@ -28,9 +28,6 @@ struct Guidance {
   std::vector<std::pair<int, int>> pairs;             // that should overlap
   std::vector<WallPair> wall_pairs;                   // to match on a rectified wall
   std::map<std::pair<int, int>, ExpectedWall> walls;  // of (photo, wall) in wall_pairs
-
-  // Whether the plan says what the photo should see.
-  bool Expects(int photo) const { return views && !views->seen[photo].empty(); }
 };
 
 // Empty where the survey has no plan.

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "survey/proxy.h"
 #include "survey/rasterize.h"
@@ -28,14 +28,13 @@ std::vector<double> Middles(double from, double to, double spacing) {
 }
 
 void SampleWall(const PlannedFacade& facade, int wall, double spacing_m,
-                std::vector<SitePoint>& points) {
-  const double length = (facade.b_m - facade.a_m).norm();
-  if (length <= 0) return;
-  const Eigen::Vector2d along = (facade.b_m - facade.a_m) / length;
-  const Eigen::Vector2d out(along.y(), -along.x());  // the building is on the left
+                const Eigen::AlignedBox2d& area, std::vector<SitePoint>& points) {
+  const Eigen::Vector2d along = facade.along();
+  const Eigen::Vector2d out = facade.outwards();
   for (const double z : Middles(facade.z_m.from_m, facade.z_m.to_m, spacing_m)) {
-    for (const double u : Middles(0, length, spacing_m)) {
+    for (const double u : Middles(0, facade.length_m(), spacing_m)) {
       const Eigen::Vector2d place = facade.a_m + u * along + kOffSurface_m * out;
+      if (!area.contains(place)) continue;
       points.push_back({{place.x(), place.y(), z}, {out.x(), out.y(), 0}, wall});
     }
   }
@@ -50,43 +49,52 @@ struct GroundPlan {
   std::vector<int> nearest;  // index of a footprint, -1: none
   std::vector<bool> covered;
 
+  Eigen::Vector2i CellOf(const Eigen::Vector2d& place) const {
+    return ((place - low) / cell_m).array().floor().cast<int>();
+  }
+  // Index of a cell; nothing beyond the edge.
+  std::optional<size_t> Cell(int column, int row) const {
+    if (column < 0 || row < 0 || column >= columns || row >= rows) return std::nullopt;
+    return static_cast<size_t>(row) * columns + column;
+  }
   Eigen::Vector2d Middle(size_t cell) const {
     return low + cell_m * Eigen::Vector2d(static_cast<double>(cell % columns) + 0.5,
                                           static_cast<double>(cell / columns) + 0.5);
   }
 };
 
-GroundPlan EmptyGroundPlan(const Plan& plan, double cell_m, double margin_m) {
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Vector2d high = -low;
-  for (const PlannedFootprint& footprint : plan.footprints) {
-    for (const Eigen::Vector2d& p : footprint.rings_m.front()) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-  }
+Eigen::AlignedBox2d BoundsOf(const PlannedFootprint& footprint) {
+  Eigen::AlignedBox2d bounds;
+  for (const Eigen::Vector2d& p : footprint.rings_m.front()) bounds.extend(p);
+  return bounds;
+}
+
+// All footprints and this much around them.
+Eigen::AlignedBox2d SiteArea(const Plan& plan, double margin_m) {
+  Eigen::AlignedBox2d area;
+  for (const PlannedFootprint& footprint : plan.footprints) area.extend(BoundsOf(footprint));
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m);
+  return area.isEmpty() ? area : Eigen::AlignedBox2d(area.min() - margin, area.max() + margin);
+}
+
+GroundPlan EmptyGroundPlan(const Eigen::AlignedBox2d& area, double cell_m) {
   GroundPlan ground;
   ground.cell_m = cell_m;
-  ground.low = low.array() - margin_m;
-  ground.columns = static_cast<int>(std::ceil((high.x() + margin_m - ground.low.x()) / cell_m));
-  ground.rows = static_cast<int>(std::ceil((high.y() + margin_m - ground.low.y()) / cell_m));
+  ground.low = area.min();
+  ground.columns = static_cast<int>(std::ceil(area.sizes().x() / cell_m));
+  ground.rows = static_cast<int>(std::ceil(area.sizes().y() / cell_m));
   const size_t count = static_cast<size_t>(ground.columns) * ground.rows;
   ground.nearest.assign(count, -1);
   ground.covered.assign(count, false);
   return ground;
 }
 
-// Marks the cells whose middle is inside the footprint.
-void Cover(const PlannedFootprint& footprint, int index, GroundPlan& ground) {
-  Eigen::Vector2d low = footprint.rings_m.front().front();
-  Eigen::Vector2d high = low;
-  for (const Eigen::Vector2d& p : footprint.rings_m.front()) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const Eigen::Vector2i first = ((low - ground.low) / ground.cell_m).array().floor().cast<int>();
-  const Eigen::Vector2i last = ((high - ground.low) / ground.cell_m).array().floor().cast<int>();
-  const Eigen::Vector2i size = last - first + Eigen::Vector2i::Ones();
+// Marks the cells whose middle is inside the footprint; false where there are none.
+bool Cover(const PlannedFootprint& footprint, int index, GroundPlan& ground) {
+  const Eigen::AlignedBox2d bounds = BoundsOf(footprint);
+  const Eigen::Vector2i first = ground.CellOf(bounds.min());
+  const Eigen::Vector2i size = ground.CellOf(bounds.max()) - first + Eigen::Vector2i::Ones();
+  bool any = false;
   std::vector<std::vector<Eigen::Vector2d>> rings = footprint.rings_m;
   for (auto& ring : rings) {
     for (Eigen::Vector2d& p : ring) p = (p - ground.low) / ground.cell_m - first.cast<double>();
@@ -95,46 +103,52 @@ void Cover(const PlannedFootprint& footprint, int index, GroundPlan& ground) {
   for (int row = 0; row < size.y(); ++row) {
     for (int column = 0; column < size.x(); ++column) {
       if (!inside[static_cast<size_t>(row) * size.x() + column]) continue;
-      const size_t cell =
-          static_cast<size_t>(first.y() + row) * ground.columns + first.x() + column;
-      ground.covered[cell] = true;
-      ground.nearest[cell] = index;
+      const auto cell = ground.Cell(first.x() + column, first.y() + row);
+      if (!cell) continue;
+      ground.covered[*cell] = true;
+      ground.nearest[*cell] = index;
+      any = true;
     }
   }
+  return any;
 }
 
 // Hands the index of a footprint on from cell to cell.
 void SpreadNearest(GroundPlan& ground) {
   std::vector<size_t> front;
   for (size_t cell = 0; cell < ground.nearest.size(); ++cell) {
-    if (ground.covered[cell]) front.push_back(cell);
+    if (ground.nearest[cell] >= 0) front.push_back(cell);
   }
   for (size_t i = 0; i < front.size(); ++i) {
     const int column = static_cast<int>(front[i] % ground.columns);
     const int row = static_cast<int>(front[i] / ground.columns);
     for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
-      const int x = column + dx;
-      const int y = row + dy;
-      if (x < 0 || y < 0 || x >= ground.columns || y >= ground.rows) continue;
-      const size_t next = static_cast<size_t>(y) * ground.columns + x;
-      if (ground.nearest[next] >= 0) continue;
-      ground.nearest[next] = ground.nearest[front[i]];
-      front.push_back(next);
+      const auto next = ground.Cell(column + dx, row + dy);
+      if (!next || ground.nearest[*next] >= 0) continue;
+      ground.nearest[*next] = ground.nearest[front[i]];
+      front.push_back(*next);
     }
   }
 }
 
-GroundPlan MakeGroundPlan(const Plan& plan, double cell_m, double margin_m) {
-  GroundPlan ground = EmptyGroundPlan(plan, cell_m, margin_m);
-  for (size_t i = 0; i < plan.footprints.size(); ++i) {
-    Cover(plan.footprints[i], static_cast<int>(i), ground);
+GroundPlan MakeGroundPlan(const Plan& plan, const Eigen::AlignedBox2d& area, double cell_m) {
+  GroundPlan ground = EmptyGroundPlan(area, cell_m);
+  std::vector<int> small;  // cover no cell, but say how high the ground is
+  for (int i = 0; i < static_cast<int>(plan.footprints.size()); ++i) {
+    if (!Cover(plan.footprints[i], i, ground)) small.push_back(i);
+  }
+  for (const int i : small) {
+    const Eigen::Vector2i place = ground.CellOf(BoundsOf(plan.footprints[i]).center());
+    const auto cell = ground.Cell(place.x(), place.y());
+    if (cell && ground.nearest[*cell] < 0) ground.nearest[*cell] = i;
   }
   SpreadNearest(ground);
   return ground;
 }
 
-void SampleFromAbove(const Plan& plan, double spacing_m, std::vector<SitePoint>& points) {
-  const GroundPlan ground = MakeGroundPlan(plan, spacing_m, kMargin_m);
+void SampleFromAbove(const Plan& plan, double spacing_m, const Eigen::AlignedBox2d& area,
+                     std::vector<SitePoint>& points) {
+  const GroundPlan ground = MakeGroundPlan(plan, area, spacing_m);
   for (size_t cell = 0; cell < ground.nearest.size(); ++cell) {
     if (ground.nearest[cell] < 0) continue;
     const Interval& z = plan.footprints[ground.nearest[cell]].z_m;
@@ -175,7 +189,7 @@ void AddPrism(const PlannedFootprint& footprint, SiteMesh& mesh) {
 }
 
 void AddGround(const Plan& plan, SiteMesh& mesh) {
-  const GroundPlan ground = MakeGroundPlan(plan, kFarCell_m, kFarMargin_m);
+  const GroundPlan ground = MakeGroundPlan(plan, SiteArea(plan, kFarMargin_m), kFarCell_m);
   for (size_t cell = 0; cell < ground.nearest.size(); ++cell) {
     if (ground.nearest[cell] < 0) continue;
     const Eigen::Vector2d middle = ground.Middle(cell);
@@ -191,12 +205,14 @@ void AddGround(const Plan& plan, SiteMesh& mesh) {
 
 }  // namespace
 
-std::vector<SitePoint> SampleSite(const Plan& plan, double spacing_m) {
+std::vector<SitePoint> SampleSite(const Plan& plan, double spacing_m,
+                                  const Eigen::AlignedBox2d& area) {
   std::vector<SitePoint> points;
   for (size_t i = 0; i < plan.facades.size(); ++i) {
-    SampleWall(plan.facades[i], static_cast<int>(i), spacing_m, points);
+    SampleWall(plan.facades[i], static_cast<int>(i), spacing_m, area, points);
   }
-  if (!plan.footprints.empty()) SampleFromAbove(plan, spacing_m, points);
+  const Eigen::AlignedBox2d above = SiteArea(plan, kMargin_m).intersection(area);
+  if (!above.isEmpty()) SampleFromAbove(plan, spacing_m, above, points);
   return points;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -19,8 +20,10 @@ struct SitePoint {
 };
 
 // Points on walls, roofs (flat, at the top of their footprint) and the ground around the buildings,
-// on grids with this spacing. The ground is level at the foot of the nearest building.
-std::vector<SitePoint> SampleSite(const Plan& plan, double spacing_m);
+// on grids with this spacing, as far as they lie in `area`. The ground is level at the foot of the
+// nearest building. Points of one wall follow each other, walls in the order of Plan::facades.
+std::vector<SitePoint> SampleSite(const Plan& plan, double spacing_m,
+                                  const Eigen::AlignedBox2d& area);
 
 // Buildings as prisms without floor, and the ground far around them.
 struct SiteMesh {

@@ -21,6 +21,7 @@
 #include "plan/map/read_map.h"
 #include "plan/polygons.h"
 #include "survey/error.h"
+#include "survey/median.h"
 #include "survey/plan_frame.h"
 
 namespace stucco::plan {
@@ -88,11 +89,6 @@ void KeepNear(RawMap& map, const Eigen::AlignedBox2d& area, double reach_m) {
   }
 }
 
-double Median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 void CheckExtent(const RawMap& map) {
   Eigen::AlignedBox2d bounds;
   std::vector<double> x;
@@ -103,7 +99,7 @@ void CheckExtent(const RawMap& map) {
     y.push_back(BoundsOf(feature).center().y());
   }
   if (map.features.empty() || bounds.sizes().maxCoeff() <= kWidestSite_m) return;
-  const Eigen::Vector2d middle(Median(x), Median(y));
+  const Eigen::Vector2d middle(*Median(x), *Median(y));
   const MapFeature* farthest = nullptr;
   size_t astray = 0;
   double most = 0;

@@ -131,9 +131,7 @@ void DrawFacades(const Plan& plan, const MapScale& scale, Svg& svg) {
   PathData all;
   PathData unseen;
   for (const PlannedFacade& facade : plan.facades) {
-    const Eigen::Vector2d along = (facade.b_m - facade.a_m).normalized();
-    const Eigen::Vector2d outward(along.y(), -along.x());
-    const Eigen::Vector2d shift = 0.5 * scale.stroke_px / scale.px_per_m * outward;
+    const Eigen::Vector2d shift = 0.5 * scale.stroke_px / scale.px_per_m * facade.outwards();
     PathData& path = by_quality[static_cast<int>(
         std::lround(facade.predicted.sum() / kBestQuality * kQualityClasses))];
     for (PathData* lines : {&path, &all}) {
@@ -141,8 +139,8 @@ void DrawFacades(const Plan& plan, const MapScale& scale, Svg& svg) {
       lines->LineTo(scale.Page(Eigen::Vector2d(facade.b_m + shift)));
     }
     for (const Interval& part : facade.unobservable_m) {
-      unseen.MoveTo(scale.Page(Eigen::Vector2d(facade.a_m + shift + part.from_m * along)));
-      unseen.LineTo(scale.Page(Eigen::Vector2d(facade.a_m + shift + part.to_m * along)));
+      unseen.MoveTo(scale.Page(Eigen::Vector2d(facade.a_m + shift + part.from_m * facade.along())));
+      unseen.LineTo(scale.Page(Eigen::Vector2d(facade.a_m + shift + part.to_m * facade.along())));
     }
   }
   // A dark rim, because good walls are as bright as the page.

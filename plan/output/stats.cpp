@@ -32,7 +32,7 @@ void AddScaled(const FacadeQuality& quality, double weight, FacadeQuality& sum) 
 
 void AddFacades(const Plan& plan, PlanStats& stats) {
   for (const PlannedFacade& facade : plan.facades) {
-    const double length = (facade.b_m - facade.a_m).norm();
+    const double length = facade.length_m();
     stats.facades.push_back({facade.id, length, static_cast<int>(facade.views.size()),
                              facade.predicted, facade.unobservable_m});
     stats.wall_m += length;

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Changes when the same flight gives other photos.
-constexpr char kFlightVersion[] = "2";
+constexpr char kFlightVersion[] = "3";
 
 fs::path PlanPath(const fs::path& given) {
   std::error_code error;

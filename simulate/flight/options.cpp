@@ -33,6 +33,8 @@ void Describe(OptionTable& table, FlightOptions& options) {
             "Typical movement of the picture while the shutter is open, in pixels.");
   table.Add("focus_blur_px", options.focus_blur_px, 0.0, 20.0,
             "Radius of the lens's blur, in pixels.");
+  table.Add("sharpening", options.sharpening, 0.0, 3.0,
+            "Sharpening in the camera; 1 is what DJI drones do to their JPEGs, 0 none.");
   table.Add("lost_share", options.lost_share, 0.0, 0.9,
             "Share of the planned photos that is lost.");
   table.Add("duplicate_share", options.duplicate_share, 0.0, 0.9,

@@ -26,6 +26,7 @@ struct FlightOptions {
   double noise = 0.006;  // of the sensor at white, share of white
   double motion_blur_px = 0.4;
   double focus_blur_px = 0.5;
+  double sharpening = 1;  // in the camera, times what drones do to their JPEGs
   double lost_share = 0;
   double duplicate_share = 0;
   double haze_m = 4000;

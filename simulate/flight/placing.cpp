@@ -126,8 +126,7 @@ std::optional<bool> Stands(const PlannedFacade& wall, const PlacedPlan& placed,
   constexpr double kBehind_m = 1;
   constexpr double kBefore_m = 2;  // more than balconies
   constexpr double kHigh_m = 2;
-  const Eigen::Vector2d along = (wall.b_m - wall.a_m).normalized();
-  const Eigen::Vector2d outwards(along.y(), -along.x());
+  const Eigen::Vector2d outwards = wall.outwards();
   const Eigen::Vector2d middle = (wall.a_m + wall.b_m) / 2;
   const auto surfaces_at = [&](const Eigen::Vector2d& place) {
     const double height_m = placed.world.origin_height_m;

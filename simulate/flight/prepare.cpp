@@ -175,6 +175,7 @@ SensorEffects EffectsOf(const PreparedFlight& prepared, size_t photo,
   effects.vignetting = options.vignetting;
   effects.focus_blur_px = options.focus_blur_px;
   effects.noise = options.noise;
+  effects.sharpening = options.sharpening;
   effects.seed = PhotoSeed(options, kSensorSeed, photo);
   // Two normal components of which the length's mean is the typical motion; turns about the axis
   // move the picture's border half as much.

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "simulate/flight/blur.h"
+#include "simulate/flight/sharpen.h"
 #include "simulate/random.h"
 #include "survey/parallel.h"
 #include "survey/srgb.h"
@@ -102,7 +104,7 @@ Image Develop(Radiance picture, const Camera& camera, const SensorEffects& effec
   image.data.resize(picture.rgb.size());
   ParallelFor(static_cast<size_t>(picture.height_px), threads,
               [&](size_t y) { DevelopRow(picture, camera, effects, static_cast<int>(y), image); });
-  return image;
+  return Sharpened(std::move(image), effects.sharpening, threads);
 }
 
 }  // namespace stucco::simulate

@@ -20,12 +20,13 @@ struct SensorEffects {
   Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();  // of the camera while the shutter is open
   double noise = 0;  // standard deviation at white, share of white
   uint64_t seed = 0;
+  double sharpening = 0;  // as Sharpened takes it
 };
 
 // Blurs, darkens towards the corners (by the square of the radius about the principal point),
 // exposes, adds noise (shot noise by the square root of the light, and a quarter of the noise at
-// white everywhere), balances white, and writes what a camera's JPEG holds (CameraCurve). The same
-// bytes at any number of threads.
+// white everywhere), balances white, codes the light as a camera's JPEG holds it (CameraCurve), and
+// sharpens. The same bytes at any number of threads.
 Image Develop(Radiance picture, const Camera& camera, const SensorEffects& effects, int threads);
 
 // The share of the light that arrives at a pixel.

@@ -159,6 +159,48 @@ TEST_F(WallFeatures, MatchOnlyWithinReachAndOfLikeSize) {
   EXPECT_TRUE(MatchOnWall(first, {}, 4, 0.8).empty());
 }
 
+// Descriptors with one entry each, so that equal ones are at angle 0 and others at 90 degrees.
+WallKeypoints OneHot(const std::vector<int>& entries, const std::vector<float>& along_m) {
+  WallKeypoints keypoints;
+  for (size_t i = 0; i < entries.size(); ++i) {
+    std::vector<int16_t> row(kDescriptorSize, 0);
+    row[entries[i]] = static_cast<int16_t>(kDescriptorUnit);
+    keypoints.descriptors.insert(keypoints.descriptors.end(), row.begin(), row.end());
+    keypoints.places.push_back({along_m[i], 5, 0.1f});
+  }
+  return keypoints;
+}
+
+TEST(MatchOnWall, DoubtsWhatRepeatsJustBeyondItsReach) {
+  const WallKeypoints first = OneHot({1, 2}, {10, 10});
+  EXPECT_EQ(MatchOnWall(first, OneHot({1, 2, 3}, {11, 11, 11}), 4, 0.8).size(), 2u);
+  // The first one occurs again 9 m along the wall, then 11 m.
+  EXPECT_EQ(MatchOnWall(first, OneHot({1, 2, 1}, {11, 11, 19}), 4, 0.8).size(), 1u);
+  EXPECT_EQ(MatchOnWall(first, OneHot({1, 2, 1}, {11, 11, 21}), 4, 0.8).size(), 2u);
+  // And never matches there.
+  EXPECT_EQ(MatchOnWall(OneHot({1}, {10}), OneHot({1, 2}, {19, 11}), 4, 0.8).size(), 0u);
+}
+
+TEST(MatchOnWall, TakesALonelyMatchOnlyWhenItIsGood) {
+  WallKeypoints second = OneHot({1}, {10});
+  EXPECT_EQ(MatchOnWall(OneHot({1}, {10}), second, 4, 0.8).size(), 1u);
+  // 45 degrees from the first's descriptor: the ratio has nothing to compare it with.
+  second.descriptors[1] = second.descriptors[2] =
+      static_cast<int16_t>(kDescriptorUnit * std::sqrt(0.5));
+  EXPECT_EQ(MatchOnWall(OneHot({1}, {10}), second, 4, 0.8).size(), 0u);
+}
+
+TEST_F(WallFeatures, OfALongWallFitTheMemoryOfAPhoto) {
+  // A wall of 3 km whose nearest part is 5 m away would have a raster of 170 000 columns.
+  WallView view = frontal_.view;
+  view.wall.a_m = {-1500, 0};
+  view.wall.b_m = {1500, 0};
+  view.along_m = {0, 3000};
+  view.cam_from_plan = SitePose({10, -5, 6}, 0, 0);
+  const Image image = Photograph(pattern_, frontal_.camera, view.cam_from_plan);
+  EXPECT_LE(DetectOnWall(image, frontal_.camera, view, 2000).size(), 2000u);
+}
+
 TEST_F(WallFeatures, AreNoneOfAWallThatThePhotoDoesNotShow) {
   const Image image = Photograph(pattern_, frontal_.camera, frontal_.truth);
   WallView view = frontal_.view;

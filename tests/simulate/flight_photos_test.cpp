@@ -100,6 +100,18 @@ TEST_F(TakePhotosTest, SameBytesAtAnyNumberOfThreads) {
   EXPECT_NE(Hashes(), one);
 }
 
+TEST_F(TakePhotosTest, SharpeningIsAnOption) {
+  Take(SmallPhotos());
+  const auto sharpened = Hashes();
+  fs::remove_all(survey_);
+  FlightOptions soft = SmallPhotos();
+  soft.sharpening = 0;
+  Take(soft);
+  const auto plain = Hashes();
+  ASSERT_EQ(plain.size(), sharpened.size());
+  for (size_t i = 0; i < plain.size(); ++i) EXPECT_NE(plain[i], sharpened[i]);
+}
+
 TEST_F(TakePhotosTest, GoesOnAfterAnInterruption) {
   const auto stop = [](size_t done, size_t /*total*/) {
     if (done == 7) throw Error(ErrorKind::kInterrupted, "interrupted");

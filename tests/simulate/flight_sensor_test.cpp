@@ -7,6 +7,7 @@
 #include "simulate/flight/blur.h"
 #include "simulate/flight/exposure.h"
 #include "simulate/flight/sensor.h"
+#include "simulate/flight/sharpen.h"
 #include "simulate/random.h"
 
 namespace stucco::simulate {
@@ -172,6 +173,18 @@ TEST(Sensor, NoiseOfTwoPhotosIsUnrelated) {
   EXPECT_LT(std::abs(both / square), 0.015);  // of 180 000 values: 0.0024 is one deviation
 }
 
+TEST(Sensor, SharpensThePictureThatItDeveloped) {
+  const Camera camera = Lens(60, 60);
+  SensorEffects effects;
+  effects.noise = 0.02;
+  effects.focus_blur_px = 0.8;
+  const Image soft = Develop(Dot(60, 30, 20), camera, effects, 1);
+  effects.sharpening = 1.5;
+  const Image sharp = Develop(Dot(60, 30, 20), camera, effects, 1);
+  EXPECT_NE(sharp.data, soft.data);
+  EXPECT_EQ(sharp.data, Sharpened(soft, 1.5, 1).data);
+}
+
 TEST(Sensor, SameBytesAtAnyNumberOfThreads) {
   const Camera camera = Lens(333, 222);
   Radiance picture = Plain(333, 222, 0);
@@ -182,6 +195,7 @@ TEST(Sensor, SameBytesAtAnyNumberOfThreads) {
   effects.focus_blur_px = 0.8;
   effects.turn_rad = {0.004, -0.01, 0.02};
   effects.vignetting = 0.2;
+  effects.sharpening = 1;
   EXPECT_EQ(Develop(picture, camera, effects, 1).data, Develop(picture, camera, effects, 4).data);
 }
 

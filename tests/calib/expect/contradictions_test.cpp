@@ -19,11 +19,15 @@ class Contradictions : public testing::Test {
  protected:
   Contradictions() {
     scene_.cameras.push_back({SiteCamera(), SiteCamera(), 0});
-    for (int i = 0; i < 4; ++i) {
-      truth_.push_back(SitePose({-10.0 + 6 * i, -20, 25}, 0, -90));
-      scene_.photos.emplace_back();
-    }
-    recorded_.assign(truth_.begin(), truth_.end());
+    for (int i = 0; i < 4; ++i) Take({-10.0 + 6 * i, -20, 25}, Vector3d::Zero());
+  }
+
+  // A photo at a place that its record misses by `off`.
+  int Take(const Vector3d& place, const Vector3d& off) {
+    truth_.push_back(SitePose(place, 0, -90));
+    recorded_.emplace_back(SitePose(place + off, 0, -90));
+    scene_.photos.emplace_back();
+    return static_cast<int>(truth_.size()) - 1;
   }
 
   // `count` points that both photos show; in the second one everything is seen `repeat` further on.
@@ -88,6 +92,52 @@ TEST_F(Contradictions, BelievesAPhotoMoreThanARecordThatFitsNoneOfItsPairs) {
   recorded_[3] = SitePose({60, 40, 25}, 120, -90);
   EXPECT_EQ(Drop(), 0);
   EXPECT_EQ(pairs_.size(), 3u);
+}
+
+TEST_F(Contradictions, BelievesAPhotoMoreThanARecordThatMostPairsSpeakAgainst) {
+  for (int i = 0; i < 3; ++i) Match(i, 3, 60, Vector3d::Zero());
+  Match(0, 1, 60, Vector3d::Zero());
+  Match(1, 2, 60, Vector3d::Zero());
+  recorded_[3] = SitePose({60, 40, 25}, 120, -90);
+  const int beside = Take({60, 40, 25}, Vector3d::Zero());
+  // Where the record says it is, one neighbour happens to fit.
+  VerifiedPair chance;
+  chance.pair = {3, beside, {}};
+  for (int i = 0; i < 20; ++i) {
+    const Vector3d point(55 + 0.5 * i, 35 + 0.5 * i, 0);
+    scene_.photos[3].keypoints.push_back(*SiteCamera().Project(*recorded_[3] * point));
+    scene_.photos[beside].keypoints.push_back(*SiteCamera().Project(truth_[beside] * point));
+    chance.pair.matches.push_back({static_cast<int>(scene_.photos[3].keypoints.size()) - 1, i});
+  }
+  pairs_.push_back(chance);
+  EXPECT_EQ(Drop(), 0);
+}
+
+TEST_F(Contradictions, NeverTearsTwoFlightsApart) {
+  // Five photos whose records are all 25 m off fit each other, but not the first flight.
+  for (int i = 0; i < 3; ++i) Match(i, i + 1, 60, Vector3d::Zero());
+  const int more = Take({14, -20, 25}, Vector3d::Zero());
+  Match(3, more, 60, Vector3d::Zero());
+  std::vector<int> second;
+  for (int i = 0; i < 5; ++i) second.push_back(Take({-10.0 + 6 * i, -17, 25}, {0, 25, 0}));
+  for (int i = 0; i < 4; ++i) Match(second[i], second[i + 1], 60, {0, 0, 0});
+  Match(1, second[1], 60, Vector3d::Zero());
+  EXPECT_EQ(Drop(), 0);
+  // One photo alone is no flight.
+  const int alone = Take({-10, -17, 25}, {0, 25, 0});
+  Match(second[0], alone, 20, Vector3d::Zero());
+  Match(0, alone, 60, Vector3d::Zero());
+  EXPECT_EQ(Drop(), 1);
+}
+
+TEST_F(Contradictions, SaysNothingWithAGuessedFocalLength) {
+  Match(0, 1, 60, Vector3d::Zero());
+  Match(2, 3, 60, Vector3d::Zero());
+  Match(0, 3, 80, {18, 0, 0});
+  scene_.cameras[0].focal_sigma_ratio = 0.5;
+  EXPECT_EQ(Drop(), 0);
+  scene_.cameras[0].focal_sigma_ratio = 0.1;
+  EXPECT_EQ(Drop(), 1);
 }
 
 TEST_F(Contradictions, SaysNothingWithoutARecordOrWithTooFewMatches) {

@@ -78,6 +78,35 @@ TEST_F(ExpectedPosesTest, PlaceExtraPhotosByTheHeightsOfTheOthers) {
   EXPECT_LT((poses[1]->Center() - Vector3d(2, -15, 7)).norm(), 1e-6);
 }
 
+TEST_F(ExpectedPosesTest, MeasureHeightsOfEachFlightByItself) {
+  for (int i = 0; i < 3; ++i) Add({2.0 * i, -15, 5}, {0, 0, 0});
+  for (int i = 0; i < 3; ++i) {
+    Add({2.0 * i, -20, 7}, {0, 0, -6.1});  // started elsewhere
+    plan_.views.back().flight = 1;
+  }
+  const auto poses = Poses();
+  for (int i = 0; i < 6; ++i) {
+    ASSERT_TRUE(poses[i]);
+    EXPECT_NEAR(poses[i]->Center().z(), i < 3 ? 5 : 7, 0.26) << i;
+  }
+}
+
+TEST_F(ExpectedPosesTest, DoNotMoveWithEveryPhotoMore) {
+  Add({0, -15, 5}, {0, 0, 0.05});
+  Add({2, -15, 5}, {0, 0, -0.05});
+  const auto before = Poses();
+  Add({4, -15, 5}, {0, 0, 0.12});
+  EXPECT_EQ(Poses()[0]->translation, before[0]->translation);
+}
+
+TEST_F(ExpectedPosesTest, DoNotBelieveAHeightThatIsFarFromThePlan) {
+  for (int i = 0; i < 4; ++i) Add({2.0 * i, -15, 5}, {0, 0, 0});
+  photos_[1].position->height_m += 60;
+  const auto poses = Poses();
+  ASSERT_TRUE(poses[1]);
+  EXPECT_NEAR(poses[1]->Center().z(), 5, 1e-6);
+}
+
 TEST_F(ExpectedPosesTest, AreNoneWhereNothingIsKnown) {
   Add({0, -15, 5}, {0, 0, 0});
   photos_[0].view.clear();  // so that no height ties the drone to the plan

@@ -49,7 +49,7 @@ TEST(OverlappingPairs, AreThoseThatSeeTheSameFromAlikeDirections) {
   const ExpectedViews views =
       Expect({SitePose({8, -15, 6}, 0, 0), SitePose({12, -15, 6}, 0, 0),
               SitePose({10, -15, 6}, 180, 0), SitePose({10, 5, 40}, 0, -90), std::nullopt});
-  const auto pairs = OverlappingPairs(views, 10);
+  const auto pairs = OverlappingPairs(views, 10, 2);
   EXPECT_TRUE(std::ranges::is_sorted(pairs));
   EXPECT_THAT(pairs, Contains(Pair(0, 1)));
   EXPECT_THAT(pairs, Not(Contains(Pair(0, 2))));  // back to back
@@ -59,18 +59,42 @@ TEST(OverlappingPairs, AreThoseThatSeeTheSameFromAlikeDirections) {
 TEST(OverlappingPairs, AreTheBestOfEachPhoto) {
   std::vector<std::optional<Pose>> row;
   for (int i = 0; i < 8; ++i) row.push_back(SitePose({1.0 + 2.5 * i, -12, 6}, 0, 0));
-  const auto pairs = OverlappingPairs(Expect(row), 2);
+  const auto pairs = OverlappingPairs(Expect(row), 2, 2);
   EXPECT_LE(pairs.size(), 16u);
   for (int i = 0; i + 1 < 8; ++i) EXPECT_THAT(pairs, Contains(Pair(i, i + 1)));
   EXPECT_THAT(pairs, Not(Contains(Pair(0, 7))));
-  EXPECT_THAT(OverlappingPairs(Expect(row), 0), IsEmpty());
+  EXPECT_THAT(OverlappingPairs(Expect(row), 0, 2), IsEmpty());
+}
+
+TEST(ExpectViews, SurvivePhotosWithoutPoses) {
+  const ExpectedViews views = Expect({std::nullopt, std::nullopt});
+  EXPECT_TRUE(views.points.empty());
+  EXPECT_THAT(OverlappingPairs(views, 10, 2), IsEmpty());
+  EXPECT_THAT(ObliqueWallPairs(views, 10, 2), IsEmpty());
+}
+
+TEST(ExpectViews, SaysNothingOfPhotosFarAway) {
+  const ExpectedViews views = Expect({SitePose({5000, -15, 6}, 270, 0)});
+  EXPECT_THAT(views.seen[0], IsEmpty());
+}
+
+TEST(ObliqueWallPairs, AreTheSameWithAnyNumberOfThreads) {
+  std::vector<std::optional<Pose>> poses;
+  for (int i = 0; i < 6; ++i) {
+    poses.push_back(SitePose({3.0 * i, -14, 6}, 0, 0));
+    poses.push_back(SitePose({3.0 * i, -20, 32}, 0, -45));
+  }
+  const ExpectedViews views = Expect(poses);
+  EXPECT_EQ(ObliqueWallPairs(views, 3, 1), ObliqueWallPairs(views, 3, 4));
+  EXPECT_EQ(OverlappingPairs(views, 3, 1), OverlappingPairs(views, 3, 4));
+  EXPECT_FALSE(ObliqueWallPairs(views, 3, 1).empty());
 }
 
 TEST(ObliqueWallPairs, JoinFrontalPhotosWithTiltedOnes) {
   const ExpectedViews views =
       Expect({SitePose({8, -15, 6}, 0, 0), SitePose({12, -15, 6}, 0, 0),
               SitePose({10, -20, 32}, 0, -45), SitePose({10, 40, 32}, 180, -45)});
-  const auto pairs = ObliqueWallPairs(views, 6);
+  const auto pairs = ObliqueWallPairs(views, 6, 2);
   EXPECT_TRUE(std::ranges::is_sorted(pairs));
   EXPECT_THAT(pairs, Contains(WallPair{0, 2, 0}));
   EXPECT_THAT(pairs, Contains(WallPair{1, 2, 0}));

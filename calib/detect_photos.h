@@ -4,13 +4,13 @@
 
 #include <cstddef>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "calib/calibrate.h"
-#include "calib/expect/guidance.h"
 #include "calib/features.h"
-#include "calib/seed.h"
+#include "calib/photo_set.h"
 #include "calib/wall_features.h"
 #include "survey/captures.h"
 #include "survey/stage.h"
@@ -34,22 +34,15 @@ struct DetectedFeatures {
   Features AllOf(int photo) const;
 };
 
-// The usable photos of a survey, their cameras, and what the plan says of them.
-struct PhotoSet {
-  const Captures& captures;
-  const std::vector<const CapturedPhoto*>& photos;
-  const Guidance& guidance;
-};
-
 // Features of every photo, checkpointed by content.
 DetectedFeatures DetectAll(const CalibOptions& options, const PhotoSet& set,
                            const StageContext& context);
 
-// Verified pairs among the photos, checkpointed by the content of both.
-std::vector<VerifiedPair> MatchAll(const CalibOptions& options, const PhotoSet& set,
-                                   const DetectedFeatures& features, const StageContext& context);
-
 // Full-resolution pixels per pixel of the image that features are detected in.
 double DetectionScale(const CalibOptions& options, const CapturedPhoto& photo);
+
+// Keys of what is kept of a photo and of one of its walls: they hash all that it depends on.
+std::string FeaturesKey(const CalibOptions& options, const CapturedPhoto& photo);
+std::string WallKey(const CalibOptions& options, const PhotoSet& set, int photo, int wall);
 
 }  // namespace stucco

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "calib/calibrate.h"
+#include "calib/features.h"
+#include "calib/photo_set.h"
+
+namespace stucco {
+
+// Pairs (a, b), a < b, ascending.
+using PhotoPairs = std::vector<std::pair<int, int>>;
+
+// What to match with what.
+struct PairChoice {
+  PhotoPairs pairs;
+  bool by_plan = false;
+  PhotoPairs otherwise;  // when the photos do not show what the plan says
+};
+
+// All pairs of a small set. Else by the plan, where there is one: those that should overlap, the
+// most similar in appearance, and those near in position of photos of which the plan says little.
+// Without a plan by nearness and appearance (see SelectPairs). `features` are by photo.
+PairChoice ChoosePairs(const CalibOptions& options, const PhotoSet& set,
+                       const std::vector<Features>& features);
+
+}  // namespace stucco

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/detect_photos.h"
+
+#include <algorithm>
+#include <array>
+#include <opencv2/core/utility.hpp>
+
+#include "survey/files.h"
+#include "survey/image.h"
+#include "survey/parallel.h"
+
+namespace stucco {
+namespace {
+
+// Raise when the code behind a checkpoint changes what it computes.
+constexpr char kFeaturesVersion[] = "features-1";
+constexpr char kWallVersion[] = "wall-2";
+// A rectified wall gets at most this part of the features of a photo.
+constexpr int kWallShare = 4;
+
+// SIFT keeps about 20 float images of the doubled size while it works.
+int ThreadsWithinMemory(const CalibOptions& options,
+                        const std::vector<const CapturedPhoto*>& photos,
+                        const StageContext& context) {
+  double largest = 1;
+  for (const CapturedPhoto* photo : photos) {
+    const ImageSize size = ScaledSize({photo->width_px, photo->height_px}, options.max_image_px);
+    largest = std::max(largest, static_cast<double>(size.width_px) * size.height_px);
+  }
+  const double bytes_each = largest * 4 * 4 * 20;
+  const double fitting = 0.8 * static_cast<double>(context.memory_limit_bytes) / bytes_each;
+  return std::clamp(static_cast<int>(fitting), 1, context.threads);
+}
+
+// A photo that is decoded when something is to be found in it.
+class LazyPhoto {
+ public:
+  LazyPhoto(const CalibOptions& options, const CapturedPhoto& photo, const StageContext& context)
+      : options_(options), photo_(photo), context_(context) {}
+
+  const Image& Pixels() {
+    if (!image_) image_ = ReadJpeg(context_.photos / photo_.path, 3, options_.max_image_px);
+    return *image_;
+  }
+  Features Detect() {
+    return DetectFeatures(Pixels(), {photo_.width_px, photo_.height_px},
+                          {options_.max_image_px, options_.max_features});
+  }
+
+ private:
+  const CalibOptions& options_;
+  const CapturedPhoto& photo_;
+  const StageContext& context_;
+  std::optional<Image> image_;
+};
+
+struct WallInput {
+  const CalibOptions& options;
+  const PhotoSet& set;
+  const StageContext& context;
+};
+
+// Fills the photo's runs in `detected`, which must be there already.
+void DetectOnWalls(const WallInput& input, int photo, LazyPhoto& pixels,
+                   DetectedFeatures& detected) {
+  const Camera& camera = input.set.captures.cameras[input.set.photos[photo]->camera].intrinsics;
+  size_t begin = detected.plain[photo].size();
+  for (auto run = detected.walls.lower_bound({photo, 0});
+       run != detected.walls.end() && run->first.first == photo; ++run) {
+    const WallView& view = input.set.guidance.walls.at(run->first).view;
+    const std::string key = WallKey(input.options, input.set, photo, run->first.second);
+    Features features = DeserializeFeatures(ComputeUnit(input.context, "features", key, [&] {
+      return Serialize(
+          DetectOnWall(pixels.Pixels(), camera, view, input.options.max_features / kWallShare));
+    }));
+    std::vector<OnWall> places = PlacesOnWall(features, camera, view);
+    run->second = {begin, std::move(features), std::move(places)};
+    begin += run->second.places.size();
+  }
+}
+
+}  // namespace
+
+std::string FeaturesKey(const CalibOptions& options, const CapturedPhoto& photo) {
+  return HashParts(std::array<std::string, 4>{kFeaturesVersion, photo.hash,
+                                              std::to_string(options.max_image_px),
+                                              std::to_string(options.max_features)});
+}
+
+std::string WallKey(const CalibOptions& options, const PhotoSet& set, int photo, int wall) {
+  return HashParts(std::array<std::string, 3>{kWallVersion,
+                                              FeaturesKey(options, *set.photos[photo]),
+                                              set.guidance.walls.at({photo, wall}).key});
+}
+
+double DetectionScale(const CalibOptions& options, const CapturedPhoto& photo) {
+  const ImageSize scaled = ScaledSize({photo.width_px, photo.height_px}, options.max_image_px);
+  return static_cast<double>(photo.width_px) / scaled.width_px;
+}
+
+Features DetectedFeatures::AllOf(int photo) const {
+  Features all{plain[photo].keypoints, plain[photo].colors, {}};
+  for (auto run = walls.lower_bound({photo, 0}); run != walls.end() && run->first.first == photo;
+       ++run) {
+    const Features& more = run->second.features;
+    all.keypoints.insert(all.keypoints.end(), more.keypoints.begin(), more.keypoints.end());
+    all.colors.insert(all.colors.end(), more.colors.begin(), more.colors.end());
+  }
+  return all;
+}
+
+DetectedFeatures DetectAll(const CalibOptions& options, const PhotoSet& set,
+                           const StageContext& context) {
+  cv::setNumThreads(1);  // photos run side by side instead
+  const size_t count = set.photos.size();
+  DetectedFeatures detected;
+  detected.plain.resize(count);
+  for (const auto& [photo_and_wall, expected] : set.guidance.walls) detected.walls[photo_and_wall];
+  context.progress->Begin("detecting features", count);
+  ParallelFor(count, ThreadsWithinMemory(options, set.photos, context), [&](size_t i) {
+    context.ThrowIfCancelled();
+    LazyPhoto photo(options, *set.photos[i], context);
+    detected.plain[i] =
+        DeserializeFeatures(ComputeUnit(context, "features", FeaturesKey(options, *set.photos[i]),
+                                        [&] { return Serialize(photo.Detect()); }));
+    DetectOnWalls({options, set, context}, static_cast<int>(i), photo, detected);
+    context.progress->Advance();
+  });
+  return detected;
+}
+
+}  // namespace stucco

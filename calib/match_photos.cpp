@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/match_photos.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <tuple>
+
+#include "calib/choose_pairs.h"
+#include "calib/descriptors.h"
+#include "survey/files.h"
+#include "survey/parallel.h"
+
+namespace stucco {
+namespace {
+
+// Raise when the code behind a checkpoint changes what it computes.
+constexpr char kPairVersion[] = "pair-3";
+// Recorded positions of one flight, gimbal angles and the map are this good together.
+constexpr double kReachOnWall_m = 4;
+// When fewer of the pairs that should overlap do, the photos do not show what the plan says.
+constexpr double kLeastRight = 0.3;
+// A point that is found in the photo and in its rectified wall counts once.
+constexpr double kSamePoint_px = 2;
+
+// A pair of photos to match, and the walls to match it on.
+struct Candidate {
+  int first = 0;
+  int second = 0;
+  bool plain = false;  // match what was found in the photos themselves
+  std::vector<int> walls;
+};
+
+std::vector<Candidate> Candidates(const std::vector<std::pair<int, int>>& pairs,
+                                  const std::vector<WallPair>& wall_pairs) {
+  std::map<std::pair<int, int>, Candidate> by_pair;
+  for (const auto& [a, b] : pairs) by_pair[{a, b}].plain = true;
+  for (const WallPair& pair : wall_pairs) {
+    by_pair[{pair.first, pair.second}].walls.push_back(pair.wall);
+  }
+  std::vector<Candidate> candidates;
+  for (auto& [photos, candidate] : by_pair) {
+    std::tie(candidate.first, candidate.second) = photos;
+    candidates.push_back(std::move(candidate));
+  }
+  return candidates;
+}
+
+std::string PairKey(const CalibOptions& options, const PhotoSet& set, const Candidate& pair,
+                    const VerifyOptions& verify) {
+  std::vector<std::string> parts = {kPairVersion, FeaturesKey(options, *set.photos[pair.first]),
+                                    FeaturesKey(options, *set.photos[pair.second]),
+                                    fmt::format("{}", options.match_ratio),
+                                    fmt::format("{}", verify.max_error_px)};
+  if (!pair.walls.empty()) parts.push_back(pair.plain ? "and walls" : "walls");
+  for (const int wall : pair.walls) {
+    parts.push_back(WallKey(options, set, pair.first, wall));
+    parts.push_back(WallKey(options, set, pair.second, wall));
+  }
+  return HashParts(parts);
+}
+
+// The keypoints that a candidate matches in one of its photos, numbered from 0: what a checkpoint
+// stores must not depend on which other walls the photo has.
+struct CandidateKeypoints {
+  std::vector<Eigen::Vector2d> pixels;
+  std::vector<int32_t> of_photo;  // their numbers among all of the photo
+
+  void Add(const Features& features, size_t begin) {
+    for (size_t i = 0; i < features.size(); ++i) {
+      pixels.emplace_back(features.keypoints[i].x, features.keypoints[i].y);
+      of_photo.push_back(static_cast<int32_t>(begin + i));
+    }
+  }
+};
+
+CandidateKeypoints KeypointsOf(const DetectedFeatures& features, const Candidate& pair, int photo) {
+  CandidateKeypoints keypoints;
+  if (pair.plain) keypoints.Add(features.plain[photo], 0);
+  for (const int wall : pair.walls) {
+    const WallRun& run = features.walls.at({photo, wall});
+    keypoints.Add(run.features, run.begin);
+  }
+  return keypoints;
+}
+
+struct Ends {
+  const CandidateKeypoints& first;
+  const CandidateKeypoints& second;
+};
+
+// Takes out of matches[begin ...] those that join the same pixels as one before.
+void DropRepeated(const Ends& ends, size_t begin, double same_px, std::vector<Match>& matches) {
+  const auto x_of = [&](const Match& match) { return ends.first.pixels[match.first].x(); };
+  std::vector<Match> known(matches.begin(), matches.begin() + static_cast<std::ptrdiff_t>(begin));
+  std::sort(known.begin(), known.end(),
+            [&](const Match& a, const Match& b) { return x_of(a) < x_of(b); });
+  const auto is_known = [&](const Match& match) {
+    auto near = std::lower_bound(known.begin(), known.end(), x_of(match) - same_px,
+                                 [&](const Match& a, double x) { return x_of(a) < x; });
+    for (; near != known.end() && x_of(*near) <= x_of(match) + same_px; ++near) {
+      const auto& [first, second] = ends;
+      if ((first.pixels[near->first] - first.pixels[match.first]).norm() <= same_px &&
+          (second.pixels[near->second] - second.pixels[match.second]).norm() <= same_px) {
+        return true;
+      }
+    }
+    return false;
+  };
+  matches.erase(
+      std::remove_if(matches.begin() + static_cast<std::ptrdiff_t>(begin), matches.end(), is_known),
+      matches.end());
+}
+
+// In the candidate's own numbers.
+std::vector<Match> MatchCandidate(const CalibOptions& options, const DetectedFeatures& features,
+                                  const Candidate& pair, const Ends& ends, double same_px) {
+  std::vector<Match> matches;
+  int32_t begin_first = 0;
+  int32_t begin_second = 0;
+  if (pair.plain) {
+    matches = MatchDescriptors(UnitDescriptors(features.plain[pair.first]),
+                               UnitDescriptors(features.plain[pair.second]), options.match_ratio);
+    begin_first = static_cast<int32_t>(features.plain[pair.first].size());
+    begin_second = static_cast<int32_t>(features.plain[pair.second].size());
+  }
+  const size_t num_plain = matches.size();
+  for (const int wall : pair.walls) {
+    const WallRun& first = features.walls.at({pair.first, wall});
+    const WallRun& second = features.walls.at({pair.second, wall});
+    const auto on_wall = MatchOnWall({UnitDescriptors(first.features), first.places},
+                                     {UnitDescriptors(second.features), second.places},
+                                     kReachOnWall_m, options.match_ratio);
+    for (const Match& match : on_wall) {
+      matches.push_back({begin_first + match.first, begin_second + match.second});
+    }
+    begin_first += static_cast<int32_t>(first.features.size());
+    begin_second += static_cast<int32_t>(second.features.size());
+  }
+  DropRepeated(ends, num_plain, same_px, matches);
+  return matches;
+}
+
+struct MatchInput {
+  const CalibOptions& options;
+  const PhotoSet& set;
+  const DetectedFeatures& features;
+  const StageContext& context;
+};
+
+std::optional<PairGeometry> VerifyCandidate(const MatchInput& input, const Candidate& pair) {
+  const CandidateKeypoints first = KeypointsOf(input.features, pair, pair.first);
+  const CandidateKeypoints second = KeypointsOf(input.features, pair, pair.second);
+  const double scale = std::max(DetectionScale(input.options, *input.set.photos[pair.first]),
+                                DetectionScale(input.options, *input.set.photos[pair.second]));
+  VerifyOptions verify;
+  verify.max_error_px = 4 * scale;
+  auto geometry = DeserializePair(
+      ComputeUnit(input.context, "pairs", PairKey(input.options, input.set, pair, verify), [&] {
+        const auto matches = MatchCandidate(input.options, input.features, pair, {first, second},
+                                            kSamePoint_px * scale);
+        return Serialize(VerifyPair(first.pixels, second.pixels, matches, verify));
+      }));
+  if (!geometry) return geometry;
+  for (Match& match : geometry->inliers) {
+    match = {first.of_photo.at(match.first), second.of_photo.at(match.second)};
+  }
+  return geometry;
+}
+
+// Those of the candidates whose matches agree on a geometry, in their order.
+std::vector<VerifiedPair> Verify(const MatchInput& input,
+                                 const std::vector<Candidate>& candidates) {
+  std::vector<std::optional<PairGeometry>> geometries(candidates.size());
+  input.context.progress->Begin("matching pairs", candidates.size());
+  ParallelFor(candidates.size(), input.context.threads, [&](size_t i) {
+    input.context.ThrowIfCancelled();
+    geometries[i] = VerifyCandidate(input, candidates[i]);
+    input.context.progress->Advance();
+  });
+  std::vector<VerifiedPair> verified;
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    if (!geometries[i]) continue;
+    VerifiedPair pair;
+    pair.pair = {candidates[i].first, candidates[i].second, geometries[i]->inliers};
+    pair.geometry = std::move(*geometries[i]);
+    verified.push_back(std::move(pair));
+  }
+  return verified;
+}
+
+// How many of the pairs (ascending) are verified ones.
+size_t NumVerified(const PhotoPairs& pairs, const std::vector<VerifiedPair>& verified) {
+  return std::ranges::count_if(verified, [&](const VerifiedPair& pair) {
+    return std::ranges::binary_search(pairs, std::pair(pair.pair.first, pair.pair.second));
+  });
+}
+
+}  // namespace
+
+std::vector<VerifiedPair> MatchAll(const CalibOptions& options, const PhotoSet& set,
+                                   const DetectedFeatures& features, const StageContext& context) {
+  const MatchInput input{options, set, features, context};
+  const PairChoice choice = ChoosePairs(options, set, features.plain);
+  std::vector<VerifiedPair> verified =
+      Verify(input, Candidates(choice.pairs, set.guidance.wall_pairs));
+  if (!choice.by_plan) return verified;
+  const size_t expected = set.guidance.pairs.size();
+  const size_t found = NumVerified(set.guidance.pairs, verified);
+  if (static_cast<double>(found) >= kLeastRight * static_cast<double>(expected)) return verified;
+  context.progress->Warn(fmt::format(
+      "only {} of the {} pairs of photos that should overlap by the plan do: the photos do not "
+      "show what it says; pairs are chosen by position and appearance too",
+      found, expected));
+  std::ranges::move(Verify(input, Candidates(choice.otherwise, {})), std::back_inserter(verified));
+  std::ranges::stable_sort(verified, {}, [](const VerifiedPair& pair) {
+    return std::pair(pair.pair.first, pair.pair.second);
+  });
+  return verified;
+}
+
+}  // namespace stucco

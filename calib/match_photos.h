@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "calib/calibrate.h"
+#include "calib/detect_photos.h"
+#include "calib/photo_set.h"
+#include "calib/seed.h"
+#include "survey/stage.h"
+
+namespace stucco {
+
+// Verified pairs among the photos, by their indices, checkpointed by the content of both. Where a
+// plan chose the pairs and most of those do not match, the photos show something else: then others
+// are tried too, with a warning.
+std::vector<VerifiedPair> MatchAll(const CalibOptions& options, const PhotoSet& set,
+                                   const DetectedFeatures& features, const StageContext& context);
+
+}  // namespace stucco

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "calib/expect/guidance.h"
+#include "survey/captures.h"
+
+namespace stucco {
+
+// The usable photos of a survey, their cameras, and what the plan says of them.
+struct PhotoSet {
+  const Captures& captures;
+  const std::vector<const CapturedPhoto*>& photos;
+  const Guidance& guidance;
+};
+
+}  // namespace stucco
