@@ -204,8 +204,16 @@ GeoreferenceResult Georeference(const CalibOptions& options, const MapperOptions
                                 const Photos& photos, const StageContext& context, Scene& scene) {
   const auto frame =
       options.use_positions ? FrameFromPositions(photos.usable, scene) : std::optional<Georef>();
-  const auto fit =
-      frame ? FitToPriors(scene, UpFromGimbal(photos.usable, scene)) : std::optional<PriorFit>();
+  const auto fit_to_priors = [&] {
+    return frame ? FitToPriors(scene, UpFromGimbal(photos.usable, scene))
+                 : std::optional<PriorFit>();
+  };
+  auto fit = fit_to_priors();
+  if (!fit || fit->holds != FitHolds::kEverything) {
+    // The positions take no part in the adjustment.
+    RefineAll(mapper, false, context, scene);
+    fit = fit_to_priors();
+  }
   if (!fit) {
     if (frame) {
       context.progress->Warn(

@@ -273,35 +273,53 @@ int FilterScene(const MapperOptions& options, double max_misfit, Scene& scene) {
   return dropped;
 }
 
-AdjustReport RefineAll(const MapperOptions& options, bool use_priors, const StageContext& context,
-                       Scene& scene) {
-  AdjustReport report;
-  AdjustReport last;
+namespace {
+
+AdjustOptions ForEverything(const MapperOptions& options, bool use_priors, const Scene& scene) {
+  AdjustOptions adjust;
+  adjust.refine = options.refine_principal_point ? RefineIntrinsics::kPrincipalPoint
+                                                 : RefineIntrinsics::kDistortion;
+  adjust.use_priors = use_priors;
+  adjust.threads = options.threads;
+  // Robust by the noise that there is. The weight against positions and lens priors stays that of
+  // the stated one: keypoints also err together, which their residuals do not show.
+  adjust.loss_scale *= MeasureNoise(scene);
+  return adjust;
+}
+
+// Rounds of adjustment, filtering and triangulating anew until observations and noise stay as they
+// are.
+void Settle(const MapperOptions& options, bool use_priors, const StageContext& context,
+            Scene& scene) {
+  int last_observations = 0;
   double last_noise = -1;
   for (int round = 0; round < kMaxRounds; ++round) {
     context.ThrowIfCancelled();
     CompleteTracks(options, scene);
     TriangulateMissing(options, scene);
-    AdjustOptions adjust;
-    adjust.refine = options.refine_principal_point ? RefineIntrinsics::kPrincipalPoint
-                                                   : RefineIntrinsics::kDistortion;
-    adjust.use_priors = use_priors;
-    adjust.threads = options.threads;
-    adjust.max_iterations = 100;
-    adjust.tolerance = 1e-6;
-    // Robust by the noise that there is. The weight against positions and lens priors stays that of
-    // the stated one: keypoints also err together, which their residuals do not show.
-    const double noise = MeasureNoise(scene);
-    adjust.loss_scale *= noise;
-    report = Adjust(adjust, scene);
+    const AdjustReport report = Adjust(ForEverything(options, use_priors, scene), scene);
     FilterScene(options, options.max_misfit, scene);
-    const bool same_observations = std::abs(report.num_observations - last.num_observations) <=
-                                   0.001 * report.num_observations;
+    const double noise = MeasureNoise(scene);
+    const bool same_observations =
+        std::abs(report.num_observations - last_observations) <= 0.001 * report.num_observations;
     const bool same_noise = std::abs(noise - last_noise) <= 0.01 * noise;
-    if (!report.usable || (same_observations && same_noise)) break;
-    last = report;
+    if (!report.usable || (same_observations && same_noise)) return;
+    last_observations = report.num_observations;
     last_noise = noise;
   }
+}
+
+}  // namespace
+
+AdjustReport RefineAll(const MapperOptions& options, bool use_priors, const StageContext& context,
+                       Scene& scene) {
+  Settle(options, use_priors, context, scene);
+  context.ThrowIfCancelled();
+  AdjustOptions adjust = ForEverything(options, use_priors, scene);
+  adjust.max_iterations = 100;
+  adjust.tolerance = 1e-6;
+  const AdjustReport report = Adjust(adjust, scene);
+  FilterScene(options, options.max_misfit, scene);
   return report;
 }
 
@@ -382,10 +400,8 @@ MapReport Reconstruct(const MapperOptions& options, const std::vector<VerifiedPa
   }
   scene = std::move(best);
   if (NumPosed(scene) >= 2) {
-    RefineAll(options, false, context, scene);
-    const int posed = NumPosed(scene);
+    Settle(options, false, context, scene);
     Grow(options, context, scene);  // photos that only fit now
-    if (NumPosed(scene) > posed) RefineAll(options, false, context, scene);
   }
   report.num_posed = NumPosed(scene);
   report.unposed = ExplainUnposed(options, pairs, scene);

@@ -31,7 +31,7 @@ struct MapReport {
 // best seed by resection, triangulation and bundle adjustment, in the largest group of photos that
 // overlap; when it stays small the next seed is tried, and smaller groups that are still larger
 // than what was placed. The largest result is kept. Leaves poses, points and intrinsics in the
-// scene, in an arbitrary frame.
+// scene, in an arbitrary frame; RefineAll makes them as good as they can be.
 MapReport Reconstruct(const MapperOptions& options, const std::vector<VerifiedPair>& pairs,
                       const StageContext& context, Scene& scene);
 
@@ -41,8 +41,8 @@ std::map<int, std::string> ExplainUnposed(const MapperOptions& options,
                                           const Scene& scene);
 
 // Rounds of bundle adjustment of everything, filtering and triangulating anew, until nothing
-// changes. With `use_priors` the scene must be in the frame of its position priors. Returns the
-// last adjustment's report.
+// changes, then one until it converges. With `use_priors` the scene must be in the frame of its
+// position priors. Returns the last adjustment's report.
 struct AdjustReport RefineAll(const MapperOptions& options, bool use_priors,
                               const StageContext& context, Scene& scene);
 

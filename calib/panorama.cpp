@@ -74,13 +74,16 @@ std::vector<std::string> DescribePanoramas(const Scene& scene,
   const std::vector<int> lonely = WithoutOverlap(scene, pairs);
   std::vector<std::string> findings;
   for (const std::vector<int>& group : RotationGroups(scene, pairs)) {
+    const std::vector<std::string> more = RecordedThere(scene, captures, lonely, group);
+    const bool all_posed =
+        std::ranges::all_of(group, [&](int photo) { return scene.photos[photo].pose.has_value(); });
+    if (all_posed && more.empty()) continue;  // others gave them depth, as at a hover of a plan
     std::vector<std::string> names;
     for (const int photo : group) names.push_back(scene.photos[photo].name);
     std::string text = fmt::format(
         "{} of {} photos were taken from one point (rotation only), so that no depth comes "
         "from them among themselves: {}",
         group.size(), scene.photos.size(), fmt::join(names, ", "));
-    const std::vector<std::string> more = RecordedThere(scene, captures, lonely, group);
     if (!more.empty()) {
       text += fmt::format("; recorded there too, but overlapping with no other: {}",
                           fmt::join(more, ", "));

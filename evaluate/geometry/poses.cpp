@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -81,6 +82,29 @@ void MeasureGeoreferenced(const std::vector<Pair>& pairs, const Georef& survey, 
   comparison.figures.georeferenced_mean_m = sum / static_cast<double>(pairs.size());
 }
 
+void NoteOutliers(const std::vector<Pair>& pairs, const Alignment& alignment,
+                  PoseComparison& comparison) {
+  size_t count = 0;
+  double least_m = std::numeric_limits<double>::infinity();
+  double most_m = 0;
+  std::string worst;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    if (alignment.used[i]) continue;
+    ++count;
+    const Pose aligned = Transformed(pairs[i].result, alignment.target_from_source);
+    const double off_m = (aligned.Center() - pairs[i].truth.Center()).norm();
+    least_m = std::min(least_m, off_m);
+    if (off_m < most_m) continue;
+    most_m = off_m;
+    worst = pairs[i].path;
+  }
+  if (count == 0) return;
+  comparison.notes.push_back(fmt::format(
+      "{} of {} positions are much worse than the others, off by {:.3f} to {:.3f} m, {} most; they "
+      "count in every figure, but not in the alignment",
+      count, pairs.size(), least_m, most_m, worst));
+}
+
 void Align(const std::vector<Pair>& pairs, PoseComparison& comparison) {
   Eigen::Matrix3Xd source(3, pairs.size()), target(3, pairs.size());
   for (size_t i = 0; i < pairs.size(); ++i) {
@@ -95,16 +119,7 @@ void Align(const std::vector<Pair>& pairs, PoseComparison& comparison) {
   }
   comparison.truth_from_world = alignment->target_from_source;
   Measure(pairs, alignment->target_from_source, comparison.figures);
-  std::vector<std::string> wrong;
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    if (!alignment->used[i]) wrong.push_back(pairs[i].path);
-  }
-  if (!wrong.empty()) {
-    comparison.notes.push_back(
-        fmt::format("{} of {} poses are grossly wrong, {} first; they count in every figure, but "
-                    "not in the alignment",
-                    wrong.size(), pairs.size(), wrong[0]));
-  }
+  NoteOutliers(pairs, *alignment, comparison);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ void Describe(OptionTable& table, FlightOptions& options) {
   table.Add("focus_blur_px", options.focus_blur_px, 0.0, 20.0,
             "Radius of the lens's blur, in pixels.");
   table.Add("sharpening", options.sharpening, 0.0, 3.0,
-            "Sharpening in the camera; 1 is what DJI drones do to their JPEGs, 0 none.");
+            "Sharpening in the camera; 1 is about what DJI drones do to their JPEGs, 0 none.");
   table.Add("lost_share", options.lost_share, 0.0, 0.9,
             "Share of the planned photos that is lost.");
   table.Add("duplicate_share", options.duplicate_share, 0.0, 0.9,

@@ -28,7 +28,9 @@ class Mapper : public testing::Test {
     }
     pairs_ = Verified(scene_, matches);
     SetTracks(pairs_, scene_);
-    return Reconstruct({}, pairs_, context_, scene_);
+    const MapReport report = Reconstruct({}, pairs_, context_, scene_);
+    RefineAll({}, false, context_, scene_);
+    return report;
   }
 
   StageContext context_;

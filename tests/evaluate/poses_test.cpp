@@ -91,7 +91,8 @@ TEST(ComparePoses, OneWrongPositionIsReportedAndSpoilsNoOther) {
   EXPECT_NEAR(found.figures.position_mean_m, 7.0 / 13, 1e-9);
   EXPECT_NEAR(found.figures.georeferenced_mean_m, 7.0 / 13, 1e-6);
   ASSERT_EQ(found.notes.size(), 1u);
-  EXPECT_THAT(found.notes[0], HasSubstr("1 of 13 poses are grossly wrong, ring/00.jpg first"));
+  EXPECT_THAT(found.notes[0], HasSubstr("1 of 13 positions are much worse than the others"));
+  EXPECT_THAT(found.notes[0], HasSubstr("by 7.000 to 7.000 m, ring/00.jpg most"));
 }
 
 TEST(ComparePoses, TurnedCamerasHaveTheAngle) {
