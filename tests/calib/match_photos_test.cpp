@@ -5,14 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <map>
-#include <mutex>
 #include <string>
 #include <tuple>
 
 #include "calib/choose_pairs.h"
 #include "tests/calib/expect/made_site.h"
 #include "tests/calib/made_scene.h"
+#include "tests/survey/stage_support.h"
 
 namespace stucco::test {
 namespace {
@@ -21,34 +20,6 @@ using Eigen::Vector3d;
 using testing::Contains;
 using testing::Not;
 using testing::Pair;
-
-class MemoryUnits : public UnitStore {
- public:
-  std::optional<std::string> Load(std::string_view, std::string_view key) override {
-    const std::lock_guard lock(mutex_);
-    const auto found = units_.find(std::string(key));
-    return found == units_.end() ? std::nullopt : std::optional(found->second);
-  }
-  void Save(std::string_view, std::string_view key, std::string_view bytes) override {
-    const std::lock_guard lock(mutex_);
-    units_[std::string(key)] = bytes;
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<std::string, std::string> units_;
-};
-
-class Listener : public Progress {
- public:
-  void Begin(std::string_view, size_t) override {}
-  void Advance(size_t) override {}
-  void Warn(std::string_view text) override { warnings.emplace_back(text); }
-  void Note(std::string_view) override {}
-  bool Cancelled() const override { return false; }
-
-  std::vector<std::string> warnings;
-};
 
 // Photos of the site's walls, their features made of points that are known.
 class MatchPhotos : public testing::Test {

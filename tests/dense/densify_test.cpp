@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
-#include <mutex>
 
 #include "dense/depth_map.h"
 #include "survey/captures.h"
@@ -15,32 +13,13 @@
 #include "survey/point_cloud.h"
 #include "survey/survey_folder.h"
 #include "tests/dense/made_views.h"
+#include "tests/survey/stage_support.h"
 #include "tests/survey/support.h"
 
 namespace stucco::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Checkpoints in memory, counted.
-class MemoryUnits : public UnitStore {
- public:
-  std::optional<std::string> Load(std::string_view kind, std::string_view key) override {
-    const std::lock_guard lock(mutex_);
-    const auto found = units_.find({std::string(kind), std::string(key)});
-    return found == units_.end() ? std::nullopt : std::optional(found->second);
-  }
-  void Save(std::string_view kind, std::string_view key, std::string_view bytes) override {
-    const std::lock_guard lock(mutex_);
-    units_[{std::string(kind), std::string(key)}] = bytes;
-    ++saved[std::string(kind)];
-  }
-  std::map<std::string, int> saved;
-
- private:
-  std::mutex mutex_;
-  std::map<std::pair<std::string, std::string>, std::string> units_;
-};
 
 constexpr int kPhotos = 4;
 

@@ -11,6 +11,7 @@
 #include "survey/error.h"
 #include "tests/plan/made_hovers.h"
 #include "tests/plan/made_site.h"
+#include "tests/survey/stage_support.h"
 
 namespace stucco::plan {
 namespace {
@@ -19,16 +20,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 const CameraPreset kCamera{};
-
-class Warnings : public Progress {
- public:
-  void Begin(std::string_view, size_t) override {}
-  void Advance(size_t) override {}
-  void Warn(std::string_view text) override { lines.emplace_back(text); }
-  void Note(std::string_view) override {}
-  bool Cancelled() const override { return false; }
-  std::vector<std::string> lines;
-};
 
 FlightPlan Fly(const Site& site, std::vector<Hover> hovers, double battery, int threads = 2) {
   return PlanFlights(site, kCamera, battery, std::move(hovers), threads, SilentProgress());
@@ -138,12 +129,12 @@ TEST(Flights, RefuseAHomeThatIsNotFree) {
 TEST(Flights, LeaveOutWhatNoFlyPolygonsCutOff) {
   const Polygon ring{{Rectangle(50, 50, 150, 150), Reversed(Rectangle(70, 70, 130, 130))}};
   const Site site = MadeSite({Rectangle(0, 0, 20, 20)}, {.no_fly = {ring}});
-  Warnings warnings;
+  stucco::test::Listener listener;
   const FlightPlan plan = PlanFlights(
       site, kCamera, 80, {{Vector3d(100, 100, 70), {Shot{}}}, {Vector3d(-30, 0, 20), {Shot{}}}}, 1,
-      warnings);
+      listener);
   EXPECT_EQ(plan.hovers.size(), 1U);
-  EXPECT_EQ(warnings.lines.size(), 1U);
+  EXPECT_EQ(listener.warnings.size(), 1U);
 }
 
 TEST(Flights, RefuseHoversWhereNothingMayFly) {

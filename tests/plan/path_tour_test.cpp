@@ -18,6 +18,7 @@
 #include "survey/error.h"
 #include "tests/plan/made_hovers.h"
 #include "tests/plan/made_site.h"
+#include "tests/survey/stage_support.h"
 
 namespace stucco::plan {
 namespace {
@@ -156,14 +157,8 @@ TEST(Tour, IsWithinFivePercentOfTheBound) {
 }
 
 TEST(Tour, StopsWhenCancelled) {
-  class Stopped : public Progress {
-   public:
-    void Begin(std::string_view, size_t) override {}
-    void Advance(size_t) override {}
-    void Warn(std::string_view) override {}
-    void Note(std::string_view) override {}
-    bool Cancelled() const override { return true; }
-  } progress;
+  stucco::test::Listener progress;
+  progress.cancelled = true;
   const Site open;
   const Obstacles sky(open);
   const SafeSpace space(sky);

@@ -15,6 +15,7 @@
 #include "plan/space/obstacles.h"
 #include "survey/error.h"
 #include "tests/plan/made_site.h"
+#include "tests/survey/stage_support.h"
 
 namespace stucco::plan {
 namespace {
@@ -289,29 +290,18 @@ TEST(MoveHovers, GainsWithoutLosing) {
   EXPECT_EQ(changed, moved);
 }
 
-class Listener : public Progress {
- public:
-  void Begin(std::string_view, size_t) override {}
-  void Advance(size_t) override {}
-  void Warn(std::string_view text) override { warning = text; }
-  void Note(std::string_view) override {}
-  bool Cancelled() const override { return cancelled; }
-  std::string warning;
-  bool cancelled = false;
-};
-
 TEST(PlanarViews, FromBeyondTheLargestDistanceStillCover) {
   Site site = Town();
   PlanarOptions options = Options();
   options.d_max_m = 20;  // the ceiling is at 26 m
-  Listener listener;
+  stucco::test::Listener listener;
   const auto views = PlanarViews(site, FindCamera("mavic-3e"), options, {}, 1, listener);
-  EXPECT_NE(listener.warning.find("d_max"), std::string::npos);
+  EXPECT_NE(testing::PrintToString(listener.warnings).find("d_max"), std::string::npos);
   EXPECT_GT(views.size(), 4U);
 }
 
 TEST(PlanarViews, StopWhenAsked) {
-  Listener listener;
+  stucco::test::Listener listener;
   listener.cancelled = true;
   EXPECT_THROW(PlanarViews(Town(), FindCamera("mavic-3e"), Options(), {}, 1, listener), Error);
 }

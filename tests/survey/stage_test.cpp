@@ -4,39 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
-
+#include "tests/survey/stage_support.h"
 #include "tests/survey/support.h"
 
 namespace stucco {
 namespace {
 
-class MapUnits : public UnitStore {
- public:
-  std::optional<std::string> Load(std::string_view kind, std::string_view key) override {
-    const auto found = units_.find(std::string(kind) + "/" + std::string(key));
-    if (found == units_.end()) return std::nullopt;
-    return found->second;
-  }
-  void Save(std::string_view kind, std::string_view key, std::string_view bytes) override {
-    units_[std::string(kind) + "/" + std::string(key)] = bytes;
-  }
-
- private:
-  std::map<std::string, std::string> units_;
-};
-
-class Stopped : public Progress {
- public:
-  void Begin(std::string_view, size_t) override {}
-  void Advance(size_t) override {}
-  void Warn(std::string_view) override {}
-  void Note(std::string_view) override {}
-  bool Cancelled() const override { return true; }
-};
-
 TEST(Stage, ComputesAUnitOnce) {
-  MapUnits units;
+  test::MemoryUnits units;
   StageContext context;
   context.progress = &SilentProgress();
   context.units = &units;
@@ -54,7 +29,7 @@ TEST(Stage, ComputesAUnitOnce) {
 }
 
 TEST(Stage, AFailedUnitIsNotSaved) {
-  MapUnits units;
+  test::MemoryUnits units;
   StageContext context;
   context.progress = &SilentProgress();
   context.units = &units;
@@ -79,7 +54,8 @@ TEST(Stage, StopsWhenAsked) {
   EXPECT_NO_THROW(context.ThrowIfCancelled());
   context.progress = &SilentProgress();
   EXPECT_NO_THROW(context.ThrowIfCancelled());
-  Stopped stopped;
+  test::Listener stopped;
+  stopped.cancelled = true;
   context.progress = &stopped;
   context.units = &NoUnits();
   EXPECT_EQ(test::ErrorOf([&] { context.ThrowIfCancelled(); }).kind(), ErrorKind::kInterrupted);

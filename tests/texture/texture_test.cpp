@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
-#include <mutex>
 #include <numbers>
 
 #include "survey/captures.h"
@@ -18,6 +17,7 @@
 #include "survey/point_cloud.h"
 #include "survey/survey_folder.h"
 #include "survey/texture_set.h"
+#include "tests/survey/stage_support.h"
 #include "tests/texture/synthetic.h"
 
 namespace stucco {
@@ -428,26 +428,6 @@ std::map<std::string, std::string> Contents(const fs::path& folder) {
   return files;
 }
 
-// Keeps units in memory and counts what was computed.
-class MemoryUnits : public UnitStore {
- public:
-  std::optional<std::string> Load(std::string_view kind, std::string_view key) override {
-    const std::lock_guard lock(mutex_);
-    const auto found = units_.find(std::string(kind) + "/" + std::string(key));
-    if (found == units_.end()) return std::nullopt;
-    return found->second;
-  }
-  void Save(std::string_view kind, std::string_view key, std::string_view bytes) override {
-    const std::lock_guard lock(mutex_);
-    units_[std::string(kind) + "/" + std::string(key)] = bytes;
-  }
-  size_t size() const { return units_.size(); }
-
- private:
-  std::mutex mutex_;
-  std::map<std::string, std::string> units_;
-};
-
 TEST(RunTexture, WritesTheSameBytesAtAnyThreadCountAndFromCheckpoints) {
   Survey survey;
   Facet side = MakeWall(4, 3);
@@ -457,7 +437,7 @@ TEST(RunTexture, WritesTheSameBytesAtAnyThreadCountAndFromCheckpoints) {
   survey.Add("a.jpg", {2, -4.2, 1.5}, {2, 0, 1.5}, 1, WallScene(8, 3));
   survey.Add("b.jpg", {4, -4.2, 1.5}, {4, 0, 1.5}, 1.2, WallScene(8, 3));
   survey.Add("c.jpg", {6, -4.2, 1.5}, {6, 0, 1.5}, 0.9, WallScene(8, 3));
-  MemoryUnits units;
+  test::MemoryUnits units;
   survey.Run({}, "one", 1, &units);
   const size_t computed = units.size();
   EXPECT_EQ(computed, 4u);
