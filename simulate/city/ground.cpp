@@ -26,9 +26,12 @@ using Eigen::Vector3d;
 constexpr double kFields_m = 350;  // how far the ground goes beyond the town
 constexpr double kCell_m = 4;      // where it is not flat
 constexpr double kFieldCell_m = 20;
-constexpr double kFieldPicture_m = 60;  // repeated: nobody looks at fields closely
+constexpr double kFieldPicture_m = 60;  // repeated: nobody looks closely at fields far away
 constexpr double kFieldOverlap_m = 12;  // a whole number of the tracks of a crop
 constexpr double kFieldTexel_m = 0.08;
+constexpr double kMostParcelTexels = 1.2e7;  // of all parcels together
+constexpr std::array<Covering, kFieldKinds> kCoveringOfField = {Covering::kGrass, Covering::kCrop,
+                                                                Covering::kCrop, Covering::kSoil};
 // Ground pictures of a town together: a hamlet's are sharp to 2 cm, a quarter's to 5 cm.
 constexpr double kMostTexels = 1.6e7;
 constexpr double kKerbTexel_m = 0.01;
@@ -115,20 +118,52 @@ int StreetTo(const Town& town, const Bounds& bounds, const Vector2d& at) {
   return -1;
 }
 
-// The patch, field or street of a place, as GroundGrid::patch_of has them.
-int GroundOf(const Town& town, const Surroundings& around, const Vector2d& at) {
-  const int patches = static_cast<int>(town.ground.size());
-  const int patch = PatchAt(town, at);
-  if (patch < patches) return patch;
-  const int street = StreetTo(town, around.town, at);
-  if (street >= 0) return patches + kFieldKinds + street;
+// Which of the kinds of field grows at a place beyond the town.
+int FieldAt(const Town& town, const Surroundings& around, const Vector2d& at) {
   uint64_t parcel = town.seed;
   for (const int axis : {0, 1}) {
     const std::vector<double>& borders = around.borders[axis];
     const auto next = std::upper_bound(borders.begin(), borders.end(), at[axis]);
     parcel = SeedOf(parcel, next - borders.begin());
   }
-  return patches + Random(parcel).Index(kFieldKinds);
+  return Random(parcel).Index(kFieldKinds);
+}
+
+// The eight that touch the town.
+std::vector<GroundPatch> ParcelsOf(const Town& town, const Surroundings& around) {
+  std::array<std::array<double, 4>, 2> lines;  // around the parcels and the town, by axis
+  for (const int axis : {0, 1}) {
+    const std::vector<double>& borders = around.borders[axis];
+    const auto low = std::lower_bound(borders.begin(), borders.end(), around.town.low[axis]);
+    std::copy_n(low - 1, 4, lines[axis].begin());
+  }
+  std::vector<GroundPatch> parcels;
+  for (const int row : {0, 1, 2}) {
+    for (const int column : {0, 1, 2}) {
+      if (row == 1 && column == 1) continue;
+      GroundPatch parcel;
+      parcel.low = {lines[0][column], lines[1][row]};
+      parcel.high = {lines[0][column + 1], lines[1][row + 1]};
+      parcel.covering = kCoveringOfField[FieldAt(town, around, (parcel.low + parcel.high) / 2)];
+      parcels.push_back(parcel);
+    }
+  }
+  return parcels;
+}
+
+// The patch, field, street or parcel of a place, as GroundGrid::patch_of has them.
+int GroundOf(const Town& town, const Surroundings& around, const std::vector<GroundPatch>& parcels,
+             const Vector2d& at) {
+  const int patches = static_cast<int>(town.ground.size());
+  const int patch = PatchAt(town, at);
+  if (patch < patches) return patch;
+  const int street = StreetTo(town, around.town, at);
+  if (street >= 0) return patches + kFieldKinds + street;
+  const auto parcel = std::ranges::find_if(parcels, [&](const GroundPatch& each) {
+    return Eigen::AlignedBox2d(each.low, each.high).contains(at);
+  });
+  if (parcel == parcels.end()) return patches + FieldAt(town, around, at);
+  return 2 * patches + kFieldKinds + static_cast<int>(parcel - parcels.begin());
 }
 
 bool IsTown(const Town& town, int patch) {
@@ -138,7 +173,8 @@ bool IsTown(const Town& town, int patch) {
 double RaiseOf(const Town& town, int patch) {
   if (IsTown(town, patch)) return town.ground[patch].raise_m;
   const int street = patch - static_cast<int>(town.ground.size()) - kFieldKinds;
-  return street >= 0 ? town.ground[street].raise_m : 0;
+  const bool is_street = street >= 0 && street < static_cast<int>(town.ground.size());
+  return is_street ? town.ground[street].raise_m : 0;
 }
 
 class GroundBuilder {
@@ -190,10 +226,11 @@ class GroundBuilder {
   const GroundGrid& grid_;
 };
 
-double TexelOf(const Town& town, double finest_m) {
+// At least `finest_m`, so that all of them together have no more texels than that.
+double TexelOf(const std::vector<GroundPatch>& patches, double finest_m, double most_texels) {
   double area = 0;
-  for (const GroundPatch& patch : town.ground) area += (patch.high - patch.low).prod();
-  return std::max(finest_m, std::sqrt(area / kMostTexels));
+  for (const GroundPatch& patch : patches) area += (patch.high - patch.low).prod();
+  return std::max(finest_m, std::sqrt(area / most_texels));
 }
 
 // Mixes what is right of and below the wanted size into the left and upper margins, so that the
@@ -258,32 +295,38 @@ CoveringDesign DesignOf(const Town& town, Covering covering, const Vector2d& siz
 }
 
 // By what GroundGrid::patch_of names.
-std::vector<Sheet> MakeSheets(const Town& town, double finest_m, int element, CityModel& model) {
+std::vector<Sheet> MakeSheets(const Town& town, const std::vector<GroundPatch>& parcels,
+                              double finest_m, int element, CityModel& model) {
   std::vector<Sheet> sheets;
   const auto add = [&](Sheet sheet, const std::string& name, std::function<Image()> paint) {
     sheet.element = element;
     sheet.material = AddPainted(name, {std::move(paint), ""}, model);
     sheets.push_back(sheet);
   };
-  const double texel = TexelOf(town, finest_m);
-  for (size_t i = 0; i < town.ground.size(); ++i) {
-    const GroundPatch& patch = town.ground[i];
+  const auto add_patch = [&](const GroundPatch& patch, uint64_t index, double texel,
+                             const std::string& name) {
     const Vector2d size = patch.high - patch.low;
-    const CoveringDesign design = DesignOf(town, patch.covering, size, i);
-    add(GroundSheet(town, patch.low, size, texel), fmt::format("ground-{}", i),
+    const CoveringDesign design = DesignOf(town, patch.covering, size, index);
+    add(GroundSheet(town, patch.low, size, texel), name,
         [design, texel] { return PaintCovering(design, texel); });
+  };
+  const double texel = TexelOf(town.ground, finest_m, kMostTexels);
+  for (size_t i = 0; i < town.ground.size(); ++i) {
+    add_patch(town.ground[i], i, texel, fmt::format("ground-{}", i));
   }
   const double coarse = std::max(finest_m, kFieldTexel_m);
   const Vector2d size = Vector2d::Constant(kFieldPicture_m);
-  constexpr std::array<Covering, kFieldKinds> kKinds = {Covering::kGrass, Covering::kCrop,
-                                                        Covering::kCrop, Covering::kSoil};
   for (int i = 0; i < kFieldKinds; ++i) {
-    const CoveringDesign design = DesignOf(town, kKinds[i], size, 1000 + i);
+    const CoveringDesign design = DesignOf(town, kCoveringOfField[i], size, 1000 + i);
     add(GroundSheet(town, BoundsOf(town).low, size, coarse), fmt::format("field-{}", i),
         [design, coarse] { return PaintField(design, coarse); });
   }
   const std::vector<Sheet> streets(sheets.begin(), sheets.end() - kFieldKinds);
   sheets.insert(sheets.end(), streets.begin(), streets.end());
+  const double parcel_texel = TexelOf(parcels, coarse, kMostParcelTexels);
+  for (size_t i = 0; i < parcels.size(); ++i) {
+    add_patch(parcels[i], 2000 + i, parcel_texel, fmt::format("parcel-{}", i));
+  }
   return sheets;
 }
 
@@ -365,11 +408,11 @@ std::vector<Facet> LevelFacets(const Town& town, const GroundGrid& grid) {
 
 GroundGrid MakeGroundGrid(const Town& town) {
   const Surroundings around = SurroundingsOf(town);
-  GroundGrid grid{Lines(town, around, 0), Lines(town, around, 1), {}};
+  GroundGrid grid{Lines(town, around, 0), Lines(town, around, 1), {}, ParcelsOf(town, around)};
   for (int row = 0; row < grid.rows(); ++row) {
     for (int column = 0; column < grid.columns(); ++column) {
       grid.patch_of.push_back(GroundOf(
-          town, around,
+          town, around, grid.parcels,
           {(grid.x[column] + grid.x[column + 1]) / 2, (grid.y[row] + grid.y[row + 1]) / 2}));
     }
   }
@@ -379,7 +422,8 @@ GroundGrid MakeGroundGrid(const Town& town) {
 void AddGround(const Town& town, const GroundGrid& grid, double metres_per_texel,
                CityModel& model) {
   const int element = AddElement("G0", model);
-  const std::vector<Sheet> sheets = MakeSheets(town, metres_per_texel, element, model);
+  const std::vector<Sheet> sheets =
+      MakeSheets(town, grid.parcels, metres_per_texel, element, model);
   const GroundBuilder builder(town, grid);
   for (int row = 0; row < grid.rows(); ++row) {
     for (int column = 0; column < grid.columns(); ++column) {

@@ -10,18 +10,21 @@
 
 namespace stucco::simulate {
 
+inline constexpr int kFieldKinds = 4;
+
 // The ground cut into cells along the borders of its patches, in the town's street axes.
 struct GroundGrid {
   std::vector<double> x;  // lines, ascending
   std::vector<double> y;
   // By cell, rows from the south: index of a patch, or beyond the town, from their number on, one
-  // of kFieldKinds fields, and then of the streets that go on through them.
+  // of kFieldKinds fields, then of the streets that go on through them, then of a parcel.
   std::vector<int> patch_of;
+  // The fields next to the town, which photos show well: each has a picture of its own, as nothing
+  // repeats itself exactly in the country.
+  std::vector<GroundPatch> parcels;
   int columns() const { return static_cast<int>(x.size()) - 1; }
   int rows() const { return static_cast<int>(y.size()) - 1; }
 };
-
-inline constexpr int kFieldKinds = 4;
 
 GroundGrid MakeGroundGrid(const Town& town);
 

@@ -180,14 +180,18 @@ TEST_P(Towns, StreetsDoNotEndInTheFields) {
     const int patches = static_cast<int>(town.ground.size());
     std::set<int> fields;
     std::set<int> streets;
+    std::set<int> parcels;
     for (const int patch : grid.patch_of) {
-      if (patch >= patches + kFieldKinds) {
+      if (patch >= 2 * patches + kFieldKinds) {
+        parcels.insert(patch - 2 * patches - kFieldKinds);
+      } else if (patch >= patches + kFieldKinds) {
         streets.insert(patch - patches - kFieldKinds);
       } else if (patch >= patches) {
         fields.insert(patch);
       }
     }
     EXPECT_GT(fields.size(), 1u) << seed;
+    EXPECT_EQ(parcels.size(), 8u) << seed;
     const bool crossed = GetParam() != "block" && GetParam() != "asia";
     ASSERT_EQ(streets.size(), crossed ? 1u : 0u) << seed;
     for (const int street : streets) {
@@ -293,6 +297,27 @@ TEST(Town, PicturesOfFieldsGoOnWhereTheyEnd) {
     EXPECT_GT(Step(image, last / 2, 0), 1.5 * Step(image, last, 0)) << material.name << " varies";
   }
   EXPECT_EQ(fields, kFieldKinds);
+}
+
+// A photo that shows nothing but a field must not find it again in the next one.
+TEST(Town, FieldsNextToItAreAllDifferent) {
+  const Town town = LayOutTown("hamlet", 3);
+  const GroundGrid grid = MakeGroundGrid(town);
+  CityModel model;
+  AddGround(town, grid, 0.5, model);
+  std::vector<Image> pictures;
+  for (const Material& material : model.scene.materials) {
+    if (material.name.starts_with("parcel-")) {
+      pictures.push_back(model.pictures[material.texture].paint());
+    }
+  }
+  ASSERT_EQ(pictures.size(), grid.parcels.size());
+  for (size_t i = 0; i < pictures.size(); ++i) {
+    const Eigen::Vector2d size = grid.parcels[i].high - grid.parcels[i].low;
+    EXPECT_NEAR(pictures[i].width_px, size.x() / 0.5, 2) << "its whole width: nothing repeats";
+    EXPECT_NEAR(pictures[i].height_px, size.y() / 0.5, 2);
+    for (size_t j = 0; j < i; ++j) EXPECT_NE(pictures[i].data, pictures[j].data);
+  }
 }
 
 TEST(Town, UnknownStyleIsRefusedWithTheKnownOnes) {
