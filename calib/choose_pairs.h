@@ -18,7 +18,7 @@ using PhotoPairs = std::vector<std::pair<int, int>>;
 struct PairChoice {
   PhotoPairs pairs;
   bool by_plan = false;
-  PhotoPairs otherwise;  // when the photos do not show what the plan says
+  PhotoPairs otherwise;  // too, when the photos do not show what the plan says
 };
 
 // All pairs of a small set. Else by the plan, where there is one: those that should overlap, the

@@ -210,16 +210,15 @@ std::vector<VerifiedPair> MatchAll(const CalibOptions& options, const PhotoSet& 
   if (!choice.by_plan) return verified;
   const size_t expected = set.guidance.pairs.size();
   const size_t found = NumVerified(set.guidance.pairs, verified);
+  context.progress->Note(
+      fmt::format("{} of {} pairs of photos that should overlap by the plan do", found, expected));
   if (static_cast<double>(found) >= kLeastRight * static_cast<double>(expected)) return verified;
-  context.progress->Warn(fmt::format(
-      "only {} of the {} pairs of photos that should overlap by the plan do: the photos do not "
-      "show what it says; pairs are chosen by position and appearance too",
-      found, expected));
-  std::ranges::move(Verify(input, Candidates(choice.otherwise, {})), std::back_inserter(verified));
-  std::ranges::stable_sort(verified, {}, [](const VerifiedPair& pair) {
-    return std::pair(pair.pair.first, pair.pair.second);
-  });
-  return verified;
+  context.progress->Warn(
+      "the photos do not show what the plan says: too few of those that should overlap do; pairs "
+      "are chosen by position and appearance too");
+  PhotoPairs all;  // those done already come from their checkpoints
+  std::ranges::set_union(choice.pairs, choice.otherwise, std::back_inserter(all));
+  return Verify(input, Candidates(all, set.guidance.wall_pairs));
 }
 
 }  // namespace stucco
