@@ -66,6 +66,25 @@ SharedStretch FindShared(const PlaneView& a, const PlaneView& b, const Eigen::Ve
   return shared;
 }
 
+// Whether much of what was seen of a wall lies below a line: then that is not where it meets the
+// ground, but where ground somewhere else would, if it went on as it slopes.
+bool Buries(const CutLine& line, const PlaneView& wall) {
+  constexpr double kMost = 0.1;  // of the seen cells
+  const double up = line.direction.x() < 0 ? -1 : 1;
+  int seen = 0;
+  int below = 0;
+  for (int y = 0; y < wall.raster.height; ++y) {
+    for (int x = 0; x < wall.raster.width; ++x) {
+      if (wall.evidence[wall.raster.Index(x, y)] != Evidence::kSeen) continue;
+      const Eigen::Vector2d d = wall.raster.Center(x, y) - line.point;
+      const double above = up * (line.direction.x() * d.y() - line.direction.y() * d.x());
+      ++seen;
+      below += above < -wall.raster.cell;
+    }
+  }
+  return below > kMost * seen;
+}
+
 }  // namespace
 
 std::vector<PlaneView> ViewPlanes(const Samples& samples, const Stations& stations,
@@ -121,6 +140,7 @@ std::vector<CutLine> Creases(const PlaneView& view, std::span<const PlaneView* c
                        .foot = other->ground && a.role == PlaneRole::kWall,
                        .from = shared.from,
                        .to = shared.to};
+    if (line.foot && Buries(line, view)) continue;
     const auto same = [&](const CutLine& c) {
       const Eigen::Vector2d d = line.point - c.point;
       return std::abs(c.direction.dot(line.direction)) > 1 - 1e-9 &&

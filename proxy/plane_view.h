@@ -33,8 +33,8 @@ std::vector<PlaneView> ViewPlanes(const Samples& samples, const Stations& statio
 
 // The intersection with each of the `others` that comes within `reach` of the seen parts of both
 // planes along at least `min_length`, as a line in the frame of `view`. The ground counts as seen
-// everywhere, from one and a half times `reach`. Planes within 10 degrees of
-// parallel have none.
+// everywhere, from one and a half times `reach`, but is no foot of a wall that was seen below it.
+// Planes within 10 degrees of parallel have none.
 std::vector<CutLine> Creases(const PlaneView& view, std::span<const PlaneView* const> others,
                              double reach, double min_length);
 
