@@ -30,6 +30,8 @@ constexpr double kAlikeScale = 3;
 // Seen from farther off the normal, a wall matches better once it is rectified.
 const double kFrontal = std::cos(35 * kRadians);
 constexpr double kAlikeScaleOfWalls = 8;
+// Photos from directions nearer to each other than this show it alike, rectified or not.
+const double kSameDirection = std::cos(25 * kRadians);
 // More walls of one photo are too small in it to add anything, and each costs a search.
 constexpr size_t kWallsOfPhoto = 8;
 // Fewer common points are chance.
@@ -230,6 +232,7 @@ std::vector<WallPair> ObliqueWallPairs(const ExpectedViews& views, int count, in
           const Sight other = sights.Of(b, point);
           const bool other_frontal = other.way.dot(normal) > kFrontal;
           if (a == b || (is_frontal && other_frontal)) continue;
+          if (sight.way.dot(other.way) > kSameDirection) continue;
           if (ScaleChange(sight, other) <= kAlikeScaleOfWalls) ++shared[other_frontal ? 0 : 1][b];
         }
       }

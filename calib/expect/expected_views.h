@@ -49,7 +49,7 @@ struct WallPair {
 };
 
 // Of each photo and each of the eight walls it sees most of, up to `count` frontal and as many
-// oblique partners: those that share most of it. Ascending.
+// oblique partners that see it from another direction: those that share most of it. Ascending.
 std::vector<WallPair> ObliqueWallPairs(const ExpectedViews& views, int count, int threads);
 
 }  // namespace stucco

@@ -93,12 +93,15 @@ TEST(ObliqueWallPairs, AreTheSameWithAnyNumberOfThreads) {
 TEST(ObliqueWallPairs, JoinFrontalPhotosWithTiltedOnes) {
   const ExpectedViews views =
       Expect({SitePose({8, -15, 6}, 0, 0), SitePose({12, -15, 6}, 0, 0),
-              SitePose({10, -20, 32}, 0, -45), SitePose({10, 40, 32}, 180, -45)});
+              SitePose({10, -20, 32}, 0, -45), SitePose({10, 40, 32}, 180, -45),
+              SitePose({14, -20, 32}, 0, -45)});
   const auto pairs = ObliqueWallPairs(views, 6, 2);
   EXPECT_TRUE(std::ranges::is_sorted(pairs));
   EXPECT_THAT(pairs, Contains(WallPair{0, 2, 0}));
   EXPECT_THAT(pairs, Contains(WallPair{1, 2, 0}));
   EXPECT_THAT(pairs, Not(Contains(WallPair{0, 1, 0})));  // they match as they are
+  EXPECT_THAT(pairs, Contains(WallPair{1, 4, 0}));
+  EXPECT_THAT(pairs, Not(Contains(WallPair{2, 4, 0}))) << "from the same direction";
   for (const WallPair& pair : pairs) {
     EXPECT_LT(pair.first, pair.second);
     EXPECT_NE(pair.second, 3) << "it sees the other side";
