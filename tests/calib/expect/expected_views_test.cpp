@@ -91,10 +91,9 @@ TEST(ObliqueWallPairs, AreTheSameWithAnyNumberOfThreads) {
 }
 
 TEST(ObliqueWallPairs, JoinFrontalPhotosWithTiltedOnes) {
-  const ExpectedViews views =
-      Expect({SitePose({8, -15, 6}, 0, 0), SitePose({12, -15, 6}, 0, 0),
-              SitePose({10, -20, 32}, 0, -45), SitePose({10, 40, 32}, 180, -45),
-              SitePose({14, -20, 32}, 0, -45)});
+  const ExpectedViews views = Expect(
+      {SitePose({8, -15, 6}, 0, 0), SitePose({12, -15, 6}, 0, 0), SitePose({10, -20, 32}, 0, -45),
+       SitePose({10, 40, 32}, 180, -45), SitePose({14, -20, 32}, 0, -45)});
   const auto pairs = ObliqueWallPairs(views, 6, 2);
   EXPECT_TRUE(std::ranges::is_sorted(pairs));
   EXPECT_THAT(pairs, Contains(WallPair{0, 2, 0}));
