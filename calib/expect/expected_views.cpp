@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -221,8 +220,8 @@ std::vector<WallPair> ObliqueWallPairs(const ExpectedViews& views, int count, in
   ParallelFor(views.seen.size(), threads, [&](size_t photo) {
     const int a = static_cast<int>(photo);
     for (const WallRange& wall : WallsOf(views, photo)) {
-      std::array<std::vector<int>, 2> shared;  // with frontal and with oblique photos
-      shared.fill(std::vector<int>(views.seen.size(), 0));
+      std::vector<int> with_frontal(views.seen.size(), 0);  // points in common
+      std::vector<int> with_oblique(views.seen.size(), 0);
       for (size_t i = wall.begin; i < wall.end; ++i) {
         const int point = views.seen[photo][i];
         const Eigen::Vector3d& normal = views.points[point].normal;
@@ -233,13 +232,15 @@ std::vector<WallPair> ObliqueWallPairs(const ExpectedViews& views, int count, in
           const bool other_frontal = other.way.dot(normal) > kFrontal;
           if (a == b || (is_frontal && other_frontal)) continue;
           if (sight.way.dot(other.way) > kSameDirection) continue;
-          if (ScaleChange(sight, other) <= kAlikeScaleOfWalls) ++shared[other_frontal ? 0 : 1][b];
+          if (ScaleChange(sight, other) > kAlikeScaleOfWalls) continue;
+          ++(is_frontal || other_frontal ? with_frontal : with_oblique)[b];
         }
       }
-      for (const auto& with : shared) {
-        for (const int b : Best(with, kLeastShared, count)) {
-          of_photo[photo].push_back({std::min(a, b), std::max(a, b), wall.wall});
-        }
+      std::vector<int> partners = Best(with_frontal, kLeastShared, count);
+      const std::vector<int> more = Best(with_oblique, kLeastShared, count / 3);
+      partners.insert(partners.end(), more.begin(), more.end());
+      for (const int b : partners) {
+        of_photo[photo].push_back({std::min(a, b), std::max(a, b), wall.wall});
       }
     }
   });

@@ -48,8 +48,9 @@ struct WallPair {
   auto operator<=>(const WallPair&) const = default;
 };
 
-// Of each photo and each of the eight walls it sees most of, up to `count` frontal and as many
-// oblique partners that see it from another direction: those that share most of it. Ascending.
+// Of each photo and each of the eight walls it sees most of, up to `count` partners that see it
+// from another direction: those that share most of it. Of pairs in which both see it obliquely only
+// a third as many: there are many of them, and they tie to each other as they are. Ascending.
 std::vector<WallPair> ObliqueWallPairs(const ExpectedViews& views, int count, int threads);
 
 }  // namespace stucco
