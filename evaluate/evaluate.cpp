@@ -181,11 +181,12 @@ Evaluation Evaluate(const EvaluateRequest& request) {
   if (!fs::is_directory(request.survey)) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: no such survey", request.survey.string()));
   }
-  // Before anything that takes minutes.
-  if (!request.output.empty()) MakeOutputFolder(request.output);
+  // Before anything that takes minutes; the folder not for what cannot be measured.
   if (!request.lpips_model.empty()) Lpips{request.lpips_model};
   const fs::path& flight = request.flight.empty() ? request.survey : request.flight;
-  return Evaluator(request, ReadTruth(request.scene, flight)).Run();
+  Truth truth = ReadTruth(request.scene, flight);
+  if (!request.output.empty()) MakeOutputFolder(request.output);
+  return Evaluator(request, std::move(truth)).Run();
 }
 
 }  // namespace stucco::evaluate

@@ -121,7 +121,7 @@ bool IsPartOf(const std::string& facade, const Facet& facet) {
 double FacadeIdRate(const std::vector<TruthFacet>& matched) {
   double named = 0, all = 0;
   for (const TruthFacet& wall : matched) {
-    if (wall.truth->facet_class != FacetClass::kWall) continue;
+    if (!IsFacade(*wall.truth)) continue;
     double with_id = 0;
     for (const FacetMatch& match : wall.matches) {
       if (IsPartOf(wall.truth->facade, *match.result)) with_id += match.overlap_m2;

@@ -164,6 +164,10 @@ FacetOverlap Overlap(const Facet& a, const Facet& b) {
   return overlap;
 }
 
+bool IsFacade(const Facet& truth) {
+  return truth.facet_class == FacetClass::kWall && truth.seen > 0;
+}
+
 std::vector<TruthFacet> MatchFacets(const Proxy& result, const Proxy& truth,
                                     const Similarity& truth_from_result,
                                     const MatchLimits& limits) {

@@ -31,6 +31,10 @@ struct TruthFacet {
   std::vector<FacetMatch> matches;  // largest overlap first
 };
 
+// Whether a facet of the truth is a wall that people call a facade: walls to a neighbour, which no
+// camera sees whole (`seen` is 0), have no id in a plan and no picture worth comparing.
+bool IsFacade(const Facet& truth);
+
 // Every facet of the truth, in its order, with what the result has there. Classes are not looked
 // at. The proxies have to outlive the answer.
 std::vector<TruthFacet> MatchFacets(const Proxy& result, const Proxy& truth,

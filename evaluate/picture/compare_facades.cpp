@@ -205,7 +205,7 @@ std::vector<FacadeFigures> CompareFacades(const TextureComparison& comparison) {
   std::vector<std::vector<Pairing>> pairings;
   for (TruthFacet& facet :
        MatchFacets(comparison.proxy, comparison.truth, comparison.truth_from_world)) {
-    if (facet.truth->facet_class != FacetClass::kWall) continue;
+    if (!IsFacade(*facet.truth)) continue;
     pairings.push_back(PairingsOf(facet, textures));
     walls.push_back(std::move(facet));
   }

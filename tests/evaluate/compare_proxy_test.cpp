@@ -113,6 +113,14 @@ TEST(CompareProxy, WrongIdsAreWrong) {
   EXPECT_EQ(Compare(result, MadeTruth(), 0.05).facade_id_rate, 0);
 }
 
+TEST(CompareProxy, WallsToANeighbourNeedNoId) {
+  Proxy result = MadeTruth();
+  Proxy truth = MadeTruth();
+  result.buildings[0].facets[0].facade = "own/W00";
+  truth.buildings[0].facets[0].seen = 0;
+  EXPECT_NEAR(Compare(result, truth, 0.05).facade_id_rate, 1, 1e-9);
+}
+
 // Every rectangle as strips along its first side.
 Proxy Cut(const Proxy& proxy, int strips) {
   Proxy cut = proxy;

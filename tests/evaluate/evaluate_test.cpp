@@ -209,6 +209,10 @@ TEST(Evaluate, FindsOutAboutOptionsThatAreOfNoUseBeforeItMeasures) {
   request.lpips_model = Root() / "no.onnx";
   ExpectRefused(request, ErrorKind::kBadInput, "no.onnx");
   request = RequestFor(made);
+  request.output = Root() / "out";
+  ExpectRefused(request, ErrorKind::kBadInput, "flight.json");
+  EXPECT_FALSE(fs::exists(request.output)) << "for nothing";
+  request = RequestFor(WriteMadeSurvey(Root(), {}));
   request.output = made.scene / simulate::kSceneModel / "in a file";
   ExpectRefused(request, ErrorKind::kBadInput, "cannot be created");
 }
