@@ -22,6 +22,12 @@ struct CutLine {
   double from = 0;
   double to = 0;
 
+  // Height of a point above the line, v upwards.
+  double HeightOf(const Eigen::Vector2d& p) const {
+    const Eigen::Vector2d d = p - point;
+    const double height = direction.x() * d.y() - direction.y() * d.x();
+    return direction.x() < 0 ? -height : height;
+  }
   bool IsActiveAt(const Eigen::Vector2d& p) const {
     const double t = direction.dot(p - point);
     return crease && t >= from && t <= to;

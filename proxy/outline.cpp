@@ -71,18 +71,11 @@ std::vector<CutNode> PriceFaces(const PlaneRaster& raster, const std::vector<Evi
   return nodes;
 }
 
-// Height of a point above a line, v upwards.
-double Above(const CutLine& line, const Eigen::Vector2d& p) {
-  const Eigen::Vector2d d = p - line.point;
-  const double above = line.direction.x() * d.y() - line.direction.y() * d.x();
-  return line.direction.x() < 0 ? -above : above;
-}
-
 // The evidence of a cell near an active crease.
 Evidence NearCrease(const CutLine& crease, const Eigen::Vector2d& p, Evidence evidence,
                     double to_seen, const OutlineOptions& options) {
   constexpr double kFootReach = 3;  // of options.reach
-  const double above = Above(crease, p);
+  const double above = crease.HeightOf(p);
   if (crease.foot && above < -options.epsilon) return Evidence::kOpen;
   const double reach = options.reach * (crease.foot ? kFootReach : 1);
   const bool lost = evidence == Evidence::kUnknown && to_seen <= reach && std::abs(above) <= reach;

@@ -70,16 +70,13 @@ SharedStretch FindShared(const PlaneView& a, const PlaneView& b, const Eigen::Ve
 // ground, but where ground somewhere else would, if it went on as it slopes.
 bool Buries(const CutLine& line, const PlaneView& wall) {
   constexpr double kMost = 0.1;  // of the seen cells
-  const double up = line.direction.x() < 0 ? -1 : 1;
   int seen = 0;
   int below = 0;
   for (int y = 0; y < wall.raster.height; ++y) {
     for (int x = 0; x < wall.raster.width; ++x) {
       if (wall.evidence[wall.raster.Index(x, y)] != Evidence::kSeen) continue;
-      const Eigen::Vector2d d = wall.raster.Center(x, y) - line.point;
-      const double above = up * (line.direction.x() * d.y() - line.direction.y() * d.x());
       ++seen;
-      below += above < -wall.raster.cell;
+      below += line.HeightOf(wall.raster.Center(x, y)) < -wall.raster.cell;
     }
   }
   return below > kMost * seen;

@@ -179,37 +179,46 @@ TEST(OutlineFacets, AFewPointsAreNoFacet) {
       Wall([](double x, double z) { return InBox(x, z, 3, 3.5, 3, 3.5); }).Facets().empty());
 }
 
-TEST(Creases, FindsTheLineWhereWallsMeet) {
-  Samples samples;
-  std::vector<Plane> planes(3);
-  const auto add = [&](Plane& plane, const Vector3d& p) {
-    plane.points.push_back(static_cast<int>(samples.size()));
-    samples.positions.push_back(p);
-    samples.normals.push_back(plane.normal);
-    samples.weights.push_back(1);
-    samples.stations.push_back(-1);
-  };
-  planes[0].normal = -Vector3d::UnitY();
-  planes[1].normal = Vector3d::UnitX();
-  planes[1].offset = 5;
-  planes[2].normal = Vector3d::UnitX();  // far from the others' points
-  planes[2].offset = 60;
-  for (auto& plane : planes) plane.role = PlaneRole::kWall;
+// Three planes with a sample every 10 cm where they are seen.
+class CreasesTest : public testing::Test {
+ protected:
+  void Add(Plane& plane, const Vector3d& p) {
+    plane.points.push_back(static_cast<int>(samples_.size()));
+    samples_.positions.push_back(p);
+    samples_.normals.push_back(plane.normal);
+    samples_.weights.push_back(1);
+    samples_.stations.push_back(-1);
+  }
+  std::vector<PlaneView> View(size_t first_ground) const {
+    return ViewPlanes(samples_, {}, planes_, {}, Vector3d::UnitZ(), Vector3d::UnitX(), tolerances_,
+                      first_ground, 1);
+  }
+
+  Samples samples_;
+  std::vector<Plane> planes_ = std::vector<Plane>(3);
+  Tolerances tolerances_{.level_of_detail = 0.3,
+                         .epsilon = 0.15,
+                         .min_area = 2.25,
+                         .fill_gap = 1.5,
+                         .spacing = 0.1,
+                         .radius = 0.3};
+};
+
+TEST_F(CreasesTest, FindsTheLineWhereWallsMeet) {
+  planes_[0].normal = -Vector3d::UnitY();
+  planes_[1].normal = Vector3d::UnitX();
+  planes_[1].offset = 5;
+  planes_[2].normal = Vector3d::UnitX();  // far from the others' points
+  planes_[2].offset = 60;
+  for (auto& plane : planes_) plane.role = PlaneRole::kWall;
   for (double a = 0.05; a < 5; a += 0.1) {
     for (double z = 0.05; z < 4; z += 0.1) {
-      add(planes[0], {a, 0, z});
-      add(planes[1], {5, a, z});
-      add(planes[2], {60, a, z});
+      Add(planes_[0], {a, 0, z});
+      Add(planes_[1], {5, a, z});
+      Add(planes_[2], {60, a, z});
     }
   }
-  const Tolerances tolerances{.level_of_detail = 0.3,
-                              .epsilon = 0.15,
-                              .min_area = 2.25,
-                              .fill_gap = 1.5,
-                              .spacing = 0.1,
-                              .radius = 0.3};
-  const auto views =
-      ViewPlanes(samples, {}, planes, {}, Vector3d::UnitZ(), Vector3d::UnitX(), tolerances, 99, 1);
+  const auto views = View(99);
   const std::vector<const PlaneView*> others = {&views[0], &views[1], &views[2]};
   const auto creases = Creases(views[0], others, 1.5, 0.9);
   ASSERT_EQ(creases.size(), 1u);
@@ -219,41 +228,25 @@ TEST(Creases, FindsTheLineWhereWallsMeet) {
   EXPECT_LT(creases[0].from, creases[0].to);
 }
 
-TEST(Creases, TakeNoSlopeFarAwayForTheFootOfAWall) {
-  Samples samples;
-  std::vector<Plane> planes(3);
-  const auto add = [&](Plane& plane, const Vector3d& p) {
-    plane.points.push_back(static_cast<int>(samples.size()));
-    samples.positions.push_back(p);
-    samples.normals.push_back(plane.normal);
-    samples.weights.push_back(1);
-    samples.stations.push_back(-1);
-  };
-  planes[0].normal = -Vector3d::UnitY();
-  planes[0].role = PlaneRole::kWall;
-  planes[1].role = planes[2].role = PlaneRole::kHorizontal;
+TEST_F(CreasesTest, TakeNoSlopeFarAwayForTheFootOfAWall) {
+  planes_[0].normal = -Vector3d::UnitY();
+  planes_[0].role = PlaneRole::kWall;
+  planes_[1].role = planes_[2].role = PlaneRole::kHorizontal;
   // A bank 41 m before the wall, which would reach it 5 m up: z = 5 + 0.12 y.
-  planes[2].normal = Vector3d(0, -0.12, 1).normalized();
-  planes[2].offset = 5 / std::hypot(1, 0.12);
+  planes_[2].normal = Vector3d(0, -0.12, 1).normalized();
+  planes_[2].offset = 5 / std::hypot(1, 0.12);
   for (double x = 0.05; x < 8; x += 0.1) {
-    for (double z = 0.05; z < 6; z += 0.1) add(planes[0], {x, 0, z});
-    for (double y = -6; y < 0; y += 0.1) add(planes[1], {x, y, 0});
-    for (double y = -45; y < -41; y += 0.1) add(planes[2], {x, y, 5 + 0.12 * y});
+    for (double z = 0.05; z < 6; z += 0.1) Add(planes_[0], {x, 0, z});
+    for (double y = -6; y < 0; y += 0.1) Add(planes_[1], {x, y, 0});
+    for (double y = -45; y < -41; y += 0.1) Add(planes_[2], {x, y, 5 + 0.12 * y});
   }
-  const Tolerances tolerances{.level_of_detail = 0.3,
-                              .epsilon = 0.15,
-                              .min_area = 2.25,
-                              .fill_gap = 1.5,
-                              .spacing = 0.1,
-                              .radius = 0.3};
-  const auto views =
-      ViewPlanes(samples, {}, planes, {}, Vector3d::UnitZ(), Vector3d::UnitX(), tolerances, 1, 1);
+  const auto views = View(1);
   const std::vector<const PlaneView*> grounds = {&views[1], &views[2]};
   const auto creases = Creases(views[0], grounds, 1.5, 0.9);
   ASSERT_EQ(creases.size(), 1u);
   EXPECT_TRUE(creases[0].foot);
   EXPECT_NEAR(views[0].raster.frame.ToWorld(creases[0].point).z(), 0, 1e-9);
-  const auto facets = OutlineFacets(samples, views[0], creases, tolerances, false);
+  const auto facets = OutlineFacets(samples_, views[0], creases, tolerances_, false);
   ASSERT_EQ(facets.size(), 1u);
   EXPECT_NEAR(facets[0].area, 48, 3);
 }
