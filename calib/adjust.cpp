@@ -17,6 +17,7 @@
 
 #include "calib/internal/costs.h"
 #include "survey/error.h"
+#include "survey/median.h"
 
 namespace stucco {
 namespace {
@@ -329,10 +330,8 @@ double MeasureNoise(const Scene& scene) {
       errors.push_back(Misfit(scene, element, *track.position));
     }
   }
-  if (errors.empty()) return 1;
-  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-  std::nth_element(errors.begin(), middle, errors.end());
-  return std::max(kLeastNoise, *middle / kRayleighMedian);
+  const auto median = Median(std::move(errors));
+  return median ? std::max(kLeastNoise, *median / kRayleighMedian) : 1;
 }
 
 std::string Brief(const AdjustReport& report) {

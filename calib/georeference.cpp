@@ -10,6 +10,7 @@
 #include <set>
 
 #include "survey/attitude.h"
+#include "survey/median.h"
 
 namespace stucco {
 namespace {
@@ -220,8 +221,7 @@ std::optional<Eigen::Vector3d> UpFromGimbal(const std::vector<const CapturedPhot
   for (const Eigen::Vector3d& each : ups) {
     angles.push_back(std::atan2(each.cross(up).norm(), each.dot(up)));
   }
-  std::nth_element(angles.begin(), angles.begin() + angles.size() / 2, angles.end());
-  if (angles[angles.size() / 2] > 15 * kRadians) return std::nullopt;
+  if (*Median(std::move(angles)) > 15 * kRadians) return std::nullopt;
   return up;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "calib/groups.h"
+#include "survey/median.h"
 
 namespace stucco {
 namespace {
@@ -57,9 +58,7 @@ bool HasParallax(const Scene& scene, const PhotoPair& pair) {
     const Eigen::Vector3d b = *scene.tracks[track].position - second->Center();
     angles.push_back(std::atan2(a.cross(b).norm(), a.dot(b)));
   }
-  if (angles.size() < kLeastInliers) return false;
-  std::nth_element(angles.begin(), angles.begin() + angles.size() / 2, angles.end());
-  return angles[angles.size() / 2] > kClearParallax;
+  return angles.size() >= kLeastInliers && *Median(std::move(angles)) > kClearParallax;
 }
 
 struct ScoredSeed {

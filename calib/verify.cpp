@@ -13,6 +13,7 @@
 
 #include "calib/triangulate.h"
 #include "survey/error.h"
+#include "survey/median.h"
 
 namespace stucco {
 namespace {
@@ -188,8 +189,7 @@ std::optional<RelativePose> EstimateRelativePose(const std::vector<Eigen::Vector
       angles.push_back(std::atan2(point->cross(ray).norm(), point->dot(ray)));
     }
     if (count <= best.num_inliers) continue;
-    std::nth_element(angles.begin(), angles.begin() + angles.size() / 2, angles.end());
-    best = {pose, count, angles[angles.size() / 2]};
+    best = {pose, count, *Median(std::move(angles))};
   }
   if (best.num_inliers < 8) return std::nullopt;
   return best;

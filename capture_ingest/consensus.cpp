@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "survey/median.h"
+
 namespace stucco {
 namespace {
 
@@ -16,12 +18,6 @@ constexpr double kNear_deg = 0.05;  // of latitude: about 5 km, more than any su
 constexpr double kFar_deg = 0.5;    // about 50 km
 constexpr double kTypicalSpread_m = 150;  // of heights in one survey
 constexpr double kWrongHeight_m = 400;    // from the median
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Records with a position, so that a test of the majority is one loop.
 std::vector<PhotoRecord*> Positioned(std::vector<PhotoRecord>& records, bool with_height) {
@@ -53,8 +49,8 @@ void QuarantinePositions(std::vector<PhotoRecord>& records) {
     latitudes.push_back(record->photo.position->latitude_deg);
     longitudes.push_back(record->photo.position->longitude_deg);
   }
-  const double latitude = Median(latitudes);
-  const double longitude = Median(longitudes);
+  const double latitude = *Median(latitudes);
+  const double longitude = *Median(longitudes);
   const auto distance_deg = [&](const PhotoRecord& record) {
     const GeoPosition& at = *record.photo.position;
     const double shrink = std::cos(latitude * 3.14159265358979323846 / 180);
@@ -79,7 +75,7 @@ void QuarantineHeights(std::vector<PhotoRecord>& records) {
   if (positioned.size() < kFewest) return;
   std::vector<double> heights;
   for (const PhotoRecord* record : positioned) heights.push_back(record->photo.position->height_m);
-  const double median = Median(heights);
+  const double median = *Median(heights);
   const size_t near = std::count_if(heights.begin(), heights.end(), [&](double height) {
     return std::abs(height - median) < kTypicalSpread_m;
   });

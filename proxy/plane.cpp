@@ -51,10 +51,8 @@ void RefitOffset(const Samples& samples, double epsilon, Plane& plane) {
   std::vector<double> offsets;
   offsets.reserve(plane.points.size());
   for (const int i : plane.points) offsets.push_back(plane.normal.dot(samples.positions[i]));
-  const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
-  std::nth_element(offsets.begin(), middle, offsets.end());
-  const double median = *middle;
   std::sort(offsets.begin(), offsets.end());  // one order of summing on every library
+  const double median = offsets[offsets.size() / 2];
   double sum = 0;
   int count = 0;
   for (const double offset : offsets) {

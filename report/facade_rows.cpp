@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 
+#include "survey/median.h"
 #include "survey/numbers.h"
 
 namespace stucco {
@@ -229,10 +230,7 @@ std::optional<double> MedianGsd(const SurveyData& data) {
       if (texture.gsd_m > 0 && !texture.image.empty()) sizes.push_back(texture.gsd_m);
     }
   }
-  if (sizes.empty()) return std::nullopt;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle;
+  return Median(std::move(sizes));
 }
 
 std::vector<FacadeRow> MakeFacadeRows(const SurveyData& data, const ReportOptions& options) {

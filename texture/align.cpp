@@ -10,6 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "survey/median.h"
+
 namespace stucco {
 namespace {
 
@@ -125,10 +127,7 @@ Eigen::Vector2d Residual(const GridMatch& match, std::span<const GridShift> shif
 double MedianResidual(std::span<const GridMatch> matches, std::span<const GridShift> shifts) {
   std::vector<double> lengths;
   for (const GridMatch& match : matches) lengths.push_back(Residual(match, shifts).norm());
-  if (lengths.empty()) return -1;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return Median(std::move(lengths)).value_or(-1);
 }
 
 // Prior deviations of the terms, from the largest shift that is believed.

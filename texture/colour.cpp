@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "survey/median.h"
+
 namespace stucco {
 namespace {
 
@@ -20,12 +22,6 @@ constexpr double kManyTexels = 200;
 constexpr double kHuberWidth = 0.06;
 constexpr int kRounds = 8;
 constexpr double kLargestGain = 4;
-
-double MedianOf(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // One channel: log gains.
 Eigen::VectorXd SolveChannel(std::span<const ColourRatio> ratios, size_t photos, int channel) {
@@ -74,7 +70,7 @@ std::optional<ColourRatio> MeasureRatio(int a, int b, std::span<const float> rgb
   }
   if (logs[0].size() < kFewestTexels) return std::nullopt;
   ColourRatio ratio{a, b};
-  for (int k = 0; k < 3; ++k) ratio.log_ratio[k] = MedianOf(logs[k]);
+  for (int k = 0; k < 3; ++k) ratio.log_ratio[k] = *Median(logs[k]);
   ratio.weight = static_cast<double>(logs[0].size());
   return ratio;
 }

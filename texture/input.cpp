@@ -12,6 +12,7 @@
 #include "survey/colmap_io.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/median.h"
 #include "survey/plan_of_survey.h"
 #include "survey/ply.h"
 #include "survey/survey_folder.h"
@@ -35,10 +36,7 @@ double MedianSharpness(const std::map<std::string, CapturedPhoto>& captures) {
   for (const auto& [path, photo] : captures) {
     if (photo.usable && photo.sharpness > 0) values.push_back(photo.sharpness);
   }
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return Median(std::move(values)).value_or(0);
 }
 
 std::vector<TexturePhoto> ReadPhotos(const StageContext& context, bool guided) {

@@ -9,6 +9,8 @@
 #include <limits>
 #include <random>
 
+#include "survey/median.h"
+
 namespace stucco::evaluate {
 namespace {
 
@@ -40,11 +42,8 @@ Eigen::VectorXd Residuals(const Similarity& fit, const Matrix3Xd& source, const 
   return residuals;
 }
 
-double Median(const Eigen::VectorXd& values) {
-  std::vector<double> sorted(values.begin(), values.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
+double MedianOf(const Eigen::VectorXd& values) {
+  return *Median(std::vector<double>(values.begin(), values.end()));
 }
 
 Matrix3Xd Columns(const Matrix3Xd& points, const std::vector<Index>& which) {
@@ -53,7 +52,7 @@ Matrix3Xd Columns(const Matrix3Xd& points, const std::vector<Index>& which) {
 
 Similarity LeastMedian(const Matrix3Xd& source, const Matrix3Xd& target) {
   Similarity best = AlignPoints(source, target);
-  double least = Median(Residuals(best, source, target));
+  double least = MedianOf(Residuals(best, source, target));
   std::mt19937_64 random(1);  // its numbers are the standard's, unlike those of distributions
   const auto count = static_cast<uint64_t>(source.cols());
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -62,7 +61,7 @@ Similarity LeastMedian(const Matrix3Xd& source, const Matrix3Xd& target) {
     const Matrix3Xd from = Columns(source, sample), to = Columns(target, sample);
     if (!SpansAPlane(from) || !SpansAPlane(to)) continue;
     const Similarity fit = AlignPoints(from, to);
-    const double median = Median(Residuals(fit, source, target));
+    const double median = MedianOf(Residuals(fit, source, target));
     if (median < least) {
       least = median;
       best = fit;
@@ -78,7 +77,7 @@ std::optional<Alignment> AlignRobustly(const Matrix3Xd& source, const Matrix3Xd&
   Alignment alignment{LeastMedian(source, target), {}};
   for (int i = 0; i < kRefinements; ++i) {
     const Eigen::VectorXd residuals = Residuals(alignment.target_from_source, source, target);
-    const double limit = std::max(kGross * Median(residuals), kExactM);
+    const double limit = std::max(kGross * MedianOf(residuals), kExactM);
     std::vector<bool> used;
     std::vector<Index> kept;
     for (Index k = 0; k < residuals.size(); ++k) {

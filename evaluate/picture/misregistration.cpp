@@ -8,6 +8,7 @@
 
 #include "evaluate/evaluation.h"
 #include "evaluate/picture/internal/planes.h"
+#include "survey/median.h"
 
 namespace stucco::evaluate {
 namespace {
@@ -97,12 +98,6 @@ cv::Mat FilledLike(const cv::Mat& truth, const cv::Mat& result, const cv::Mat& m
   return filled;
 }
 
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 double Misregistration(const PicturePair& pair) {
@@ -122,7 +117,7 @@ double Misregistration(const PicturePair& pair) {
     if (cv::norm(back.to[i] - places[i]) > kReturn_px) continue;
     lengths.push_back(cv::norm(there.to[i] - places[i]));
   }
-  return lengths.size() < kFewestPlaces ? kNotMeasured : Median(lengths);
+  return lengths.size() < kFewestPlaces ? kNotMeasured : *Median(lengths);
 }
 
 }  // namespace stucco::evaluate

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "simulate/flight/sensor.h"
+#include "survey/median.h"
 
 namespace stucco::evaluate {
 namespace {
@@ -93,11 +94,7 @@ void LightPairs::Append(const LightPairs& other) {
 std::array<double, 3> FitGains(LightPairs pairs) {
   std::array<double, 3> gains = {1, 1, 1};
   for (int c = 0; c < 3; ++c) {
-    std::vector<double>& ratios = pairs.log_ratios[c];
-    if (ratios.empty()) continue;
-    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-    std::nth_element(ratios.begin(), middle, ratios.end());
-    gains[c] = std::exp(*middle);
+    gains[c] = std::exp(Median(std::move(pairs.log_ratios[c])).value_or(0));
   }
   return gains;
 }

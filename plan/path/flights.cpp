@@ -10,6 +10,7 @@
 #include "plan/path/energy.h"
 #include "plan/path/split.h"
 #include "survey/error.h"
+#include "survey/median.h"
 #include "survey/parallel.h"
 
 namespace stucco::plan {
@@ -213,10 +214,7 @@ double MedianFacadeSpan(const FlightPlan& plan, size_t facades) {
   for (const Span& span : spans) {
     if (span.to > span.from) lengths.push_back(span.to - span.from);
   }
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return Median(std::move(lengths)).value_or(0);
 }
 
 }  // namespace
