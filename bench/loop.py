@@ -27,10 +27,11 @@ STEPS = ("plan", "fly", "run", "evaluate")
 FLIGHT = ["scene", "method", "photos", "hovers", "length (m)", "time (min)", "battery (%)",
           "Q_s", "Q_d", "Q_u", "Q_c"]
 GEOMETRY = ["scene", "method", "posed", "position (mm)", "rotation (deg)", "georeferenced (m)",
-            "cloud error (m)", "complete: seen", "all", "model error (m)", "complete: seen", "all",
-            "walls (m)", "complete: seen", "watertight", "facets / truth", "ids"]
+            "cloud error (m)", "complete: seen", "all", "its walls: seen", "model error (m)",
+            "complete: seen", "all", "its walls (m)", "complete: seen", "watertight",
+            "facets / truth", "ids"]
 PICTURES = ["scene", "method", "painted", "SSIM", "MS-SSIM", "PSNR", "GMSD", "FLIP", "LPIPS",
-            "misregistration (px)", "held out SSIM", "held out PSNR", "held out FLIP"]
+            "misregistration (px)", "(m)", "held out: compared", "SSIM", "PSNR", "FLIP"]
 TIMES = ["scene", "method", "photos", "seconds", "plan", "fly", *surveys.STAGES, "evaluate", "all"]
 
 
@@ -51,25 +52,21 @@ def flight_cells(figures):
 
 
 def geometry_cells(figures):
+    """Cloud and model by their buildings: most of what is near them is ground."""
     poses, dense, proxy = figures["poses"], figures["dense"], figures["proxy"]
     position = poses["position_mean_m"]
     return [of_all(poses["posed"], poses["total"]),
             surveys.number(None if position is None else 1000 * position, 1),
             surveys.number(poses["rotation_mean_deg"], 4),
             surveys.number(poses["georeferenced_mean_m"]),
-            surveys.number(dense["error95_m"], 3), percent(dense["completeness"]),
-            percent(dense["completeness_all"]),
-            surveys.number(proxy["error95_m"], 3), percent(proxy["completeness"]),
-            percent(proxy["completeness_all"]),
+            surveys.number(dense["building_error95_m"], 3),
+            percent(dense["building_completeness"]), percent(dense["building_completeness_all"]),
+            percent(dense["wall_completeness"]),
+            surveys.number(proxy["building_error95_m"], 3),
+            percent(proxy["building_completeness"]), percent(proxy["building_completeness_all"]),
             surveys.number(proxy["wall_error95_m"], 3), percent(proxy["wall_completeness"]),
             of_all(proxy["watertight"], proxy["truth_buildings"]),
             of_all(proxy["facets"], proxy["truth_facets"]), percent(proxy["facade_id_rate"])]
-
-
-def painted_share(facades):
-    """Of the walls' area."""
-    area = sum(facade["area_m2"] for facade in facades)
-    return sum(f["area_m2"] * f["painted"] for f in facades) / area if area > 0 else None
 
 
 def picture_cells(figures):
@@ -77,7 +74,9 @@ def picture_cells(figures):
     return [percent(texture["painted"]),
             *(surveys.number(texture[name + "_mean"], 2 if name == "psnr" else 3)
               for name in ("ssim", "ms_ssim", "psnr", "gmsd", "flip", "lpips")),
-            surveys.number(texture["misregistration_px"]), surveys.number(views["ssim_mean"], 3),
+            surveys.number(texture["misregistration_px"]),
+            surveys.number(texture["misregistration_m"], 3), percent(views["compared"]),
+            surveys.number(views["ssim_mean"], 3),
             surveys.number(views["psnr_mean"]), surveys.number(views["flip_mean"], 3)]
 
 
@@ -115,7 +114,7 @@ def tables(flown):
 def figures_of(survey, chain):
     """evaluation.json without its lists, and what all of it cost."""
     evaluation = json.loads((survey / "evaluation/evaluation.json").read_text())
-    evaluation["texture"]["painted"] = painted_share(evaluation["texture"].pop("facades", []))
+    evaluation["texture"].pop("facades", None)
     evaluation["views"].pop("photos", None)
     return {"name": survey.name, **evaluation, "stages": surveys.stage_costs(survey),
             "steps": chain.costs(), "commits": chain.commits()}

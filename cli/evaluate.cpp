@@ -12,12 +12,14 @@
 #include <string>
 
 #include "cli/program.h"
+#include "pipeline/resources.h"
 #include "survey/numbers.h"
 
 namespace stucco {
 namespace {
 
 using evaluate::Evaluation;
+using evaluate::PartFigures;
 using evaluate::PictureFigures;
 using evaluate::SurfaceFigures;
 
@@ -28,10 +30,11 @@ std::string Metres(double value) {
 std::string PosesText(const evaluate::PoseFigures& poses) {
   return fmt::format(
       "poses       {} of {}; position mean {}, max {}; rotation mean {} deg, max {} deg\n"
-      "            as georeferenced: {}\n",
+      "            as georeferenced: {}, max {}; rotation mean {} deg\n",
       poses.posed, poses.total, Metres(poses.position_mean_m), Metres(poses.position_max_m),
       Decimal(poses.rotation_mean_deg, 4), Decimal(poses.rotation_max_deg, 4),
-      Metres(poses.georeferenced_mean_m));
+      Metres(poses.georeferenced_mean_m), Metres(poses.georeferenced_max_m),
+      Decimal(poses.georeferenced_rotation_mean_deg, 4));
 }
 
 std::string SurfaceText(const char* name, const SurfaceFigures& figures) {
@@ -63,21 +66,24 @@ std::string PlanText(const evaluate::PlanFigures& plan) {
       plan.method, plan.photos, plan.hovers, plan.length_m, plan.time_min, plan.battery_percent);
 }
 
+// The buildings first: most of what there is near them is ground.
+std::string PartsText(const char* name, const PartFigures& figures) {
+  if (!IsMeasured(figures.all)) return "";
+  return SurfaceText(name, figures.building) + SurfaceText("  walls", figures.wall) +
+         SurfaceText("  roofs", figures.roof) + SurfaceText("  ground", figures.ground) +
+         SurfaceText("  all", figures.all);
+}
+
 // Nothing where nothing was measured: the notes say why.
 std::string SurfacesText(const Evaluation& evaluation) {
   std::string rows;
-  if (IsMeasured(evaluation.dense)) rows += SurfaceText("cloud", evaluation.dense);
-  if (IsMeasured(evaluation.mesh)) rows += SurfaceText("mesh", evaluation.mesh);
-  const evaluate::ProxyFigures& proxy = evaluation.proxy;
-  if (IsMeasured(proxy.all)) {
-    rows += SurfaceText("model", proxy.all) + SurfaceText("  walls", proxy.wall) +
-            SurfaceText("  roofs", proxy.roof) + SurfaceText("  ground", proxy.ground);
-  }
+  rows += PartsText("cloud", evaluation.dense) + PartsText("mesh", evaluation.mesh) +
+          PartsText("model", evaluation.proxy.surface);
   if (rows.empty()) return "";
   return fmt::format("\n{:<11} {:>12} {:>14} {:>14}\n", "", "95 % below", "complete: seen",
                      "of everything") +
          rows + fmt::format("(complete: within {:g} m)\n", evaluation.tolerance_m) +
-         (IsMeasured(proxy.all) ? "\n" + ProxyText(proxy) : "");
+         (evaluation.proxy.truth_buildings > 0 ? "\n" + ProxyText(evaluation.proxy) : "");
 }
 
 std::string PicturesText(const Evaluation& evaluation) {
@@ -86,7 +92,11 @@ std::string PicturesText(const Evaluation& evaluation) {
                      "PSNR", "GMSD", "FLIP", "LPIPS") +
          PictureText("facades", evaluation.texture_mean) +
          PictureText("held out", evaluation.views_mean) +
-         fmt::format("misregistration {} px\n", Decimal(evaluation.misregistration_px, 2));
+         fmt::format(
+             "(facades: the {} of their area that are painted; held out: the {} of buildings that "
+             "the model has)\nmisregistration {} px, {}\n",
+             Percent(evaluation.painted), Percent(evaluation.views_compared),
+             Decimal(evaluation.misregistration_px, 2), Metres(evaluation.misregistration_m));
 }
 
 std::string Text(const Evaluation& evaluation) {
@@ -100,7 +110,7 @@ std::string Text(const Evaluation& evaluation) {
 int EvaluateAndPrint(const Program& program, evaluate::EvaluateRequest request) {
   const CommonOptions& common = program.common;
   request.survey = common.survey;
-  request.threads = common.threads;
+  request.threads = common.threads > 0 ? common.threads : AvailableCores();
   if (request.output.empty()) request.output = request.survey / "evaluation";
   const Evaluation evaluation = evaluate::Evaluate(request);
   evaluate::WriteEvaluation(evaluation, request.output);

@@ -15,6 +15,7 @@
 #include "evaluate/attempt.h"
 #include "evaluate/geometry/cloud.h"
 #include "evaluate/geometry/compare_proxy.h"
+#include "evaluate/geometry/part_near.h"
 #include "evaluate/geometry/poses.h"
 #include "evaluate/geometry/seen.h"
 #include "evaluate/measure_pictures.h"
@@ -39,24 +40,19 @@ constexpr uint64_t kSeed = 1;
 
 // The scene as geometry, made once for every measure that needs it.
 struct SceneShape {
-  Surface relief;           // buildings and ground with all they have standing out
-  SurfaceIndex everything;  // and what stands about
-  TruthPoints wanted;       // of the relief, near buildings
+  Surface relief;  // buildings and ground with all they have standing out
+  SceneIndex index;
+  TruthPoints wanted;  // of the relief, near buildings
 };
 
 SceneShape ShapeOf(const simulate::Scene& scene, const Truth& truth, int threads) {
-  SceneShape shape{
-      SurfaceOf(scene, [](const std::string& element) { return !IsOccluder(element); }),
-      SurfaceIndex(SurfaceOf(scene, [](const std::string&) { return true; })),
-      {}};
-  const std::vector<SurfacePoint> points = SamplePoints(shape.relief, kTruthSamples, kSeed);
-  const std::vector<double> away =
-      Distances(Positions(points), SurfaceIndex(BuildingSurface(truth.facets)), threads);
-  for (size_t i = 0; i < points.size(); ++i) {
-    if (away[i] <= kGroundReachM) shape.wanted.points.push_back(points[i]);
-  }
-  shape.wanted.seen =
-      SeenByAny(shape.wanted.points, DeliveredPhotos(truth.flight), shape.everything, threads);
+  SceneShape shape{ReliefOf(scene),
+                   {SurfaceIndex(SurfaceOf(scene)), SurfaceIndex(BuildingSurface(truth.facets))},
+                   {}};
+  const Surface surveyed = PartNear(shape.relief, shape.index.buildings, kGroundReachM);
+  shape.wanted.points = SamplePoints(surveyed, kTruthSamples, kSeed);
+  shape.wanted.seen = SeenByAny(shape.wanted.points, DeliveredPhotos(truth.flight),
+                                shape.index.everything, threads);
   return shape;
 }
 
@@ -140,26 +136,25 @@ class Evaluator {
   }
 
   void MeasureCloud(const SceneShape& shape) {
-    evaluation_.dense = CompareCloud(request_.survey / kCloudFile, *truth_from_world_,
-                                     shape.everything, shape.wanted, tolerance(), threads());
+    evaluation_.dense = CompareCloud(request_.survey / kCloudFile, *truth_from_world_, shape.index,
+                                     shape.wanted, tolerance(), threads());
   }
 
   void MeasureMesh(const SceneShape& shape) {
     simulate::ModelReading reading;
     reading.up = simulate::UpAxis::kZ;
-    Surface mesh = SurfaceOf(simulate::ReadScene(request_.survey / kMeshFile, reading),
-                             [](const std::string&) { return true; });
+    Surface mesh = SurfaceOf(simulate::ReadScene(request_.survey / kMeshFile, reading));
     for (Vector3d& vertex : mesh.vertices) vertex = *truth_from_world_ * vertex;
-    evaluation_.mesh = CompareSurface(SurfaceIndex(std::move(mesh)), shape.everything, shape.wanted,
+    evaluation_.mesh = CompareSurface(SurfaceIndex(std::move(mesh)), shape.index, shape.wanted,
                                       tolerance(), threads());
   }
 
   void MeasureProxy(const SceneShape& shape) {
     const Proxy proxy = ReadProxy(request_.survey / kFacetsFile);
     const auto photos = DeliveredPhotos(truth_.flight);
-    evaluation_.proxy = CompareProxy(proxy, *truth_from_world_,
-                                     {truth_.facets, shape.relief, shape.everything, photos},
-                                     tolerance(), threads());
+    evaluation_.proxy =
+        CompareProxy(proxy, *truth_from_world_, {truth_.facets, shape.relief, shape.index, photos},
+                     tolerance(), threads());
   }
 
   double tolerance() const { return request_.tolerance_m; }

@@ -16,7 +16,7 @@ struct EvaluateRequest {
   std::filesystem::path output;       // evaluation.json, facades.csv, evaluation.html, pictures/
   std::filesystem::path lpips_model;  // ONNX; empty: LPIPS is not measured
   double tolerance_m = 0.1;
-  int threads = 0;
+  int threads = 1;
 };
 
 // Measures every result of the survey against the truth. What a stage has not made yet, or what
@@ -24,7 +24,7 @@ struct EvaluateRequest {
 // has no truth, and where the network for LPIPS or the output folder is of no use.
 Evaluation Evaluate(const EvaluateRequest& request);
 
-// Throws Error (kBadInput) where it cannot be.
+// Throws Error (kBadInput) where it cannot be, or where it has a facades.csv of somebody else.
 void MakeOutputFolder(const std::filesystem::path& output);
 // evaluation.json (docs/formats.md); what was not measured is null.
 std::string EvaluationJson(const Evaluation& evaluation);

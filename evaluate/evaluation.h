@@ -18,7 +18,11 @@ struct PoseFigures {
   double position_max_m = kNotMeasured;
   double rotation_mean_deg = kNotMeasured;
   double rotation_max_deg = kNotMeasured;
-  double georeferenced_mean_m = kNotMeasured;  // in the frames as they are
+  // In the frames as they are, without any alignment.
+  double georeferenced_mean_m = kNotMeasured;
+  double georeferenced_max_m = kNotMeasured;
+  double georeferenced_rotation_mean_deg = kNotMeasured;
+  double georeferenced_rotation_max_deg = kNotMeasured;
 };
 
 struct SurfaceFigures {
@@ -26,6 +30,12 @@ struct SurfaceFigures {
   // Share of the truth's area with the result nearby: of what the photos show, and of everything.
   double completeness = kNotMeasured;
   double completeness_all = kNotMeasured;
+};
+
+// Of everything near buildings, and of its parts: the buildings alone (walls, roofs and what stands
+// out from them), and each class.
+struct PartFigures {
+  SurfaceFigures all, building, wall, roof, ground;
 };
 
 struct ProxyFigures {
@@ -36,7 +46,7 @@ struct ProxyFigures {
   int truth_buildings = 0;
   int facets = 0;
   int truth_facets = 0;
-  SurfaceFigures all, wall, roof, ground;
+  PartFigures surface;
   double facade_id_rate = kNotMeasured;  // share of the truth's wall area whose facet has its id
 };
 
@@ -55,6 +65,7 @@ struct FacadeFigures {
   double area_m2 = 0;
   double painted = 0;  // share of the truth's area that the result paints
   PictureFigures picture;
+  double texel_m = kNotMeasured;  // at which both pictures were compared
   double misregistration_px = kNotMeasured;
   std::string truth_picture;  // for the page, relative to the output folder; may be empty
   std::string result_picture;
@@ -64,6 +75,7 @@ struct FacadeFigures {
 
 struct HeldOutFigures {
   std::string photo;
+  double compared = kNotMeasured;  // share of what the photo shows of buildings that the model has
   PictureFigures picture;
   std::string truth_picture;
   std::string result_picture;
@@ -86,11 +98,15 @@ struct Evaluation {
   std::string scene;
   double tolerance_m = 0.1;  // of completeness
   PoseFigures poses;
-  SurfaceFigures dense, mesh;
+  PartFigures dense, mesh;
   ProxyFigures proxy;
+  // Of what is painted: `painted` says how much of the facades' area that is.
+  double painted = kNotMeasured;
   PictureFigures texture_mean;
   double misregistration_px = kNotMeasured;  // median over facades, by area
+  double misregistration_m = kNotMeasured;
   std::vector<FacadeFigures> facades;
+  double views_compared = kNotMeasured;  // mean of HeldOutFigures::compared
   PictureFigures views_mean;
   std::vector<HeldOutFigures> views;
   bool has_plan = false;

@@ -13,6 +13,7 @@
 #include "evaluate/geometry/seen.h"
 #include "evaluate/means.h"
 #include "evaluate/picture/compare_textures.h"
+#include "evaluate/picture/page_pictures.h"
 #include "survey/survey_folder.h"
 
 namespace stucco::evaluate {
@@ -43,7 +44,27 @@ PictureFigures MeanOfViews(std::span<const HeldOutFigures> views) {
   return MeanFigures(pictures);
 }
 
+double MeanCompared(std::span<const HeldOutFigures> views) {
+  double sum = 0;
+  int count = 0;
+  for (const HeldOutFigures& view : views) {
+    if (!std::isfinite(view.compared)) continue;
+    sum += view.compared;
+    ++count;
+  }
+  return count > 0 ? sum / count : kNotMeasured;
+}
+
 }  // namespace
+
+double PaintedShare(std::span<const FacadeFigures> facades) {
+  double area_m2 = 0, painted_m2 = 0;
+  for (const FacadeFigures& facade : facades) {
+    area_m2 += facade.area_m2;
+    painted_m2 += facade.area_m2 * facade.painted;
+  }
+  return area_m2 > 0 ? painted_m2 / area_m2 : kNotMeasured;
+}
 
 PictureFigures MeanOfFacades(std::span<const FacadeFigures> facades) {
   std::vector<WeightedPicture> pictures;
@@ -53,13 +74,15 @@ PictureFigures MeanOfFacades(std::span<const FacadeFigures> facades) {
   return MeanFigures(pictures);
 }
 
-double MedianMisregistration(std::span<const FacadeFigures> facades) {
+double MedianShift(std::span<const FacadeFigures> facades,
+                   double (*shift_of)(const FacadeFigures&)) {
   std::vector<std::pair<double, double>> values;  // shift, area
   double area = 0;
   for (const FacadeFigures& facade : facades) {
     const double painted_m2 = facade.area_m2 * facade.painted;
-    if (!std::isfinite(facade.misregistration_px) || !(painted_m2 > 0)) continue;
-    values.emplace_back(facade.misregistration_px, painted_m2);
+    const double shift = shift_of(facade);
+    if (!std::isfinite(shift) || !(painted_m2 > 0)) continue;
+    values.emplace_back(shift, painted_m2);
     area += painted_m2;
   }
   std::sort(values.begin(), values.end());
@@ -97,6 +120,7 @@ void MeasureViews(const TextureComparison& comparison, const simulate::Flight& f
   NoteProblems("photos held out", evaluation.views, evaluation);
   std::erase_if(evaluation.views, [](const HeldOutFigures& view) { return !view.problem.empty(); });
   evaluation.views_mean = MeanOfViews(evaluation.views);
+  evaluation.views_compared = MeanCompared(evaluation.views);
 }
 
 }  // namespace
@@ -122,9 +146,15 @@ void MeasurePictures(const EvaluateRequest& request, const Truth& truth, simulat
       .output = request.output,
       .lpips_model = request.lpips_model,
       .threads = request.threads};
+  if (!request.output.empty()) RemovePagePictures(request.output);
   evaluation.facades = CompareFacades(comparison);
   evaluation.texture_mean = MeanOfFacades(evaluation.facades);
-  evaluation.misregistration_px = MedianMisregistration(evaluation.facades);
+  evaluation.painted = PaintedShare(evaluation.facades);
+  evaluation.misregistration_px =
+      MedianShift(evaluation.facades, [](const auto& facade) { return facade.misregistration_px; });
+  evaluation.misregistration_m = MedianShift(evaluation.facades, [](const auto& facade) {
+    return facade.misregistration_px * facade.texel_m;
+  });
   NoteProblems("walls have pictures that", evaluation.facades, evaluation);
   Attempt(
       "views are", [&] { MeasureViews(comparison, truth.flight, flight, evaluation); }, evaluation);

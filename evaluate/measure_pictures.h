@@ -16,8 +16,14 @@ namespace stucco::evaluate {
 void MeasurePictures(const EvaluateRequest& request, const Truth& truth, simulate::Scene scene,
                      const Similarity& truth_from_world, Evaluation& evaluation);
 
-// Means by painted area, and the median misregistration by the same.
+// Share of the facades' area that is painted; not measured where there is no area.
+double PaintedShare(std::span<const FacadeFigures> facades);
+
+// Mean by painted area.
 PictureFigures MeanOfFacades(std::span<const FacadeFigures> facades);
-double MedianMisregistration(std::span<const FacadeFigures> facades);
+
+// Median of what `shift_of` says of each facade, by painted area, without those not measured.
+double MedianShift(std::span<const FacadeFigures> facades,
+                   double (*shift_of)(const FacadeFigures&));
 
 }  // namespace stucco::evaluate

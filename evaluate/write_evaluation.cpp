@@ -19,6 +19,8 @@ namespace {
 using Json = nlohmann::ordered_json;  // keeps the order in which fields were written
 
 constexpr int kVersion = 1;
+constexpr char kEvaluationFile[] = "evaluation.json";
+constexpr char kFacadesFile[] = "facades.csv";
 
 // JSON has no word for what was not measured but null.
 Json Number(double value) {
@@ -48,12 +50,23 @@ Json PosesJson(const PoseFigures& poses) {
           {"position_max_m", Number(poses.position_max_m)},
           {"rotation_mean_deg", Number(poses.rotation_mean_deg)},
           {"rotation_max_deg", Number(poses.rotation_max_deg)},
-          {"georeferenced_mean_m", Number(poses.georeferenced_mean_m)}};
+          {"georeferenced_mean_m", Number(poses.georeferenced_mean_m)},
+          {"georeferenced_max_m", Number(poses.georeferenced_max_m)},
+          {"georeferenced_rotation_mean_deg", Number(poses.georeferenced_rotation_mean_deg)},
+          {"georeferenced_rotation_max_deg", Number(poses.georeferenced_rotation_max_deg)}};
 }
 
-Json SurfaceJson(const SurfaceFigures& figures) {
+void AddParts(const PartFigures& figures, Json& json) {
+  AddSurface(figures.all, "", json);
+  AddSurface(figures.building, "building_", json);
+  AddSurface(figures.wall, "wall_", json);
+  AddSurface(figures.roof, "roof_", json);
+  AddSurface(figures.ground, "ground_", json);
+}
+
+Json PartsJson(const PartFigures& figures) {
   Json json = Json::object();
-  AddSurface(figures, "", json);
+  AddParts(figures, json);
   return json;
 }
 
@@ -65,10 +78,7 @@ Json ProxyJson(const ProxyFigures& proxy) {
                {"self_intersecting", proxy.self_intersecting},
                {"facets", proxy.facets},
                {"truth_facets", proxy.truth_facets}};
-  AddSurface(proxy.all, "", json);
-  AddSurface(proxy.wall, "wall_", json);
-  AddSurface(proxy.roof, "roof_", json);
-  AddSurface(proxy.ground, "ground_", json);
+  AddParts(proxy.surface, json);
   json["facade_id_rate"] = Number(proxy.facade_id_rate);
   return json;
 }
@@ -79,6 +89,7 @@ Json FacadeJson(const FacadeFigures& facade) {
                {"area_m2", facade.area_m2},
                {"painted", facade.painted}};
   AddPicture(facade.picture, "", json);
+  json["texel_m"] = Number(facade.texel_m);
   json["misregistration_px"] = Number(facade.misregistration_px);
   json["truth_picture"] = facade.truth_picture;
   json["result_picture"] = facade.result_picture;
@@ -87,9 +98,10 @@ Json FacadeJson(const FacadeFigures& facade) {
 }
 
 Json TextureJson(const Evaluation& evaluation) {
-  Json json = Json::object();
+  Json json = {{"painted", Number(evaluation.painted)}};
   AddPicture(evaluation.texture_mean, "_mean", json);
   json["misregistration_px"] = Number(evaluation.misregistration_px);
+  json["misregistration_m"] = Number(evaluation.misregistration_m);
   json["facades"] = Json::array();
   for (const FacadeFigures& facade : evaluation.facades) {
     json["facades"].push_back(FacadeJson(facade));
@@ -98,11 +110,11 @@ Json TextureJson(const Evaluation& evaluation) {
 }
 
 Json ViewsJson(const Evaluation& evaluation) {
-  Json json = Json::object();
+  Json json = {{"compared", Number(evaluation.views_compared)}};
   AddPicture(evaluation.views_mean, "_mean", json);
   json["photos"] = Json::array();
   for (const HeldOutFigures& view : evaluation.views) {
-    Json photo = {{"photo", view.photo}};
+    Json photo = {{"photo", view.photo}, {"compared", Number(view.compared)}};
     AddPicture(view.picture, "", photo);
     photo["truth_picture"] = view.truth_picture;
     photo["result_picture"] = view.result_picture;
@@ -131,13 +143,13 @@ std::string Cell(double value) {
 
 std::string FacadesCsv(const Evaluation& evaluation) {
   std::string csv =
-      "id,facet,area_m2,painted,ssim,ms_ssim,psnr,gmsd,flip,lpips,misregistration_px\r\n";
+      "id,facet,area_m2,painted,ssim,ms_ssim,psnr,gmsd,flip,lpips,texel_m,misregistration_px\r\n";
   for (const FacadeFigures& facade : evaluation.facades) {
     const PictureFigures& picture = facade.picture;
     csv += CsvField(facade.id) + "," + CsvField(facade.facet);
     for (const double value :
          {facade.area_m2, facade.painted, picture.ssim, picture.ms_ssim, picture.psnr, picture.gmsd,
-          picture.flip, picture.lpips, facade.misregistration_px}) {
+          picture.flip, picture.lpips, facade.texel_m, facade.misregistration_px}) {
       csv += "," + Cell(value);
     }
     csv += "\r\n";
@@ -153,8 +165,8 @@ std::string EvaluationJson(const Evaluation& evaluation) {
                {"scene", evaluation.scene},
                {"tolerance_m", evaluation.tolerance_m},
                {"poses", PosesJson(evaluation.poses)},
-               {"dense", SurfaceJson(evaluation.dense)},
-               {"mesh", SurfaceJson(evaluation.mesh)},
+               {"dense", PartsJson(evaluation.dense)},
+               {"mesh", PartsJson(evaluation.mesh)},
                {"proxy", ProxyJson(evaluation.proxy)},
                {"texture", TextureJson(evaluation)},
                {"views", ViewsJson(evaluation)}};
@@ -171,12 +183,17 @@ void MakeOutputFolder(const std::filesystem::path& output) {
                 fmt::format("{}: cannot be created: {}", output.string(), failure.message()),
                 "give another folder with --out");
   }
+  const std::filesystem::path table = output / kFacadesFile;
+  if (std::filesystem::exists(table) && !std::filesystem::exists(output / kEvaluationFile)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: is of no evaluation", table.string()),
+                "give another folder with --out: this one's files would be replaced");
+  }
 }
 
 void WriteEvaluation(const Evaluation& evaluation, const std::filesystem::path& output) {
   MakeOutputFolder(output);
-  WriteFileAtomically(output / "evaluation.json", EvaluationJson(evaluation) + "\n");
-  WriteFileAtomically(output / "facades.csv", FacadesCsv(evaluation));
+  WriteFileAtomically(output / kEvaluationFile, EvaluationJson(evaluation) + "\n");
+  WriteFileAtomically(output / kFacadesFile, FacadesCsv(evaluation));
   WriteEvaluationPage(evaluation, output);
 }
 

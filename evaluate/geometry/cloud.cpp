@@ -6,8 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
+#include <vector>
 
+#include "survey/parallel.h"
 #include "survey/ply.h"
 
 namespace stucco::evaluate {
@@ -15,8 +18,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr uint64_t kMostForError = 500000;  // the 95th percentile is then known to 0.03 %
-constexpr size_t kSurfaceSamples = 200000;
+// Most lie on ground around the survey; of a facade there may be one in a hundred.
+constexpr uint64_t kMostForError = 2000000;
+constexpr size_t kSurfaceSamples = 1000000;
 constexpr uint64_t kSeed = 1;
 
 // Finds points near a given one: cells twice as wide as the radius, so that eight hold all.
@@ -70,38 +74,33 @@ class PointGrid {
   std::unordered_map<Cell, std::vector<uint32_t>, HashCell> cells_;
 };
 
-double Error95(std::span<const Vector3d> points, const SurfaceIndex& scene, int threads) {
-  return Quantile(Distances(points, scene, threads), 0.95);
+// How far points of a result are from the scene. Those of ground that is none of the survey's are
+// left out.
+ResultPoints MeasurePoints(std::span<const Vector3d> points, const SceneIndex& scene, int threads) {
+  constexpr size_t kBlock = 1024;  // points for one task
+  std::vector<NearestPlace> nearest(points.size());
+  std::vector<char> counts(points.size());
+  ParallelFor((points.size() + kBlock - 1) / kBlock, threads, [&](size_t block) {
+    for (size_t i = block * kBlock; i < std::min(points.size(), (block + 1) * kBlock); ++i) {
+      nearest[i] = scene.everything.Nearest(points[i]);
+      const int group = nearest[i].group;
+      const bool on_building =
+          group != static_cast<int>(FacetClass::kGround) && group != kStandsAbout;
+      counts[i] = on_building || scene.buildings.Distance(nearest[i].place) <= kGroundReachM;
+    }
+  });
+  ResultPoints measured;
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (counts[i]) measured.Add(nearest[i].distance, nearest[i].group);
+  }
+  return measured;
 }
 
 }  // namespace
 
-double Quantile(std::vector<double> values, double share) {
-  if (values.empty()) return kNotMeasured;
-  const double rank = std::ceil(share * static_cast<double>(values.size()));
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
-void SetCompleteness(const TruthPoints& truth, std::span<const char> found,
-                     SurfaceFigures& figures) {
-  double seen = 0, seen_found = 0, all_found = 0;
-  for (size_t i = 0; i < truth.points.size(); ++i) {
-    all_found += found[i];
-    if (!truth.seen[i]) continue;
-    seen += 1;
-    seen_found += found[i];
-  }
-  if (seen > 0) figures.completeness = seen_found / seen;
-  if (!truth.points.empty()) {
-    figures.completeness_all = all_found / static_cast<double>(truth.points.size());
-  }
-}
-
-SurfaceFigures CompareCloud(const std::filesystem::path& ply, const Similarity& truth_from_world,
-                            const SurfaceIndex& scene, const TruthPoints& truth, double tolerance_m,
-                            int threads) {
+PartFigures CompareCloud(const std::filesystem::path& ply, const Similarity& truth_from_world,
+                         const SceneIndex& scene, const TruthPoints& truth, double tolerance_m,
+                         int threads) {
   const uint64_t step = ReadPlyLayout(ply).points / kMostForError + 1;
   PointGrid grid(truth.points, tolerance_m);
   std::vector<Vector3d> chosen;
@@ -111,23 +110,17 @@ SurfaceFigures CompareCloud(const std::filesystem::path& ply, const Similarity& 
     grid.Mark(place);
     if (number++ % step == 0) chosen.push_back(place);
   });
-  SurfaceFigures figures;
-  figures.error95_m = Error95(chosen, scene, threads);
-  SetCompleteness(truth, grid.found(), figures);
-  return figures;
+  return FiguresOf(MeasurePoints(chosen, scene, threads), truth, grid.found());
 }
 
-SurfaceFigures CompareSurface(const SurfaceIndex& result, const SurfaceIndex& scene,
-                              const TruthPoints& truth, double tolerance_m, int threads) {
-  SurfaceFigures figures;
-  figures.error95_m =
-      Error95(Positions(SamplePoints(result.surface(), kSurfaceSamples, kSeed)), scene, threads);
+PartFigures CompareSurface(const SurfaceIndex& result, const SceneIndex& scene,
+                           const TruthPoints& truth, double tolerance_m, int threads) {
+  const auto points = Positions(SamplePoints(result.surface(), kSurfaceSamples, kSeed));
   std::vector<char> found;
   for (const double distance : Distances(Positions(truth.points), result, threads)) {
     found.push_back(distance <= tolerance_m ? 1 : 0);
   }
-  SetCompleteness(truth, found, figures);
-  return figures;
+  return FiguresOf(MeasurePoints(points, scene, threads), truth, found);
 }
 
 }  // namespace stucco::evaluate

@@ -3,37 +3,32 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
-#include <vector>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/geometry/part_figures.h"
 #include "evaluate/geometry/surface_index.h"
 #include "survey/pose.h"
 
 namespace stucco::evaluate {
 
-// Points of the truth that a result should have: `seen` says which of them photos show (seen.h).
-struct TruthPoints {
-  std::vector<SurfacePoint> points;
-  std::vector<char> seen;
+// What a cloud or a mesh is measured against. Every point of the result counts whose nearest place
+// in the scene is of a building or near one, for the part that this place is of.
+struct SceneIndex {
+  SurfaceIndex everything;  // that a camera sees
+  SurfaceIndex buildings;   // walls and roofs of the planar truth
 };
 
-// The value below or at which a share of the values lies (nearest rank); not measured for none.
-double Quantile(std::vector<double> values, double share);
-
-// Completeness where `found` says which of the truth's points have the result nearby.
-void SetCompleteness(const TruthPoints& truth, std::span<const char> found,
-                     SurfaceFigures& figures);
+// Ground farther than this from every building of the truth is none of the survey's.
+inline constexpr double kGroundReachM = 15;
 
 // A cloud that is read from disk once and never held: all its points count for completeness, every
-// n-th of them, at most half a million, for the error. Empty clouds have no error and completeness
-// 0. Throws Error (kBadInput).
-SurfaceFigures CompareCloud(const std::filesystem::path& ply, const Similarity& truth_from_world,
-                            const SurfaceIndex& scene, const TruthPoints& truth, double tolerance_m,
-                            int threads);
+// n-th of them, at most two million, for the error. Empty clouds have no error and completeness 0.
+// Throws Error (kBadInput).
+PartFigures CompareCloud(const std::filesystem::path& ply, const Similarity& truth_from_world,
+                         const SceneIndex& scene, const TruthPoints& truth, double tolerance_m,
+                         int threads);
 
 // A surface in the frame of the truth.
-SurfaceFigures CompareSurface(const SurfaceIndex& result, const SurfaceIndex& scene,
-                              const TruthPoints& truth, double tolerance_m, int threads);
+PartFigures CompareSurface(const SurfaceIndex& result, const SceneIndex& scene,
+                           const TruthPoints& truth, double tolerance_m, int threads);
 
 }  // namespace stucco::evaluate

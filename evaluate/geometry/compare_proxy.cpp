@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "evaluate/geometry/cloud.h"
 #include "evaluate/geometry/match_facets.h"
 #include "evaluate/geometry/moved.h"
+#include "evaluate/geometry/part_near.h"
 #include "evaluate/geometry/seen.h"
 #include "evaluate/geometry/solid_check.h"
 
@@ -21,84 +21,49 @@ bool IsUnderside(const Building& building, const Facet& facet) {
   return facet.facet_class == FacetClass::kGround && !IsGround(building);
 }
 
-// The facets of a proxy that can be seen; the class is the group.
+// The facets of a proxy that can be seen.
 Surface VisibleSurface(const Proxy& proxy) {
   Surface surface;
   for (const Building& building : proxy.buildings) {
     for (const Facet& facet : building.facets) {
-      if (!IsUnderside(building, facet)) {
-        Append(facet, static_cast<int>(facet.facet_class), surface);
-      }
+      if (!IsUnderside(building, facet)) Append(facet, surface);
     }
   }
   return surface;
 }
 
 // Ground counts near buildings only.
-std::vector<SurfacePoint> Surveyed(const std::vector<SurfacePoint>& points,
-                                   const SurfaceIndex& buildings, int threads) {
-  const std::vector<double> away = Distances(Positions(points), buildings, threads);
-  std::vector<SurfacePoint> kept;
-  for (size_t i = 0; i < points.size(); ++i) {
-    const bool ground = points[i].group == static_cast<int>(FacetClass::kGround);
-    if (!ground || away[i] <= kGroundReachM) kept.push_back(points[i]);
+Surface Surveyed(const Surface& surface, const SurfaceIndex& buildings) {
+  Surface ground, surveyed;
+  for (size_t i = 0; i < surface.triangles.size(); ++i) {
+    Surface& part = surface.groups[i] == static_cast<int>(FacetClass::kGround) ? ground : surveyed;
+    part.triangles.push_back(surface.triangles[i]);
+    part.groups.push_back(surface.groups[i]);
   }
-  return kept;
+  ground.vertices = surveyed.vertices = surface.vertices;
+  Append(PartNear(ground, buildings, kGroundReachM), surveyed);
+  return surveyed;
 }
 
-// Distances of points of one side to the other, with what class each point is of.
-struct Measured {
-  TruthPoints points;
-  std::vector<double> distances;
-};
-
-template <typename Use>
-void ForClass(const Measured& measured, int facet_class, const Use& use) {
-  for (size_t i = 0; i < measured.distances.size(); ++i) {
-    if (facet_class < 0 || measured.points.points[i].group == facet_class) use(i);
-  }
-}
-
-double ErrorOf(const Measured& result, int facet_class) {
-  std::vector<double> distances;
-  ForClass(result, facet_class, [&](size_t i) { distances.push_back(result.distances[i]); });
-  return Quantile(std::move(distances), 0.95);
-}
-
-SurfaceFigures FiguresOf(const Measured& result, const Measured& truth, double tolerance_m,
-                         int facet_class) {
-  SurfaceFigures figures;
-  figures.error95_m = ErrorOf(result, facet_class);
-  TruthPoints points;
-  std::vector<char> found;
-  ForClass(truth, facet_class, [&](size_t i) {
-    points.points.push_back(truth.points.points[i]);
-    points.seen.push_back(truth.points.seen[i]);
-    found.push_back(truth.distances[i] <= tolerance_m ? 1 : 0);
-  });
-  SetCompleteness(points, found, figures);
-  return figures;
-}
-
-void MeasureSurfaces(const Proxy& result, const ProxyTruth& truth, double tolerance_m, int threads,
-                     ProxyFigures& figures) {
-  const SurfaceIndex buildings(BuildingSurface(truth.facets));
-  const SurfaceIndex of_result(VisibleSurface(result));
+PartFigures MeasureSurfaces(const Proxy& result, const ProxyTruth& truth, double tolerance_m,
+                            int threads) {
+  const SurfaceIndex& buildings = truth.scene.buildings;
   Surface planes = VisibleSurface(truth.facets);
-  Measured wanted;
-  wanted.points.points = Surveyed(SamplePoints(planes, kSamples, kSeed), buildings, threads);
-  wanted.points.seen = SeenByAny(wanted.points.points, truth.photos, truth.scene, threads);
-  wanted.distances = Distances(Positions(wanted.points.points), of_result, threads);
+  TruthPoints wanted;
+  wanted.points = SamplePoints(Surveyed(planes, buildings), kSamples, kSeed);
+  wanted.seen = SeenByAny(wanted.points, truth.photos, truth.scene.everything, threads);
+  const SurfaceIndex of_result(VisibleSurface(result));
+  std::vector<char> found;
+  for (const double away : Distances(Positions(wanted.points), of_result, threads)) {
+    found.push_back(away <= tolerance_m ? 1 : 0);
+  }
   Append(truth.relief, planes);
   const SurfaceIndex of_truth(std::move(planes));
-  Measured made;
-  made.points.points =
-      Surveyed(SamplePoints(of_result.surface(), kSamples, kSeed), buildings, threads);
-  made.distances = Distances(Positions(made.points.points), of_truth, threads);
-  figures.all = FiguresOf(made, wanted, tolerance_m, -1);
-  figures.wall = FiguresOf(made, wanted, tolerance_m, static_cast<int>(FacetClass::kWall));
-  figures.roof = FiguresOf(made, wanted, tolerance_m, static_cast<int>(FacetClass::kRoof));
-  figures.ground = FiguresOf(made, wanted, tolerance_m, static_cast<int>(FacetClass::kGround));
+  const auto made = SamplePoints(Surveyed(of_result.surface(), buildings), kSamples, kSeed);
+  ResultPoints measured;
+  measured.distances = Distances(Positions(made), of_truth, threads);
+  for (const SurfacePoint& point : made) measured.groups.push_back(point.group);
+  return FiguresOf(measured, wanted, found);
 }
 
 void CountBuildings(const Proxy& result, ProxyFigures& figures) {
@@ -145,9 +110,7 @@ Surface BuildingSurface(const Proxy& proxy) {
   Surface surface;
   for (const Building& building : proxy.buildings) {
     for (const Facet& facet : building.facets) {
-      if (facet.facet_class != FacetClass::kGround) {
-        Append(facet, static_cast<int>(facet.facet_class), surface);
-      }
+      if (facet.facet_class != FacetClass::kGround) Append(facet, surface);
     }
   }
   return surface;
@@ -162,7 +125,7 @@ ProxyFigures CompareProxy(const Proxy& result, const Similarity& truth_from_resu
     ++figures.truth_buildings;
     figures.truth_facets += static_cast<int>(building.facets.size());
   }
-  MeasureSurfaces(Moved(result, truth_from_result), truth, tolerance_m, threads, figures);
+  figures.surface = MeasureSurfaces(Moved(result, truth_from_result), truth, tolerance_m, threads);
   figures.facade_id_rate = FacadeIdRate(MatchFacets(result, truth.facets, truth_from_result));
   return figures;
 }

@@ -4,8 +4,7 @@
 
 #include <span>
 
-#include "evaluate/evaluation.h"
-#include "evaluate/geometry/surface_index.h"
+#include "evaluate/geometry/cloud.h"
 #include "simulate/flight/flight_folder.h"
 #include "survey/pose.h"
 #include "survey/proxy.h"
@@ -14,9 +13,9 @@ namespace stucco::evaluate {
 
 // What a proxy is measured against, all in the frame of the truth.
 struct ProxyTruth {
-  const Proxy& facets;        // the planar truth
-  const Surface& relief;      // the same buildings and ground with all they have standing out
-  const SurfaceIndex& scene;  // everything a camera sees
+  const Proxy& facets;    // the planar truth
+  const Surface& relief;  // the same buildings and ground with all they have standing out
+  const SceneIndex& scene;
   std::span<const simulate::FlownPhoto* const> photos;
 };
 
@@ -27,9 +26,6 @@ ProxyFigures CompareProxy(const Proxy& result, const Similarity& truth_from_resu
 
 // Whether a building of a proxy is the ground.
 bool IsGround(const Building& building);
-
-// Ground farther than this from every building of the truth is none of the survey's.
-inline constexpr double kGroundReachM = 15;
 
 // Walls, roofs and overhangs of all buildings.
 Surface BuildingSurface(const Proxy& proxy);

@@ -50,20 +50,45 @@ double AngleDeg(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   return a.angularDistance(b) * 180 / std::numbers::pi;
 }
 
+struct Errors {
+  int count = 0;
+  double sum_m = 0, most_m = 0;
+  double sum_deg = 0, most_deg = 0;
+
+  void Add(double metres, double degrees) {
+    ++count;
+    sum_m += metres;
+    sum_deg += degrees;
+    most_m = std::max(most_m, metres);
+    most_deg = std::max(most_deg, degrees);
+  }
+  double MeanMetres() const { return sum_m / count; }
+  double MeanDegrees() const { return sum_deg / count; }
+};
+
 void Measure(const std::vector<Pair>& pairs, const Similarity& truth_from_world,
              PoseFigures& figures) {
-  figures.position_mean_m = figures.position_max_m = 0;
-  figures.rotation_mean_deg = figures.rotation_max_deg = 0;
-  const double share = 1.0 / static_cast<double>(pairs.size());
+  Errors errors;
   for (const Pair& pair : pairs) {
     const Pose aligned = Transformed(pair.result, truth_from_world);
-    const double distance = (aligned.Center() - pair.truth.Center()).norm();
-    const double angle = AngleDeg(aligned.rotation, pair.truth.rotation);
-    figures.position_mean_m += share * distance;
-    figures.position_max_m = std::max(figures.position_max_m, distance);
-    figures.rotation_mean_deg += share * angle;
-    figures.rotation_max_deg = std::max(figures.rotation_max_deg, angle);
+    errors.Add((aligned.Center() - pair.truth.Center()).norm(),
+               AngleDeg(aligned.rotation, pair.truth.rotation));
   }
+  figures.position_mean_m = errors.MeanMetres();
+  figures.position_max_m = errors.most_m;
+  figures.rotation_mean_deg = errors.MeanDegrees();
+  figures.rotation_max_deg = errors.most_deg;
+}
+
+// The rotation that takes directions of one tangent frame into the other, at a place.
+Eigen::Quaterniond TurnBetweenFrames(const Georef& from, const Georef& to, const Vector3d& place) {
+  constexpr double kStep_m = 10;
+  Eigen::Matrix3d axes;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d step = kStep_m * Vector3d::Unit(i);
+    axes.col(i) = BetweenFrames(from, to, place + step) - BetweenFrames(from, to, place - step);
+  }
+  return Eigen::Quaterniond(Eigen::Matrix3d(axes / (2 * kStep_m))).normalized();
 }
 
 void MeasureGeoreferenced(const std::vector<Pair>& pairs, const Georef& survey, const Georef& scene,
@@ -75,11 +100,18 @@ void MeasureGeoreferenced(const std::vector<Pair>& pairs, const Georef& survey, 
                     survey.frame != "enu" ? survey.frame : scene.frame));
     return;
   }
-  double sum = 0;
+  Errors errors;
   for (const Pair& pair : pairs) {
-    sum += (BetweenFrames(survey, scene, pair.result.Center()) - pair.truth.Center()).norm();
+    const Vector3d center = pair.result.Center();
+    const Eigen::Quaterniond rotation =
+        pair.result.rotation * TurnBetweenFrames(survey, scene, center).conjugate();
+    errors.Add((BetweenFrames(survey, scene, center) - pair.truth.Center()).norm(),
+               AngleDeg(rotation, pair.truth.rotation));
   }
-  comparison.figures.georeferenced_mean_m = sum / static_cast<double>(pairs.size());
+  comparison.figures.georeferenced_mean_m = errors.MeanMetres();
+  comparison.figures.georeferenced_max_m = errors.most_m;
+  comparison.figures.georeferenced_rotation_mean_deg = errors.MeanDegrees();
+  comparison.figures.georeferenced_rotation_max_deg = errors.most_deg;
 }
 
 void NoteOutliers(const std::vector<Pair>& pairs, const Alignment& alignment,

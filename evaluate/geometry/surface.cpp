@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "simulate/random.h"
+#include "simulate/scene/scene_folder.h"
 #include "survey/triangulate.h"
 
 namespace stucco::evaluate {
@@ -27,13 +28,13 @@ double RandomShare(uint64_t seed, uint64_t index) {
 
 }  // namespace
 
-void Append(const Facet& facet, int group, Surface& surface) {
+void Append(const Facet& facet, Surface& surface) {
   const FacetTriangles pieces = TriangulateFacet(facet);
   const auto first = static_cast<uint32_t>(surface.vertices.size());
   surface.vertices.insert(surface.vertices.end(), pieces.vertices.begin(), pieces.vertices.end());
   for (const auto& t : pieces.triangles) {
     surface.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-    surface.groups.push_back(group);
+    surface.groups.push_back(static_cast<int>(facet.facet_class));
   }
 }
 
@@ -46,23 +47,43 @@ void Append(const Surface& more, Surface& surface) {
   surface.groups.insert(surface.groups.end(), more.groups.begin(), more.groups.end());
 }
 
-Surface SurfaceOf(const simulate::Scene& scene,
-                  const std::function<bool(const std::string& element)>& keep) {
-  std::vector<bool> kept;
-  for (const std::string& element : scene.elements) kept.push_back(keep(element));
+int GroupOf(const std::string& element) {
+  if (element.starts_with(simulate::kOccluderPrefix)) return kStandsAbout;
+  const size_t slash = element.find('/');
+  if (slash == std::string::npos) return static_cast<int>(FacetClass::kGround);
+  const char part = slash + 1 < element.size() ? element[slash + 1] : '\0';
+  if (part == 'R') return static_cast<int>(FacetClass::kRoof);
+  return static_cast<int>(part == 'F' || part == 'W' ? FacetClass::kWall : FacetClass::kOuterFloor);
+}
+
+namespace {
+
+Surface SurfaceOf(const simulate::Scene& scene, bool with_what_stands_about) {
+  std::vector<int> groups;
+  for (const std::string& element : scene.elements) groups.push_back(GroupOf(element));
   Surface surface;
   for (const Eigen::Vector3f& position : scene.positions) {
     surface.vertices.push_back(position.cast<double>());
   }
   for (size_t i = 0; i < scene.triangles.size(); ++i) {
-    const int element = scene.elements_of[i];
-    if (!kept[element]) continue;
+    const int group = groups[scene.elements_of[i]];
+    if (group == kStandsAbout && !with_what_stands_about) continue;
     const Eigen::Vector3i& t = scene.triangles[i];
     surface.triangles.push_back(
         {static_cast<uint32_t>(t[0]), static_cast<uint32_t>(t[1]), static_cast<uint32_t>(t[2])});
-    surface.groups.push_back(element);
+    surface.groups.push_back(group);
   }
   return surface;
+}
+
+}  // namespace
+
+Surface SurfaceOf(const simulate::Scene& scene) {
+  return SurfaceOf(scene, true);
+}
+
+Surface ReliefOf(const simulate::Scene& scene) {
+  return SurfaceOf(scene, false);
 }
 
 double Area(const Surface& surface) {

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,18 +14,25 @@
 
 namespace stucco::evaluate {
 
+// The group of trees, cars and what else stands about in a scene.
+inline constexpr int kStandsAbout = -1;
+
 // Triangles in the frame of the truth.
 struct Surface {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<uint32_t, 3>> triangles;
-  std::vector<int> groups;  // of triangles: what is to be counted apart, for the caller to choose
+  std::vector<int> groups;  // of triangles: a FacetClass, or kStandsAbout
 };
 
-void Append(const Facet& facet, int group, Surface& surface);
+void Append(const Facet& facet, Surface& surface);
 void Append(const Surface& more, Surface& surface);
-// The parts of a scene that `keep` wants by name; the group is the number of the element.
-Surface SurfaceOf(const simulate::Scene& scene,
-                  const std::function<bool(const std::string& element)>& keep);
+
+// What an element of a made scene is, by its name: walls and roofs are facets of buildings, what
+// stands out from them is kOuterFloor.
+int GroupOf(const std::string& element);
+// Everything that a camera sees; the relief is that without what stands about.
+Surface SurfaceOf(const simulate::Scene& scene);
+Surface ReliefOf(const simulate::Scene& scene);
 
 double Area(const Surface& surface);
 

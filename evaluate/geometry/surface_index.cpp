@@ -44,23 +44,23 @@ Vector3d NearestOnTriangle(const Vector3d& p, const Vector3d& a, const Vector3d&
   return a + ab * (vb / all) + ac * (vc / all);
 }
 
-struct Nearest {
+struct Search {
   const Surface* surface;
   Vector3d point;
   double slack;  // what rounding to floats may hide
-  double distance = std::numeric_limits<double>::infinity();
+  NearestPlace nearest;
 };
 
 bool VisitTriangle(RTCPointQueryFunctionArguments* arguments) {
-  Nearest& nearest = *static_cast<Nearest*>(arguments->userPtr);
-  const Surface& surface = *nearest.surface;
+  Search& search = *static_cast<Search*>(arguments->userPtr);
+  const Surface& surface = *search.surface;
   const auto& t = surface.triangles[arguments->primID];
-  const Vector3d on = NearestOnTriangle(nearest.point, surface.vertices[t[0]],
+  const Vector3d on = NearestOnTriangle(search.point, surface.vertices[t[0]],
                                         surface.vertices[t[1]], surface.vertices[t[2]]);
-  const double distance = (on - nearest.point).norm();
-  if (!(distance < nearest.distance)) return false;
-  nearest.distance = distance;
-  arguments->query->radius = static_cast<float>(distance + nearest.slack);
+  const double distance = (on - search.point).norm();
+  if (!(distance < search.nearest.distance)) return false;
+  search.nearest = {distance, on, surface.groups[arguments->primID]};
+  arguments->query->radius = static_cast<float>(distance + search.slack);
   return true;  // the radius has changed
 }
 
@@ -125,10 +125,10 @@ const Surface& SurfaceIndex::surface() const {
   return state_->surface;
 }
 
-double SurfaceIndex::Distance(const Vector3d& point) const {
-  Nearest nearest{&state_->surface, point,
-                  state_->slack + std::ldexp(point.cwiseAbs().maxCoeff(), -21)};
-  if (state_->surface.triangles.empty()) return nearest.distance;
+NearestPlace SurfaceIndex::Nearest(const Vector3d& point) const {
+  Search search{
+      &state_->surface, point, state_->slack + std::ldexp(point.cwiseAbs().maxCoeff(), -21), {}};
+  if (state_->surface.triangles.empty()) return search.nearest;
   RTCPointQuery query{};
   query.x = static_cast<float>(point.x());
   query.y = static_cast<float>(point.y());
@@ -136,8 +136,8 @@ double SurfaceIndex::Distance(const Vector3d& point) const {
   query.radius = std::numeric_limits<float>::infinity();
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(state_->scene, &query, &context, VisitTriangle, &nearest);
-  return nearest.distance;
+  rtcPointQuery(state_->scene, &query, &context, VisitTriangle, &search);
+  return search.nearest;
 }
 
 bool SurfaceIndex::Blocked(const Vector3d& from, const Vector3d& to) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -10,6 +11,13 @@
 #include "evaluate/geometry/surface.h"
 
 namespace stucco::evaluate {
+
+// The place of a surface that is nearest to a point.
+struct NearestPlace {
+  double distance = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  int group = 0;  // of its triangle
+};
 
 // Distances to a surface and lines of sight past it, through Embree's tree. Thread-safe.
 class SurfaceIndex {
@@ -20,8 +28,9 @@ class SurfaceIndex {
   SurfaceIndex& operator=(SurfaceIndex&&) noexcept;
 
   const Surface& surface() const;
-  // To the nearest point of any triangle, in double precision; infinite where there are none.
-  double Distance(const Eigen::Vector3d& point) const;
+  // The nearest point of any triangle, in double precision; infinitely far where there are none.
+  NearestPlace Nearest(const Eigen::Vector3d& point) const;
+  double Distance(const Eigen::Vector3d& point) const { return Nearest(point).distance; }
   // Whether the straight line between two points meets a triangle. Coordinates are rounded to
   // floats: leave a few millimetres to the surfaces on which the points lie.
   bool Blocked(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;

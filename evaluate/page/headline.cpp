@@ -33,14 +33,16 @@ std::string Poses(const PoseFigures& poses) {
           FigureHtml("direction, mean", Degrees(poses.rotation_mean_deg)) +
           FigureHtml("direction, largest", Degrees(poses.rotation_max_deg)) +
           FigureHtml("georeferenced, mean", Metres(poses.georeferenced_mean_m),
-                     "in the frames as they are"));
+                     "in the frames as they are") +
+          FigureHtml("georeferenced direction, mean",
+                     Degrees(poses.georeferenced_rotation_mean_deg), "in the frames as they are"));
 }
 
 bool IsMeasured(const SurfaceFigures& figures) {
   return std::isfinite(figures.error95_m) || std::isfinite(figures.completeness);
 }
 
-std::string SurfaceRow(const char* name, const SurfaceFigures& figures) {
+std::string SurfaceRow(const std::string& name, const SurfaceFigures& figures) {
   if (!IsMeasured(figures)) return "";
   return fmt::format(
       "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td>"
@@ -49,13 +51,18 @@ std::string SurfaceRow(const char* name, const SurfaceFigures& figures) {
       Percent(figures.completeness_all));
 }
 
+// The buildings first: most of what there is near them is ground.
+std::string PartRows(const std::string& name, const PartFigures& figures) {
+  if (!IsMeasured(figures.all)) return "";
+  return SurfaceRow(name + ": buildings", figures.building) + SurfaceRow("walls", figures.wall) +
+         SurfaceRow("roofs", figures.roof) + SurfaceRow("ground", figures.ground) +
+         SurfaceRow("everything", figures.all);
+}
+
 std::string Surfaces(const Evaluation& evaluation) {
-  const std::string rows = SurfaceRow("Dense cloud", evaluation.dense) +
-                           SurfaceRow("Mesh", evaluation.mesh) +
-                           SurfaceRow("Proxy", evaluation.proxy.all) +
-                           SurfaceRow("Proxy: walls", evaluation.proxy.wall) +
-                           SurfaceRow("Proxy: roofs", evaluation.proxy.roof) +
-                           SurfaceRow("Proxy: ground", evaluation.proxy.ground);
+  const std::string rows = PartRows("Dense cloud", evaluation.dense) +
+                           PartRows("Mesh", evaluation.mesh) +
+                           PartRows("Proxy", evaluation.proxy.surface);
   if (rows.empty()) return "";
   return fmt::format(
       "<h3>Surfaces</h3><div class=\"scroll\"><table class=\"plain surfaces\"><thead><tr><td></td>"
@@ -68,7 +75,7 @@ std::string Surfaces(const Evaluation& evaluation) {
 }
 
 std::string Solids(const ProxyFigures& proxy) {
-  if (proxy.buildings == 0) return "";
+  if (proxy.buildings == 0 && proxy.truth_buildings == 0) return "";  // not measured
   const auto of_all = [&](int count) { return fmt::format("{} of {}", count, proxy.buildings); };
   return Group("Buildings",
                FigureHtml("buildings", fmt::format("{}", proxy.buildings),
@@ -89,13 +96,18 @@ bool HasAny(const PictureFigures& figures) {
 std::string Textures(const Evaluation& evaluation) {
   std::string html;
   if (HasAny(evaluation.texture_mean)) {
-    html += Group("Facade textures, mean by painted area",
-                  PictureFiguresHtml(evaluation.texture_mean) +
-                      FigureHtml("shift", Decimal(evaluation.misregistration_px, 2) + " px",
-                                 "median of facades"));
+    html += Group(
+        "Facade textures, mean by painted area",
+        FigureHtml("painted", Percent(evaluation.painted), "of the facades' area") +
+            PictureFiguresHtml(evaluation.texture_mean) +
+            FigureHtml("shift", Metres(evaluation.misregistration_m),
+                       Decimal(evaluation.misregistration_px, 2) + " texels, median of facades"));
   }
   if (HasAny(evaluation.views_mean)) {
-    html += Group("Photos held out, mean", PictureFiguresHtml(evaluation.views_mean));
+    html +=
+        Group("Photos held out, mean", FigureHtml("compared", Percent(evaluation.views_compared),
+                                                  "of what they show of buildings") +
+                                           PictureFiguresHtml(evaluation.views_mean));
   }
   return html;
 }

@@ -97,8 +97,8 @@ std::string FacadeRow(const FacadeFigures& facade, bool with_lpips) {
          NumberCell("Area", facade.area_m2, Area(facade.area_m2, /*metric=*/true)) +
          NumberCell("Painted", facade.painted, Percent(facade.painted)) +
          MeasureCells(facade.picture, with_lpips) +
-         NumberCell("Shift", facade.misregistration_px,
-                    Decimal(facade.misregistration_px, 2) + " px") +
+         NumberCell("Shift", facade.misregistration_px * facade.texel_m,
+                    Length(facade.misregistration_px * facade.texel_m, /*metric=*/true)) +
          "</tr>";
 }
 
@@ -121,7 +121,7 @@ std::string FacadesSection(const Evaluation& evaluation) {
   std::vector<Column> columns = {{"Area", "of the truth's wall"},
                                  {"Painted", "share of it that the result paints from photos"}};
   for (const Column& column : MeasureColumns(with_lpips)) columns.push_back(column);
-  columns.push_back({"Shift", "median shift of the content, in compared texels"});
+  columns.push_back({"Shift", "median shift of the content"});
   std::string rows;
   for (const FacadeFigures& facade : evaluation.facades) rows += FacadeRow(facade, with_lpips);
   return "<section aria-labelledby=\"facades\"><h2 id=\"facades\">Facades</h2>" +
@@ -131,18 +131,21 @@ std::string FacadesSection(const Evaluation& evaluation) {
 std::string ViewsSection(const Evaluation& evaluation) {
   if (evaluation.views.empty()) return "";
   const bool with_lpips = HasLpips(evaluation.views);
+  std::vector<Column> columns = {{"Compared", "share of the buildings in it that the model has"}};
+  for (const Column& column : MeasureColumns(with_lpips)) columns.push_back(column);
   std::string rows;
   for (const HeldOutFigures& view : evaluation.views) {
     rows += "<tr><th scope=\"row\">" + IsolatedHtml(view.photo) + "</th>" +
             Triple({view.photo, view.truth_picture, view.result_picture, view.error_picture,
                     view.problem}) +
+            NumberCell("Compared", view.compared, Percent(view.compared)) +
             MeasureCells(view.picture, with_lpips) + "</tr>";
   }
   return "<section aria-labelledby=\"views\"><h2 id=\"views\">Photos held out</h2><p "
          "class=\"quiet\">"
          "Photos that the survey has not seen, beside pictures of its model from the same places."
          "</p>" +
-         Table(Head("Photo", MeasureColumns(with_lpips)), rows) + "</section>";
+         Table(Head("Photo", columns), rows) + "</section>";
 }
 
 }  // namespace stucco::evaluate::internal

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -38,10 +37,6 @@ struct Pairing {
   const Facet* result = nullptr;
   const TexturedFacet* texture = nullptr;
 };
-
-int Threads(const TextureComparison& comparison) {
-  return comparison.threads > 0 ? comparison.threads : std::numeric_limits<int>::max();
-}
 
 std::string BuildingOf(const std::string& id) {
   return id.substr(0, id.find('/'));
@@ -107,7 +102,7 @@ LightPairs PairsOfLight(const TextureComparison& comparison, const Pairing& pair
 std::array<double, 3> GainsOf(const TextureComparison& comparison,
                               const std::vector<std::vector<Pairing>>& walls) {
   std::vector<LightPairs> of_walls(walls.size());
-  ParallelFor(walls.size(), Threads(comparison), [&](size_t i) {
+  ParallelFor(walls.size(), comparison.threads, [&](size_t i) {
     for (const Pairing& pairing : walls[i]) {
       // What cannot be read is said where it is compared.
       ProblemIn([&] { of_walls[i].Append(PairsOfLight(comparison, pairing)); });
@@ -120,6 +115,7 @@ std::array<double, 3> GainsOf(const TextureComparison& comparison,
 
 struct ComparedFacade {
   double area_m2 = 0;  // painted and in both outlines
+  double texel_m = 0;
   PicturePair pictures;
 };
 
@@ -134,6 +130,7 @@ std::optional<ComparedFacade> Compare(const TextureComparison& comparison, const
   const double texel_m = result.plane.metres_per_texel;
   return ComparedFacade{
       static_cast<double>(known) * texel_m * texel_m,
+      texel_m,
       {Developed(truth.rgb, size, gains), Developed(result.rgb, size, {1, 1, 1}), result.known}};
 }
 
@@ -154,6 +151,7 @@ FacadeFigures MeasureWall(const Measuring& measuring, const TruthFacet& wall,
   if (!wall.matches.empty()) figures.facet = wall.matches.front().result->id;
   std::vector<WeightedPicture> pictures;
   double painted_m2 = 0;
+  double texel_sum = 0;
   double shift_sum = 0;
   double shift_m2 = 0;
   for (const Pairing& pairing : pairings) {
@@ -178,9 +176,11 @@ FacadeFigures MeasureWall(const Measuring& measuring, const TruthFacet& wall,
     }
     pictures.push_back({measured.figures, compared->area_m2});
     painted_m2 += compared->area_m2;
+    texel_sum += compared->area_m2 * compared->texel_m;
   }
   figures.painted = wall.area_m2 > 0 ? std::min(1.0, painted_m2 / wall.area_m2) : 0;
   figures.picture = MeanFigures(pictures);
+  if (painted_m2 > 0) figures.texel_m = texel_sum / painted_m2;
   if (shift_m2 > 0) figures.misregistration_px = shift_sum / shift_m2;
   return figures;
 }
@@ -213,7 +213,7 @@ std::vector<FacadeFigures> CompareFacades(const TextureComparison& comparison) {
   if (!comparison.lpips_model.empty()) lpips.emplace(comparison.lpips_model);
   const Measuring measuring{comparison, GainsOf(comparison, pairings), lpips ? &*lpips : nullptr};
   std::vector<FacadeFigures> figures(walls.size());
-  ParallelFor(walls.size(), Threads(comparison),
+  ParallelFor(walls.size(), comparison.threads,
               [&](size_t i) { figures[i] = MeasureWall(measuring, walls[i], pairings[i], i); });
   return figures;
 }

@@ -27,7 +27,7 @@ struct TextureComparison {
   double truth_texel_m = 0.01;        // of the truth's pictures: nothing is compared finer
   std::filesystem::path output;       // pictures/ is made in it
   std::filesystem::path lpips_model;  // empty: none
-  int threads = 0;
+  int threads = 1;
 };
 
 // Figures of every wall of the truth, matched to the result's facets on the same plane: the truth

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "evaluate/attempt.h"
+#include "evaluate/geometry/surface.h"
 #include "evaluate/picture/compare_textures.h"
 #include "evaluate/picture/lpips.h"
 #include "evaluate/picture/measure.h"
@@ -42,6 +43,7 @@ struct View {
   Image photo;
   Image model;  // codes of the textures
   std::vector<uint8_t> mask;
+  double compared = kNotMeasured;  // share of the pixels that show buildings
 };
 
 std::vector<uint8_t> MaskOf(const DepthMap& model, const DepthMap& scene,
@@ -54,6 +56,29 @@ std::vector<uint8_t> MaskOf(const DepthMap& model, const DepthMap& scene,
     mask[i] = model.depth_m[i] > 0 && !occluded ? 1 : 0;
   }
   return mask;
+}
+
+// Of the photo's pixels that show a building, the share that is in the mask.
+double ShareOfBuildings(const std::vector<uint8_t>& mask, const DepthMap& scene,
+                        const DepthMap& buildings) {
+  double shown = 0, compared = 0;
+  for (size_t i = 0; i < mask.size(); ++i) {
+    const bool is_hidden = scene.depth_m[i] < buildings.depth_m[i] - kInFront_m;
+    if (!(buildings.depth_m[i] > 0) || is_hidden) continue;
+    shown += 1;
+    compared += mask[i];
+  }
+  return shown > 0 ? compared / shown : kNotMeasured;
+}
+
+// Elements of the scene that are no buildings.
+std::vector<bool> NoBuildings(const Renderer& scene) {
+  std::vector<bool> others;
+  for (const std::string& element : scene.scene().elements) {
+    const int group = GroupOf(element);
+    others.push_back(group == kStandsAbout || group == static_cast<int>(FacetClass::kGround));
+  }
+  return others;
 }
 
 // Textures carry their light; the model's colours are their codes.
@@ -71,12 +96,15 @@ View MakeView(const TextureComparison& comparison, const Renderer& model, const 
   view.camera = Resized(flown.camera, view.photo.width_px, view.photo.height_px);
   const Pose cam_from_model = Transformed(flown.cam_from_world, ModelFromScene(comparison));
   const simulate::RenderOptions all{.threads = comparison.threads, .left_out = {}};
-  const simulate::RenderOptions without{.threads = comparison.threads,
-                                        .left_out = comparison.occluders};
   view.model = Codes(model.Photograph(view.camera, cam_from_model, {.lit = false}, all));
-  view.mask = MaskOf(model.Depth(view.camera, cam_from_model, all),
-                     comparison.scene.Depth(view.camera, flown.cam_from_world, all),
-                     comparison.scene.Depth(view.camera, flown.cam_from_world, without));
+  const auto depth_without = [&](const std::vector<bool>& left_out) {
+    return comparison.scene.Depth(view.camera, flown.cam_from_world,
+                                  {.threads = comparison.threads, .left_out = left_out});
+  };
+  const DepthMap scene = depth_without({});
+  view.mask = MaskOf(model.Depth(view.camera, cam_from_model, all), scene,
+                     depth_without(comparison.occluders));
+  view.compared = ShareOfBuildings(view.mask, scene, depth_without(NoBuildings(comparison.scene)));
   return view;
 }
 
@@ -143,11 +171,12 @@ std::vector<HeldOutFigures> CompareViews(const TextureComparison& comparison,
   for (size_t i = 0; i < held_out.size(); ++i) {
     if (!figures[i].problem.empty()) continue;
     const FlownPhoto& photo = *held_out[i];
-    const PicturePair pair = Pair(MakeView(comparison, model, photo, flight_folder, kViewSide_px),
-                                  fitted.gains[i], fitted.falloff);
+    const View view = MakeView(comparison, model, photo, flight_folder, kViewSide_px);
+    const PicturePair pair = Pair(view, fitted.gains[i], fitted.falloff);
     const MeasuredPair measured = MeasurePair(pair, lpips ? &*lpips : nullptr);
     const PagePictures names = WritePagePictures(pair, measured.flip, comparison.output,
                                                  PictureStem(i, "view-" + photo.path));
+    figures[i].compared = view.compared;
     figures[i].picture = measured.figures;
     figures[i].truth_picture = names.truth;
     figures[i].result_picture = names.result;

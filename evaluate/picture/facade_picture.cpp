@@ -120,6 +120,9 @@ FacadePicture Cut(const FacadePicture& picture, const Texels& part) {
   cut.plane.width_px = part.right - part.left;
   cut.plane.height_px = part.bottom - part.top;
   cut.plane.origin += plane.metres_per_texel * (part.left * plane.u_axis + part.top * plane.v_axis);
+  const size_t texels = static_cast<size_t>(cut.plane.width_px) * cut.plane.height_px;
+  cut.rgb.reserve(3 * texels);
+  cut.known.reserve(texels);
   for (int y = part.top; y < part.bottom; ++y) {
     const size_t row = static_cast<size_t>(y) * plane.width_px;
     cut.rgb.insert(cut.rgb.end(), picture.rgb.data() + 3 * (row + part.left),

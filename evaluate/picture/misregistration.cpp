@@ -3,6 +3,7 @@
 #include "evaluate/picture/misregistration.h"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
@@ -16,7 +17,12 @@ namespace {
 constexpr int kStep_px = 4;
 constexpr int kWindowRadius_px = 10;
 constexpr int kHalvings = 2;
-constexpr size_t kFewestPlaces = 10;
+constexpr double kFewestPlaces = 10;
+// Of the places with texture. By chance a few percent of unlike content lead home.
+constexpr double kLeastShare = 0.1;
+// The flow finds shifts of this length by itself.
+constexpr double kNear_px = 6;
+constexpr double kClearly = 1.25;
 // The mean square slope in the flattest direction, in grey levels per pixel: what JPEG and sensor
 // noise leave on a plain wall is below one level.
 constexpr double kLeastSlope = 2;
@@ -81,14 +87,45 @@ struct Tracks {
   std::vector<uint8_t> found;
 };
 
+// `guess` is where the places may be.
 Tracks Track(const cv::Mat& from_picture, const cv::Mat& to_picture,
-             const std::vector<cv::Point2f>& from) {
-  Tracks tracks;
+             const std::vector<cv::Point2f>& from, std::vector<cv::Point2f> guess) {
+  Tracks tracks{std::move(guess), {}};
   const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 40, 0.005);
   const int side = 2 * kWindowRadius_px + 1;
   cv::calcOpticalFlowPyrLK(from_picture, to_picture, from, tracks.to, tracks.found, cv::noArray(),
-                           {side, side}, kHalvings, until);
+                           {side, side}, kHalvings, until, cv::OPTFLOW_USE_INITIAL_FLOW);
   return tracks;
+}
+
+// Lengths of the flow that leads home, looked for around a shift of everything.
+std::vector<double> ShiftsAround(const cv::Point2f& shift, const cv::Mat& truth,
+                                 const cv::Mat& result, const std::vector<cv::Point2f>& places) {
+  std::vector<cv::Point2f> shifted = places;
+  for (cv::Point2f& place : shifted) place += shift;
+  const Tracks there = Track(truth, result, places, shifted);
+  std::vector<cv::Point2f> home = there.to;
+  for (cv::Point2f& place : home) place -= shift;
+  const Tracks back = Track(result, truth, there.to, home);
+  std::vector<double> lengths;
+  for (size_t i = 0; i < places.size(); ++i) {
+    if (there.found[i] == 0 || back.found[i] == 0) continue;
+    if (cv::norm(back.to[i] - places[i]) > kReturn_px) continue;
+    lengths.push_back(cv::norm(there.to[i] - places[i]));
+  }
+  return lengths;
+}
+
+// The shift of the whole picture that phase correlation finds (Kuglin and Hines 1975).
+cv::Point2f ShiftOfAll(const cv::Mat& truth, const cv::Mat& result, const cv::Mat& mask) {
+  const auto content = [&](const cv::Mat& equalised) {
+    cv::Mat centred = cv::Mat::zeros(equalised.size(), CV_32F);
+    cv::Mat plane;
+    equalised.convertTo(plane, CV_32F, 1, -128);
+    plane.copyTo(centred, mask);
+    return centred;
+  };
+  return cv::phaseCorrelate(content(truth), content(result));
 }
 
 // What has no content in one of the pictures is the same in both: it pulls no place anywhere.
@@ -109,15 +146,17 @@ double Misregistration(const PicturePair& pair) {
   if (places.size() < kFewestPlaces) return kNotMeasured;
   const cv::Mat equal_truth = Equalised(truth);
   const cv::Mat equal_result = Equalised(result);
-  const Tracks there = Track(equal_truth, equal_result, places);
-  const Tracks back = Track(equal_result, equal_truth, there.to);
-  std::vector<double> lengths;
-  for (size_t i = 0; i < places.size(); ++i) {
-    if (there.found[i] == 0 || back.found[i] == 0) continue;
-    if (cv::norm(back.to[i] - places[i]) > kReturn_px) continue;
-    lengths.push_back(cv::norm(there.to[i] - places[i]));
+  std::vector<double> lengths = ShiftsAround({0, 0}, equal_truth, equal_result, places);
+  const cv::Point2f shift = ShiftOfAll(equal_truth, equal_result, mask);
+  if (cv::norm(shift) > kNear_px) {
+    // What repeats itself leads home from far away as well: then the nearer is believed.
+    std::vector<double> far = ShiftsAround(shift, equal_truth, equal_result, places);
+    if (static_cast<double>(far.size()) > kClearly * static_cast<double>(lengths.size())) {
+      lengths = std::move(far);
+    }
   }
-  return lengths.size() < kFewestPlaces ? kNotMeasured : *Median(lengths);
+  const auto fewest = std::max(kFewestPlaces, kLeastShare * static_cast<double>(places.size()));
+  return static_cast<double>(lengths.size()) < fewest ? kNotMeasured : *Median(lengths);
 }
 
 }  // namespace stucco::evaluate

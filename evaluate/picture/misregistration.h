@@ -10,8 +10,10 @@ namespace stucco::evaluate {
 // flow (pyramidal Lucas-Kanade: Bouguet, "Pyramidal Implementation of the Lucas Kanade Feature
 // Tracker", 2001) over a grid of places every 4 pixels that have texture in two directions and from
 // which the flow back from the result leads home. Both pictures are first brought to the same local
-// mean and contrast, so that light does not matter. kNotMeasured where fewer than 10 places do.
-// Shifts up to some 40 pixels are followed.
+// mean and contrast, so that light does not matter. Flow that begins at the shift of the whole
+// picture, by phase correlation, takes its place where it leads home clearly more often; so large
+// shifts are found, too, but of content that repeats itself only up to half its period.
+// kNotMeasured where fewer than 10 places or a tenth of them lead home.
 double Misregistration(const PicturePair& pair);
 
 }  // namespace stucco::evaluate

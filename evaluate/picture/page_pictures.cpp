@@ -6,6 +6,8 @@
 
 #include <cctype>
 #include <opencv2/imgproc.hpp>
+#include <regex>
+#include <system_error>
 
 #include "evaluate/picture/internal/planes.h"
 
@@ -44,6 +46,16 @@ std::string PictureStem(size_t number, std::string_view id) {
     stem += plain ? c : '_';
   }
   return stem;
+}
+
+void RemovePagePictures(const std::filesystem::path& output) {
+  static const std::regex kOurs("[0-9]{4,}-.*-(truth|result|error)\\.jpg");
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(output / "pictures", error)) {
+    if (std::regex_match(entry.path().filename().string(), kOurs)) {
+      std::filesystem::remove(entry.path(), error);
+    }
+  }
 }
 
 PagePictures WritePagePictures(const PicturePair& pair, const FlipMap& flip,

@@ -34,14 +34,20 @@ class Clouds : public ::testing::Test {
     }
     return cloud;
   }
-  SurfaceFigures Compare(PointCloud cloud, double tolerance_m, const Similarity& frame = {}) {
+  SurfaceFigures Compare(const PointCloud& cloud, double tolerance_m,
+                         const Similarity& frame = {}) {
+    return CompareParts(cloud, tolerance_m, frame).all;
+  }
+  PartFigures CompareParts(PointCloud cloud, double tolerance_m, const Similarity& frame) {
     for (Vector3d& position : cloud.positions) position = frame.Inverse() * position;
     const auto path = std::filesystem::path(::testing::TempDir()) / "evaluate_cloud.ply";
     WritePly(cloud, path);
-    return CompareCloud(path, frame, houses_, truth_, tolerance_m, 2);
+    return CompareCloud(path, frame, scene_, truth_, tolerance_m, 2);
   }
 
   SurfaceIndex houses_{BuildingSurface(MadeTruth())};
+  SceneIndex scene_{SurfaceIndex(BuildingSurface(MadeTruth())),
+                    SurfaceIndex(BuildingSurface(MadeTruth()))};
   TruthPoints truth_;
 };
 
@@ -100,6 +106,39 @@ TEST_F(Clouds, WhatIsMissingIsMissingFromCompleteness) {
   EXPECT_NEAR(figures.completeness_all, 296.0 / 648, 1e-3);
 }
 
+TEST_F(Clouds, EveryPartHasFiguresOfItsOwn) {
+  PointCloud cloud;
+  for (const SurfacePoint& point : SamplePoints(BuildingSurface(MadeTruth()), 300000, 2)) {
+    const bool is_roof = point.group == static_cast<int>(FacetClass::kRoof);
+    cloud.positions.push_back(point.position + (is_roof ? 0.3 : 0.05) * point.normal);
+  }
+  const PartFigures figures = CompareParts(cloud, 0.2, {});
+  EXPECT_NEAR(figures.wall.error95_m, 0.05, 1e-6);
+  EXPECT_NEAR(figures.roof.error95_m, 0.3, 1e-6);
+  EXPECT_EQ(figures.wall.completeness, 1);
+  EXPECT_LT(figures.roof.completeness, 0.1);  // rims, which walls are near
+  EXPECT_TRUE(std::isnan(figures.ground.error95_m));
+}
+
+// Fields lie far around a survey, and a cloud has them by the million.
+TEST_F(Clouds, FieldsFarFromBuildingsNeitherFlatterNorHurt) {
+  Surface ground;
+  ground.vertices = {{-400, -400, 0}, {400, -400, 0}, {400, 400, 0}, {-400, 400, 0}};
+  ground.triangles = {{0, 1, 2}, {0, 2, 3}};
+  ground.groups.assign(2, static_cast<int>(FacetClass::kGround));
+  Surface everything = BuildingSurface(MadeTruth());
+  Append(ground, everything);
+  scene_.everything = SurfaceIndex(everything);
+  PointCloud cloud = CloudOf(1);
+  const size_t num_of_houses = cloud.size();
+  for (const SurfacePoint& point : SamplePoints(ground, 3000000, 3)) {
+    if (houses_.Distance(point.position) > kGroundReachM) cloud.positions.push_back(point.position);
+  }
+  EXPECT_NEAR(Compare(cloud, 0.2).error95_m, 1, 1e-6);
+  for (size_t i = num_of_houses; i < cloud.size(); ++i) cloud.positions[i].z() = 50;
+  EXPECT_NEAR(Compare(cloud, 0.2).error95_m, 1, 1e-6);
+}
+
 TEST_F(Clouds, AnEmptyCloudHasNoErrorAndNothing) {
   const SurfaceFigures figures = Compare({}, 0.2);
   EXPECT_TRUE(std::isnan(figures.error95_m));
@@ -107,16 +146,16 @@ TEST_F(Clouds, AnEmptyCloudHasNoErrorAndNothing) {
 }
 
 TEST_F(Clouds, ADamagedFileIsAnError) {
-  EXPECT_THROW(CompareCloud("/nowhere/cloud.ply", {}, houses_, truth_, 0.1, 1), Error);
+  EXPECT_THROW(CompareCloud("/nowhere/cloud.ply", {}, scene_, truth_, 0.1, 1), Error);
 }
 
 TEST_F(Clouds, ASurfaceIsMeasuredTheSameWay) {
-  SurfaceFigures figures = CompareSurface(houses_, houses_, truth_, 0.1, 2);
+  SurfaceFigures figures = CompareSurface(houses_, scene_, truth_, 0.1, 2).all;
   EXPECT_NEAR(figures.error95_m, 0, 1e-12);
   EXPECT_EQ(figures.completeness, 1);
   Surface lifted = houses_.surface();
   for (Vector3d& vertex : lifted.vertices) vertex.z() += 0.3;
-  figures = CompareSurface(SurfaceIndex(lifted), houses_, truth_, 0.1, 2);
+  figures = CompareSurface(SurfaceIndex(lifted), scene_, truth_, 0.1, 2).all;
   EXPECT_NEAR(figures.error95_m, 0.3, 1e-9);  // the roofs; walls slide in themselves
   // Walls but for their lowest 0.2 m, no roof but a rim of 0.1 m, which the walls now cross.
   const double rims = (80 - 9.8 * 7.8) + (64 - 7.8 * 7.8);

@@ -10,7 +10,6 @@
 
 #include "evaluate/geometry/moved.h"
 #include "evaluate/geometry/seen.h"
-#include "simulate/scene/scene_folder.h"
 #include "tests/evaluate/made_truth.h"
 
 namespace stucco::evaluate {
@@ -21,11 +20,10 @@ using Eigen::Vector3d;
 ProxyFigures Compare(const Proxy& result, const Proxy& truth, double tolerance_m, int threads = 2) {
   const simulate::Scene scene = MadeScene(truth);
   const simulate::Flight flight = MadeFlight();
-  const Surface relief = SurfaceOf(
-      scene, [](const std::string& name) { return !name.starts_with(simulate::kOccluderPrefix); });
-  const SurfaceIndex everything(SurfaceOf(scene, [](const std::string&) { return true; }));
+  const Surface relief = ReliefOf(scene);
+  const SceneIndex index{SurfaceIndex(SurfaceOf(scene)), SurfaceIndex(BuildingSurface(truth))};
   const auto photos = DeliveredPhotos(flight);
-  return CompareProxy(result, {}, {truth, relief, everything, photos}, tolerance_m, threads);
+  return CompareProxy(result, {}, {truth, relief, index, photos}, tolerance_m, threads);
 }
 
 Similarity Shift(const Vector3d& by) {
@@ -41,26 +39,27 @@ TEST(CompareProxy, TruthHasNoError) {
   EXPECT_EQ(figures.self_intersecting, 0);
   EXPECT_EQ(figures.facets, 12);
   EXPECT_EQ(figures.truth_facets, 12);
-  for (const SurfaceFigures& part : {figures.all, figures.wall, figures.roof, figures.ground}) {
+  for (const SurfaceFigures& part :
+       {figures.surface.all, figures.surface.wall, figures.surface.roof, figures.surface.ground}) {
     EXPECT_NEAR(part.error95_m, 0, 1e-9);
     EXPECT_EQ(part.completeness, 1);
   }
-  EXPECT_EQ(figures.wall.completeness_all, 1);
+  EXPECT_EQ(figures.surface.wall.completeness_all, 1);
   EXPECT_EQ(figures.facade_id_rate, 1);
 }
 
 TEST(CompareProxy, AShiftIsFoundInTheClassThatItMoves) {
   ProxyFigures figures = Compare(Moved(MadeTruth(), Shift({0, 0, 0.2})), MadeTruth(), 0.05);
-  EXPECT_NEAR(figures.roof.error95_m, 0.2, 1e-9);
-  EXPECT_NEAR(figures.ground.error95_m, 0.2, 1e-9);
-  EXPECT_NEAR(figures.wall.error95_m, 0, 1e-9);  // but for their upper 0.2 m, under 5 %
-  EXPECT_LT(figures.roof.completeness, 0.03);    // a rim of 5 cm where the walls end
+  EXPECT_NEAR(figures.surface.roof.error95_m, 0.2, 1e-9);
+  EXPECT_NEAR(figures.surface.ground.error95_m, 0.2, 1e-9);
+  EXPECT_NEAR(figures.surface.wall.error95_m, 0, 1e-9);  // but for their upper 0.2 m, under 5 %
+  EXPECT_LT(figures.surface.roof.completeness, 0.03);    // a rim of 5 cm where the walls end
   // A shift along x moves the eastern and western walls: 48 of 108 and 72 of 144 m2.
   figures = Compare(Moved(MadeTruth(), Shift({0.3, 0, 0})), MadeTruth(), 0.05);
-  EXPECT_NEAR(figures.wall.error95_m, 0.3, 1e-9);
-  EXPECT_NEAR(figures.roof.error95_m, 0, 1e-9);
-  EXPECT_GT(figures.wall.completeness, 0.45);
-  EXPECT_LT(figures.wall.completeness, 0.55);
+  EXPECT_NEAR(figures.surface.wall.error95_m, 0.3, 1e-9);
+  EXPECT_NEAR(figures.surface.roof.error95_m, 0, 1e-9);
+  EXPECT_GT(figures.surface.wall.completeness, 0.45);
+  EXPECT_LT(figures.surface.wall.completeness, 0.55);
 }
 
 TEST(CompareProxy, AScaleAndATurnGrowWithTheDistance) {
@@ -68,15 +67,15 @@ TEST(CompareProxy, AScaleAndATurnGrowWithTheDistance) {
   Similarity grow;
   grow.scale = 1.01;  // about the origin: B0002's eastern wall goes 0.3 m out, its roof 0.09 m up
   ProxyFigures figures = Compare(Moved(truth, grow), truth, 0.05);
-  EXPECT_GT(figures.wall.error95_m, 0.22);
-  EXPECT_LE(figures.wall.error95_m, 0.3 + 1e-9);
-  EXPECT_NEAR(figures.roof.error95_m, 0.09, 1e-9);
+  EXPECT_GT(figures.surface.wall.error95_m, 0.22);
+  EXPECT_LE(figures.surface.wall.error95_m, 0.3 + 1e-9);
+  EXPECT_NEAR(figures.surface.roof.error95_m, 0.09, 1e-9);
   Similarity turn;
   turn.rotation = Eigen::AngleAxisd(0.01, Vector3d::UnitZ());  // 0.3 m at B0002's corners
   figures = Compare(Moved(truth, turn), truth, 0.05);
-  EXPECT_GT(figures.wall.error95_m, 0.2);
-  EXPECT_LE(figures.wall.error95_m, 0.3);
-  EXPECT_NEAR(figures.ground.error95_m, 0, 1e-9);
+  EXPECT_GT(figures.surface.wall.error95_m, 0.2);
+  EXPECT_LE(figures.surface.wall.error95_m, 0.3);
+  EXPECT_NEAR(figures.surface.ground.error95_m, 0, 1e-9);
 }
 
 TEST(CompareProxy, AMissingHouseIsMissing) {
@@ -85,8 +84,9 @@ TEST(CompareProxy, AMissingHouseIsMissing) {
   const ProxyFigures figures = Compare(result, MadeTruth(), 0.05);
   EXPECT_EQ(figures.buildings, 1);
   EXPECT_EQ(figures.truth_buildings, 2);
-  EXPECT_NEAR(figures.all.error95_m, 0, 1e-9);
-  EXPECT_NEAR(figures.wall.completeness_all, 216.0 / (216 + 288), 0.01);  // 5 cm at the foot
+  EXPECT_NEAR(figures.surface.all.error95_m, 0, 1e-9);
+  EXPECT_NEAR(figures.surface.wall.completeness_all, 216.0 / (216 + 288),
+              0.01);  // 5 cm at the foot
   EXPECT_NEAR(figures.facade_id_rate, 216.0 / (216 + 288), 1e-9);
 }
 
@@ -158,10 +158,10 @@ TEST(CompareProxy, HowFacetsAreCutDoesNotMatter) {
     EXPECT_NEAR(a.error95_m, b.error95_m, 1e-9);
     EXPECT_NEAR(a.completeness, b.completeness, 1e-9);
   };
-  expect_same(whole.all, cut.all);
-  expect_same(whole.wall, cut.wall);
-  expect_same(whole.roof, cut.roof);
-  expect_same(whole.ground, cut.ground);
+  expect_same(whole.surface.all, cut.surface.all);
+  expect_same(whole.surface.wall, cut.surface.wall);
+  expect_same(whole.surface.roof, cut.surface.roof);
+  expect_same(whole.surface.ground, cut.surface.ground);
   EXPECT_NEAR(whole.facade_id_rate, cut.facade_id_rate, 1e-9);
   EXPECT_EQ(cut.facets, 12 * 23);
 }
@@ -185,15 +185,15 @@ TEST(CompareProxy, WhatNoPhotoShowsIsNotAskedFor) {
   Proxy all = truth;  // a roof over the alley: below it nothing is seen from above
   all.buildings.push_back(MadeBox("B0003", {10.01, -15, 8}, {21.99, 23, 9}));
   const ProxyFigures figures = Compare(truth, all, 0.05);
-  EXPECT_LT(figures.roof.completeness, 0.5);
-  EXPECT_EQ(figures.ground.completeness, 1);
+  EXPECT_LT(figures.surface.roof.completeness, 0.5);
+  EXPECT_EQ(figures.surface.ground.completeness, 1);
 }
 
 TEST(CompareProxy, NothingHasNoErrorAndIsNotComplete) {
   const ProxyFigures figures = Compare({}, MadeTruth(), 0.05);
   EXPECT_EQ(figures.buildings, 0);
-  EXPECT_TRUE(std::isnan(figures.all.error95_m));
-  EXPECT_EQ(figures.all.completeness, 0);
+  EXPECT_TRUE(std::isnan(figures.surface.all.error95_m));
+  EXPECT_EQ(figures.surface.all.completeness, 0);
   EXPECT_EQ(figures.facade_id_rate, 0);
 }
 
@@ -201,8 +201,8 @@ TEST(CompareProxy, ThreadsChangeNothing) {
   const Proxy result = Moved(MadeTruth(), Shift({0.01, 0.02, 0.03}));
   const ProxyFigures one = Compare(result, MadeTruth(), 0.05, 1);
   const ProxyFigures four = Compare(result, MadeTruth(), 0.05, 4);
-  EXPECT_EQ(one.all.error95_m, four.all.error95_m);
-  EXPECT_EQ(one.all.completeness, four.all.completeness);
+  EXPECT_EQ(one.surface.all.error95_m, four.surface.all.error95_m);
+  EXPECT_EQ(one.surface.all.completeness, four.surface.all.completeness);
 }
 
 }  // namespace

@@ -82,6 +82,15 @@ void WriteModel(const simulate::Scene& scene, const std::filesystem::path& folde
   WriteFile(folder / "model.mtl", mtl);
 }
 
+void WriteModelInWorld(simulate::Scene model, const Survey& survey) {
+  const Similarity world_from_truth = survey.truth_from_world.Inverse();
+  for (Eigen::Vector3f& position : model.positions) {
+    const Eigen::Vector3d world = world_from_truth * position.cast<double>();
+    position = (world - survey.textures.model_offset).cast<float>();
+  }
+  WriteModel(model, survey.folder);
+}
+
 // The house as a model in a world that is turned, moved and offset against the scene, and two
 // photos of it.
 Survey MadeSurvey(const std::string& name, const Renderer& scene) {
@@ -93,13 +102,7 @@ Survey MadeSurvey(const std::string& name, const Renderer& scene) {
   survey.truth_from_world.translation = {-3000, 700, 12};
   survey.textures.model_glb = "model.obj";
   survey.textures.model_offset = {2000, -6000, 0};
-  simulate::Scene model = MadeHouseScene();
-  const Similarity world_from_truth = survey.truth_from_world.Inverse();
-  for (Eigen::Vector3f& position : model.positions) {
-    const Eigen::Vector3d world = world_from_truth * position.cast<double>();
-    position = (world - survey.textures.model_offset).cast<float>();
-  }
-  WriteModel(model, survey.folder);
+  WriteModelInWorld(MadeHouseScene(), survey);
   survey.flight.photos = {MadePhoto("held_out/a.jpg", 0.9), MadePhoto("held_out/b.jpg", 1.1)};
   for (const FlownPhoto& photo : survey.flight.photos) {
     WriteImage(Recorded(scene, photo), survey.folder / "truth" / photo.path, 100);
@@ -162,6 +165,20 @@ TEST(CompareViews, WhatHidesTheModelIsLeftOut) {
   const double without = Compare(survey, scene, occluders)[0].picture.psnr;
   EXPECT_LT(with, 22);
   EXPECT_GT(without, 30);
+}
+
+TEST(CompareViews, SaysHowMuchOfTheBuildingsTheModelHas) {
+  const Renderer scene(MadeHouseScene());
+  const Survey survey = MadeSurvey("views_share", scene);
+  EXPECT_GT(Compare(survey, scene)[0].compared, 0.995);
+  simulate::Scene part = MadeHouseScene();
+  part.triangles.resize(1);
+  part.materials_of.resize(1);
+  part.elements_of.resize(1);
+  WriteModelInWorld(part, survey);
+  const HeldOutFigures found = Compare(survey, scene)[0];
+  EXPECT_GT(found.compared, 0.05);
+  EXPECT_LT(found.compared, 0.6);
 }
 
 TEST(CompareViews, NothingHeldOutIsNothing) {

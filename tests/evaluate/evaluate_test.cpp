@@ -44,10 +44,10 @@ void ExpectNoError(const Evaluation& found) {
   EXPECT_EQ(found.poses.posed, 13);
   EXPECT_NEAR(found.poses.position_max_m, 0, 1e-6);
   EXPECT_NEAR(found.poses.rotation_max_deg, 0, 1e-4);
-  EXPECT_NEAR(found.dense.error95_m, 0, 1e-5);  // the model is in single precision
-  EXPECT_EQ(found.dense.completeness, 1);
-  EXPECT_NEAR(found.proxy.all.error95_m, 0, 1e-5);
-  EXPECT_EQ(found.proxy.all.completeness, 1);
+  EXPECT_NEAR(found.dense.all.error95_m, 0, 1e-5);  // the model is in single precision
+  EXPECT_EQ(found.dense.all.completeness, 1);
+  EXPECT_NEAR(found.proxy.surface.all.error95_m, 0, 1e-5);
+  EXPECT_EQ(found.proxy.surface.all.completeness, 1);
   EXPECT_EQ(found.proxy.watertight, 2);
   EXPECT_NEAR(found.proxy.facade_id_rate, 1, 1e-6);
 }
@@ -62,7 +62,7 @@ TEST(Evaluate, TruthHasNoErrorInAnyMeasure) {
   EXPECT_EQ(found.plan.method, "cocapture");
   EXPECT_EQ(found.plan.hovers, 9);
   EXPECT_EQ(found.plan.q_u, 0.75);
-  EXPECT_TRUE(std::isnan(found.mesh.error95_m));
+  EXPECT_TRUE(std::isnan(found.mesh.all.error95_m));
 }
 
 TEST(Evaluate, AnotherWorldIsBroughtBack) {
@@ -83,8 +83,8 @@ TEST(Evaluate, AMeshCountsLikeACloud) {
             "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
             "end_header\n0 0 6.2\n10 0 6.2\n10 8 6.2\n0 8 6.2\n4 0 1 2 3\n");
   const Evaluation found = Evaluate(RequestFor(made));
-  EXPECT_NEAR(found.mesh.error95_m, 0.2, 1e-5);
-  EXPECT_GT(found.mesh.completeness_all, 0.02);
+  EXPECT_NEAR(found.mesh.all.error95_m, 0.2, 1e-5);
+  EXPECT_GT(found.mesh.all.completeness_all, 0.02);
 }
 
 TEST(Evaluate, WhatIsNotThereIsNotedAndNotMeasured) {
@@ -92,7 +92,7 @@ TEST(Evaluate, WhatIsNotThereIsNotedAndNotMeasured) {
   fs::remove_all(made.survey / "dense");
   fs::remove_all(made.survey / "plan");
   Evaluation found = Evaluate(RequestFor(made));
-  EXPECT_TRUE(std::isnan(found.dense.error95_m));
+  EXPECT_TRUE(std::isnan(found.dense.all.error95_m));
   EXPECT_FALSE(found.has_plan);
   EXPECT_EQ(found.proxy.watertight, 2);
   EXPECT_THAT(
@@ -105,7 +105,7 @@ TEST(Evaluate, WhatIsNotThereIsNotedAndNotMeasured) {
   found = Evaluate(RequestFor(made));
   EXPECT_EQ(found.poses.posed, 0);
   EXPECT_EQ(found.poses.total, 13);
-  EXPECT_TRUE(std::isnan(found.proxy.all.error95_m));
+  EXPECT_TRUE(std::isnan(found.proxy.surface.all.error95_m));
   EXPECT_THAT(found.notes, Contains(HasSubstr("there is no calib/sparse/0")));
 }
 
@@ -117,8 +117,8 @@ TEST(Evaluate, WhatIsDamagedIsNotedAndTheRestIsMeasured) {
   }
   Evaluation found = Evaluate(RequestFor(made));
   EXPECT_FALSE(found.has_plan);
-  EXPECT_TRUE(std::isnan(found.dense.error95_m));
-  EXPECT_NEAR(found.proxy.all.error95_m, 0, 1e-5);
+  EXPECT_TRUE(std::isnan(found.dense.all.error95_m));
+  EXPECT_NEAR(found.proxy.surface.all.error95_m, 0, 1e-5);
   for (const char* what : {"the plan is not measured: ", "the cloud is not measured: ",
                            "textures and views are not measured: "}) {
     EXPECT_THAT(found.notes, Contains(HasSubstr(what)));

@@ -51,7 +51,7 @@ MadeSurvey WriteMadeSurvey(const fs::path& root, const Similarity& truth_from_wo
   WriteColmapText(result, made.survey / kSparseFolder);
   WriteGeoref(MadeGeoref(), made.survey / kGeorefFile);
   Surface surface = BuildingSurface(MadeTruth());
-  Append(MadeTruth().buildings.back().facets[0], 0, surface);
+  Append(MadeTruth().buildings.back().facets[0], surface);
   PointCloud cloud;
   for (const SurfacePoint& point : SamplePoints(surface, 200000, 3)) {
     cloud.positions.push_back(world_from_truth * point.position);

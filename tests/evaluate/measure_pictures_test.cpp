@@ -26,14 +26,25 @@ TEST(MeanOfFacades, WeighsByPaintedArea) {
   EXPECT_TRUE(std::isnan(MeanOfFacades({}).ssim));
 }
 
-TEST(MedianMisregistration, IsThatOfHalfThePaintedArea) {
+TEST(PaintedShare, IsByArea) {
+  const std::vector<FacadeFigures> facades = {Facade(10, 1, 0, 0), Facade(30, 0.5, 0, 0),
+                                              Facade(60, 0, 0, 0)};
+  EXPECT_NEAR(PaintedShare(facades), 0.25, 1e-12);
+  EXPECT_TRUE(std::isnan(PaintedShare({})));
+}
+
+double InPixels(const FacadeFigures& facade) {
+  return facade.misregistration_px;
+}
+
+TEST(MedianShift, IsThatOfHalfThePaintedArea) {
   std::vector<FacadeFigures> facades = {Facade(10, 1, 0, 4), Facade(60, 0.5, 0, 1),
                                         Facade(100, 0, 0, 9), Facade(15, 1, 0, 2),
                                         Facade(500, 1, 0, kNotMeasured)};
-  EXPECT_EQ(MedianMisregistration(facades), 1);
+  EXPECT_EQ(MedianShift(facades, InPixels), 1);
   facades[3].area_m2 = 30;
-  EXPECT_EQ(MedianMisregistration(facades), 2);
-  EXPECT_TRUE(std::isnan(MedianMisregistration({})));
+  EXPECT_EQ(MedianShift(facades, InPixels), 2);
+  EXPECT_TRUE(std::isnan(MedianShift({}, InPixels)));
 }
 
 }  // namespace

@@ -25,6 +25,28 @@ TEST(Misregistration, IsTheLengthOfAKnownShift) {
   }
 }
 
+TEST(Misregistration, LargeShiftsAreNotTakenForSmallOnes) {
+  const Image truth = Waves(600, 400);
+  for (const double shift : {16.0, 20.0, 30.0, 40.0, 70.0}) {
+    EXPECT_NEAR(Misregistration({truth, Waves(600, 400, shift, -shift / 3), {}}),
+                std::hypot(shift, shift / 3), 0.1)
+        << shift;
+  }
+}
+
+TEST(Misregistration, OtherContentSaysNothing) {
+  const Image truth = Noisy(Plain(300, 200, 120, 120, 120), 40);
+  Image other = Plain(300, 200, 120, 120, 120);
+  for (int y = 0; y < 200; ++y) {
+    for (int x = 0; x < 300; ++x) {
+      if ((x * 7 + y * 13 + x * y / 5) % 23 < 9) {
+        std::fill(other.Pixel(x, y), other.Pixel(x, y) + 3, uint8_t{200});
+      }
+    }
+  }
+  EXPECT_TRUE(std::isnan(Misregistration({truth, other, {}})));
+}
+
 TEST(Misregistration, DoesNotMindLightNoiseAndBlur) {
   const Image truth = Waves(160, 140);
   const Image moved = Waves(160, 140, 0.6, 0.8);

@@ -28,6 +28,7 @@ FacadeFigures MadeFacade(const std::string& id, const PicturePair& pair, size_t 
           pair.truth.width_px * pair.truth.height_px * 1e-4,
           0.9,
           measured.figures,
+          0.01,
           stucco::evaluate::Misregistration(pair),
           names.truth,
           names.result,
@@ -46,7 +47,7 @@ int main(int count, char** arguments) {
   evaluation.scene = "<script>document.title='owned'</script>";
   evaluation.notes = {hostile, "nothing of the mesh is measured: there is no dense/mesh.ply"};
   evaluation.poses = {.posed = 41, .total = 42, .position_mean_m = 0.012};
-  evaluation.dense = {.error95_m = 0.031, .completeness = 0.87, .completeness_all = 0.7};
+  evaluation.dense.all = {.error95_m = 0.031, .completeness = 0.87, .completeness_all = 0.7};
   const stucco::Image truth = stucco::evaluate::Waves(420, 240);
   const stucco::Image moved = stucco::evaluate::Waves(420, 240, 1.5);
   evaluation.facades = {
@@ -57,8 +58,8 @@ int main(int count, char** arguments) {
   evaluation.facades.back().id = "B0002/F00";
   evaluation.texture_mean = evaluation.facades[0].picture;
   const FacadeFigures& first = evaluation.facades[0];
-  evaluation.views = {
-      {hostile, first.picture, first.truth_picture, first.result_picture, first.error_picture}};
+  evaluation.views = {{hostile, 0.8, first.picture, first.truth_picture, first.result_picture,
+                       first.error_picture}};
   evaluation.views_mean = first.picture;
   stucco::evaluate::WriteEvaluationPage(evaluation, folder);
   return 0;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "survey/files.h"
 #include "tests/evaluate/made_pictures.h"
 
 namespace stucco::evaluate {
@@ -13,6 +14,20 @@ TEST(PictureStem, IsAFileNameWhateverTheIdHolds) {
   EXPECT_EQ(PictureStem(12, "B0001/F03"), "pictures/0012-B0001_F03");
   EXPECT_EQ(PictureStem(3, "../../etc\xff\n"), "pictures/0003-______etc__");
   EXPECT_LT(PictureStem(0, std::string(5000, 'x')).size(), 100u);
+}
+
+TEST(RemovePagePictures, TakesOursAndLeavesOthers) {
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / "remove_pictures";
+  std::filesystem::remove_all(folder);
+  RemovePagePictures(folder);  // nothing there
+  const PicturePair pair{Plain(20, 20, 9, 9, 9), Plain(20, 20, 9, 9, 9), {}};
+  const PagePictures names = WritePagePictures(pair, Flip(pair), folder, PictureStem(7, "B1/F2"));
+  WriteFile(folder / "pictures/holiday-truth.jpg", "mine");
+  RemovePagePictures(folder);
+  EXPECT_FALSE(std::filesystem::exists(folder / names.truth));
+  EXPECT_FALSE(std::filesystem::exists(folder / names.error));
+  EXPECT_TRUE(std::filesystem::exists(folder / "pictures/holiday-truth.jpg"));
 }
 
 TEST(WritePagePictures, WritesThreePicturesGreyOutsideTheMask) {

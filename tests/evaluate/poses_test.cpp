@@ -80,6 +80,8 @@ TEST(ComparePoses, FramesWithOtherOriginsMeet) {
   }
   const PoseComparison found = ComparePoses(result, survey, flight, MadeGeoref());
   EXPECT_NEAR(found.figures.georeferenced_mean_m, 0, 1e-6);
+  // Cameras that were not turned along with the tangent plane are off by its tilt.
+  EXPECT_NEAR(found.figures.georeferenced_rotation_max_deg, 0.001, 1e-5);
 }
 
 TEST(ComparePoses, OneWrongPositionIsReportedAndSpoilsNoOther) {
@@ -93,6 +95,25 @@ TEST(ComparePoses, OneWrongPositionIsReportedAndSpoilsNoOther) {
   ASSERT_EQ(found.notes.size(), 1u);
   EXPECT_THAT(found.notes[0], HasSubstr("1 of 13 positions are much worse than the others"));
   EXPECT_THAT(found.notes[0], HasSubstr("by 7.000 to 7.000 m, ring/00.jpg most"));
+}
+
+// A survey whose world is turned is right after the alignment and wrong as it is georeferenced.
+TEST(ComparePoses, AGeoreferenceThatIsTurnedShows) {
+  const simulate::Flight flight = MadeFlight();
+  Reconstruction result = MadeReconstruction(flight);
+  Similarity turn;
+  turn.rotation = Eigen::AngleAxisd(std::numbers::pi / 180, Vector3d::UnitZ());
+  Transform(turn, result);
+  const PoseComparison found = ComparePoses(result, MadeGeoref(), flight, MadeGeoref());
+  EXPECT_NEAR(found.figures.rotation_max_deg, 0, 1e-5);
+  EXPECT_NEAR(found.figures.georeferenced_rotation_mean_deg, 1, 1e-5);
+  EXPECT_NEAR(found.figures.georeferenced_rotation_max_deg, 1, 1e-5);
+  double farthest_m = 0;
+  for (const simulate::FlownPhoto& photo : flight.photos) {
+    farthest_m = std::max(farthest_m, photo.cam_from_world.Center().head<2>().norm());
+  }
+  EXPECT_NEAR(found.figures.georeferenced_max_m, 2 * std::sin(std::numbers::pi / 360) * farthest_m,
+              1e-6);
 }
 
 TEST(ComparePoses, TurnedCamerasHaveTheAngle) {

@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "evaluate/geometry/part_near.h"
 #include "evaluate/geometry/seen.h"
 #include "evaluate/geometry/surface_index.h"
 #include "tests/evaluate/made_truth.h"
@@ -19,9 +22,7 @@ using Eigen::Vector3d;
 
 Surface Box() {
   Surface surface;
-  for (const Facet& facet : MadeBox("B", {0, 0, 0}, {10, 8, 6}).facets) {
-    Append(facet, static_cast<int>(facet.facet_class), surface);
-  }
+  for (const Facet& facet : MadeBox("B", {0, 0, 0}, {10, 8, 6}).facets) Append(facet, surface);
   return surface;
 }
 
@@ -32,12 +33,38 @@ TEST(Surface, HasTheAreaOfItsFacets) {
   EXPECT_NEAR(Area(twice), 4 * (80 + 60 + 48), 1e-9);
 }
 
-TEST(Surface, TakesTheWantedPartsOfAScene) {
+TEST(Surface, KnowsThePartsOfASceneByTheirNames) {
+  EXPECT_EQ(GroupOf("G0"), static_cast<int>(FacetClass::kGround));
+  EXPECT_EQ(GroupOf("B0001/F03"), static_cast<int>(FacetClass::kWall));
+  EXPECT_EQ(GroupOf("B0001/W03"), static_cast<int>(FacetClass::kWall));
+  EXPECT_EQ(GroupOf("B0001/R2"), static_cast<int>(FacetClass::kRoof));
+  EXPECT_EQ(GroupOf("B0001/trim"), static_cast<int>(FacetClass::kOuterFloor));
+  EXPECT_EQ(GroupOf("occluder/tree-001"), kStandsAbout);
+}
+
+TEST(Surface, OfASceneIsItsReliefAndWhatStandsAbout) {
   const simulate::Scene scene = MadeScene(MadeTruth());
-  const Surface trees =
-      SurfaceOf(scene, [](const std::string& name) { return name.starts_with("occluder/"); });
-  EXPECT_NEAR(Area(trees), 2 * (4 + 8 + 8), 1e-4);
-  EXPECT_EQ(trees.groups[0], 13);
+  const Surface all = SurfaceOf(scene);
+  const Surface relief = ReliefOf(scene);
+  EXPECT_NEAR(Area(all) - Area(relief), 2 * (4 + 8 + 8), 1e-3);  // the tree
+  EXPECT_EQ(std::count(all.groups.begin(), all.groups.end(), kStandsAbout), 12);
+  EXPECT_EQ(std::count(relief.groups.begin(), relief.groups.end(), kStandsAbout), 0);
+}
+
+TEST(PartNear, CutsLargeTrianglesAtTheBorder) {
+  Surface field;  // 800 x 800 m of ground
+  field.vertices = {{-400, -400, 0}, {400, -400, 0}, {400, 400, 0}, {-400, 400, 0}};
+  field.triangles = {{0, 1, 2}, {0, 2, 3}};
+  field.groups = {2, 2};
+  const SurfaceIndex box(Box());  // 10 x 8 m at the origin
+  const Surface near = PartNear(field, box, 15);
+  // The rectangle, grown by 15 m with round corners.
+  const double area = 10 * 8 + 15 * 2 * (10 + 8) + std::numbers::pi * 15 * 15;
+  EXPECT_NEAR(Area(near), area, 0.005 * area);
+  for (const Vector3d& vertex : near.vertices) EXPECT_LT(box.Distance(vertex), 15.3);
+  EXPECT_EQ(near.groups, std::vector<int>(near.triangles.size(), 2));
+  EXPECT_NEAR(Area(PartNear(Box(), box, 15)), Area(Box()), 1e-9);
+  EXPECT_TRUE(PartNear(field, SurfaceIndex(Surface()), 15).triangles.empty());
 }
 
 TEST(SamplePoints, AreSpreadByArea) {
@@ -127,7 +154,7 @@ TEST(SurfaceIndex, KnowsWhatIsInTheWay) {
 TEST(SeenByAny, WhatPhotosShow) {
   const Proxy truth = MadeTruth();
   const simulate::Flight flight = MadeFlight();
-  const SurfaceIndex scene(SurfaceOf(MadeScene(truth), [](const std::string&) { return true; }));
+  const SurfaceIndex scene(SurfaceOf(MadeScene(truth)));
   const std::vector<SurfacePoint> points = {
       {{5, 8, 3}, Vector3d::UnitY(), 0},       // a free wall
       {{5, 8, 3}, -Vector3d::UnitY(), 0},      // its inside

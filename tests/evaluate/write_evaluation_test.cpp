@@ -7,6 +7,7 @@
 #include <string>
 
 #include "evaluate/evaluate.h"
+#include "survey/error.h"
 #include "survey/files.h"
 
 namespace stucco::evaluate {
@@ -32,6 +33,12 @@ TEST(EvaluationJson, KeepsTheNamesThatOthersRelyOn) {
                            "/proxy/facets",
                            "/proxy/truth_facets",
                            "/proxy/facade_id_rate",
+                           "/dense/wall_completeness",
+                           "/proxy/building_error95_m",
+                           "/poses/georeferenced_rotation_mean_deg",
+                           "/texture/painted",
+                           "/texture/misregistration_m",
+                           "/views/compared",
                            "/texture/ssim_mean",
                            "/texture/psnr_mean",
                            "/texture/flip_mean",
@@ -47,11 +54,20 @@ TEST(EvaluationJson, KeepsTheNamesThatOthersRelyOn) {
 
 TEST(EvaluationJson, WhatWasNotMeasuredIsNull) {
   Evaluation evaluation;
-  evaluation.proxy.wall.error95_m = 0.125;
+  evaluation.proxy.surface.wall.error95_m = 0.125;
   const Json json = Json::parse(EvaluationJson(evaluation));
   EXPECT_EQ(json["proxy"]["wall_error95_m"], 0.125);
   EXPECT_TRUE(json["proxy"]["error95_m"].is_null());
   EXPECT_TRUE(json["plan"].is_null());
+}
+
+TEST(WriteEvaluation, LeavesTheFilesOfOthersAlone) {
+  const auto output = std::filesystem::path(::testing::TempDir()) / "stucco_report_folder";
+  std::filesystem::remove_all(output);
+  std::filesystem::create_directories(output);
+  WriteFile(output / "facades.csv", "the report's");
+  EXPECT_THROW(WriteEvaluation({}, output), Error);
+  EXPECT_EQ(ReadFile(output / "facades.csv"), "the report's");
 }
 
 TEST(WriteEvaluation, WritesAFacadePerLine) {
@@ -64,10 +80,11 @@ TEST(WriteEvaluation, WritesAFacadePerLine) {
   const auto output = std::filesystem::path(::testing::TempDir()) / "stucco_write_evaluation";
   std::filesystem::remove_all(output);
   WriteEvaluation(evaluation, output);
-  EXPECT_EQ(ReadFile(output / "facades.csv"),
-            "id,facet,area_m2,painted,ssim,ms_ssim,psnr,gmsd,flip,lpips,misregistration_px\r\n"
-            "B0001/F00,,60,0,0.75,,,,,,\r\n"
-            "\"a \"\"b\"\", c\",,0,0,,,,,,,\r\n");
+  EXPECT_EQ(
+      ReadFile(output / "facades.csv"),
+      "id,facet,area_m2,painted,ssim,ms_ssim,psnr,gmsd,flip,lpips,texel_m,misregistration_px\r\n"
+      "B0001/F00,,60,0,0.75,,,,,,,\r\n"
+      "\"a \"\"b\"\", c\",,0,0,,,,,,,,\r\n");
   EXPECT_EQ(Json::parse(ReadFile(output / "evaluation.json"))["texture"]["facades"][0]["id"],
             "B0001/F00");
 }

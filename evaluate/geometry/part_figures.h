@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "evaluate/evaluation.h"
+#include "evaluate/geometry/surface.h"
+
+namespace stucco::evaluate {
+
+// Points of the truth that a result should have: `seen` says which of them photos show (seen.h).
+struct TruthPoints {
+  std::vector<SurfacePoint> points;
+  std::vector<char> seen;
+};
+
+// Points of a result: how far each is from the truth, and the group that it counts for.
+struct ResultPoints {
+  std::vector<double> distances;
+  std::vector<int> groups;
+
+  void Add(double distance, int group) {
+    distances.push_back(distance);
+    groups.push_back(group);
+  }
+};
+
+// Figures of everything and of its parts; `found` says which of the truth's points have the result
+// nearby.
+PartFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
+                      std::span<const char> found);
+
+// The value below or at which a share of the values lies (nearest rank); not measured for none.
+double Quantile(std::vector<double> values, double share);
+
+}  // namespace stucco::evaluate
