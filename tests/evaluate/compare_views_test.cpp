@@ -7,11 +7,8 @@
 #include <cmath>
 
 #include "evaluate/picture/compare_textures.h"
-#include "evaluate/picture/tone.h"
-#include "simulate/flight/sensor.h"
 #include "survey/error.h"
 #include "survey/files.h"
-#include "survey/srgb.h"
 #include "tests/evaluate/made_pictures.h"
 #include "tests/evaluate/made_walls.h"
 
@@ -20,38 +17,6 @@ namespace {
 
 using simulate::FlownPhoto;
 using simulate::Renderer;
-
-// A camera with a distorted lens south of the house.
-FlownPhoto MadePhoto(const std::string& path, double exposure) {
-  FlownPhoto photo;
-  photo.path = path;
-  photo.camera = {CameraId{1}, CameraModel::kRadial, 480, 360, {420, 240, 180, -0.08, 0.02}};
-  Eigen::Matrix3d rotation;  // x east, y down, z north
-  rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-  photo.cam_from_world.rotation = rotation;
-  photo.cam_from_world.translation = -(rotation * Eigen::Vector3d(1.2, -4, 1.3));
-  photo.exposure = exposure;
-  photo.white_balance = {1.1, 1, 0.9};
-  photo.held_out = true;
-  return photo;
-}
-
-constexpr double kLost = 0.3;  // light in the farthest corner
-
-// The picture of a model that carries its light, as the photo's sensor records it.
-Image Recorded(const Renderer& model, const FlownPhoto& photo) {
-  simulate::Radiance radiance =
-      model.Photograph(photo.camera, photo.cam_from_world, {.lit = false});
-  for (size_t i = 0; i < radiance.rgb.size(); ++i) {
-    const Eigen::Vector2d pixel(i / 3 % photo.camera.width_px + 0.5,
-                                i / 3 / photo.camera.width_px + 0.5);
-    radiance.rgb[i] = LightOfCode(SrgbCode(radiance.rgb[i])) *
-                      static_cast<float>(simulate::Vignetting(photo.camera, kLost, pixel));
-  }
-  const Eigen::Vector3d gains = 0.8 * photo.exposure * photo.white_balance;
-  return Developed(radiance.rgb, {photo.camera.width_px, photo.camera.height_px},
-                   {gains.x(), gains.y(), gains.z()});
-}
 
 struct Survey {
   std::filesystem::path folder;
@@ -103,7 +68,7 @@ Survey MadeSurvey(const std::string& name, const Renderer& scene) {
   survey.textures.model_glb = "model.obj";
   survey.textures.model_offset = {2000, -6000, 0};
   WriteModelInWorld(MadeHouseScene(), survey);
-  survey.flight.photos = {MadePhoto("held_out/a.jpg", 0.9), MadePhoto("held_out/b.jpg", 1.1)};
+  survey.flight.photos = {HeldOutPhoto("held_out/a.jpg", 0.9), HeldOutPhoto("held_out/b.jpg", 1.1)};
   for (const FlownPhoto& photo : survey.flight.photos) {
     WriteImage(Recorded(scene, photo), survey.folder / "truth" / photo.path, 100);
   }

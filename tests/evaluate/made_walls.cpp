@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "evaluate/picture/tone.h"
+#include "simulate/flight/sensor.h"
+#include "survey/srgb.h"
 #include "tests/evaluate/made_pictures.h"
 #include "tests/evaluate/made_truth.h"
 
@@ -97,6 +99,35 @@ TextureSet PaintHouse(const simulate::Renderer& scene, const simulate::Light& li
     textures.facets.push_back(std::move(texture));
   }
   return textures;
+}
+
+simulate::FlownPhoto HeldOutPhoto(const std::string& path, double exposure) {
+  simulate::FlownPhoto photo;
+  photo.path = path;
+  photo.camera = {CameraId{2}, CameraModel::kRadial, 480, 360, {420, 240, 180, -0.08, 0.02}};
+  Eigen::Matrix3d rotation;  // x east, y down, z north
+  rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  photo.cam_from_world.rotation = rotation;
+  photo.cam_from_world.translation = -(rotation * Eigen::Vector3d(1.2, -4, 1.3));
+  photo.exposure = exposure;
+  photo.white_balance = {1.1, 1, 0.9};
+  photo.held_out = true;
+  return photo;
+}
+
+Image Recorded(const simulate::Renderer& model, const simulate::FlownPhoto& photo) {
+  constexpr double kLost = 0.3;  // light in the farthest corner
+  simulate::Radiance radiance =
+      model.Photograph(photo.camera, photo.cam_from_world, {.lit = false});
+  for (size_t i = 0; i < radiance.rgb.size(); ++i) {
+    const Eigen::Vector2d pixel(i / 3 % photo.camera.width_px + 0.5,
+                                i / 3 / photo.camera.width_px + 0.5);
+    radiance.rgb[i] = LightOfCode(SrgbCode(radiance.rgb[i])) *
+                      static_cast<float>(simulate::Vignetting(photo.camera, kLost, pixel));
+  }
+  const Eigen::Vector3d gains = 0.8 * photo.exposure * photo.white_balance;
+  return Developed(radiance.rgb, {photo.camera.width_px, photo.camera.height_px},
+                   {gains.x(), gains.y(), gains.z()});
 }
 
 }  // namespace stucco::evaluate

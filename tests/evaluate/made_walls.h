@@ -32,4 +32,10 @@ struct Painting {
 TextureSet PaintHouse(const simulate::Renderer& scene, const simulate::Light& light,
                       const Painting& painting, const std::filesystem::path& folder);
 
+// A photo held out: a camera with a distorted lens south of the house.
+simulate::FlownPhoto HeldOutPhoto(const std::string& path, double exposure);
+
+// The picture of a model that carries its light, as the photo's sensor records it.
+Image Recorded(const simulate::Renderer& model, const simulate::FlownPhoto& photo);
+
 }  // namespace stucco::evaluate
