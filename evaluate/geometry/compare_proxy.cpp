@@ -91,9 +91,11 @@ double FacadeIdRate(const std::vector<TruthFacet>& matched) {
     for (const FacetMatch& match : wall.matches) {
       if (IsPartOf(wall.truth->facade, *match.result)) with_id += match.overlap_m2;
     }
-    // Overlaps are sums of many pieces: what is all of it but for rounding is all of it.
-    named += with_id > (1 - 1e-9) * wall.area_m2 ? wall.area_m2 : with_id;
-    all += wall.area_m2;
+    // What is below the ground need not be there. Overlaps are sums of many pieces: what is all of
+    // it but for rounding is all of it.
+    const double visible_m2 = wall.truth->seen * wall.area_m2;
+    named += with_id > (1 - 1e-9) * visible_m2 ? visible_m2 : with_id;
+    all += visible_m2;
   }
   return all > 0 ? named / all : kNotMeasured;
 }

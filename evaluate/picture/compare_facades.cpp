@@ -147,7 +147,7 @@ FacadeFigures MeasureWall(const Measuring& measuring, const TruthFacet& wall,
                           const std::vector<Pairing>& pairings, size_t number) {
   FacadeFigures figures;
   figures.id = wall.truth->id;
-  figures.area_m2 = wall.area_m2;
+  figures.area_m2 = wall.truth->seen * wall.area_m2;  // the rest is below the ground
   if (!wall.matches.empty()) figures.facet = wall.matches.front().result->id;
   std::vector<WeightedPicture> pictures;
   double painted_m2 = 0;
@@ -178,7 +178,7 @@ FacadeFigures MeasureWall(const Measuring& measuring, const TruthFacet& wall,
     painted_m2 += compared->area_m2;
     texel_sum += compared->area_m2 * compared->texel_m;
   }
-  figures.painted = wall.area_m2 > 0 ? std::min(1.0, painted_m2 / wall.area_m2) : 0;
+  figures.painted = figures.area_m2 > 0 ? std::min(1.0, painted_m2 / figures.area_m2) : 0;
   figures.picture = MeanFigures(pictures);
   if (painted_m2 > 0) figures.texel_m = texel_sum / painted_m2;
   if (shift_m2 > 0) figures.misregistration_px = shift_sum / shift_m2;

@@ -59,6 +59,15 @@ void ExpectEqual(const FacadeFigures& figures, double most_flip = 0.006) {
   EXPECT_LT(figures.misregistration_px, 0.02) << figures.id;
 }
 
+TEST(CompareFacades, WhatIsBelowTheGroundNeedNotBePainted) {
+  const Renderer scene(MadeHouseScene());
+  Survey survey = MadeSurvey("buried", scene);
+  survey.truth.buildings[0].facets[0].seen = 0.75;
+  const FacadeFigures south = Compare(survey, scene)[0];
+  EXPECT_NEAR(south.area_m2, 0.75 * 3 * 2.5, 1e-9);
+  EXPECT_EQ(south.painted, 1);
+}
+
 TEST(CompareFacades, TruthAgainstItselfHasNoError) {
   const Renderer scene(MadeHouseScene());
   const Survey survey = MadeSurvey("self", scene);

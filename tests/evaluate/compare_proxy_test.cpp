@@ -121,6 +121,16 @@ TEST(CompareProxy, WallsToANeighbourNeedNoId) {
   EXPECT_NEAR(Compare(result, truth, 0.05).facade_id_rate, 1, 1e-9);
 }
 
+TEST(CompareProxy, WhatIsBelowTheGroundNeedsNoId) {
+  Proxy result = MadeTruth();
+  Proxy truth = MadeTruth();
+  Facet& buried = truth.buildings[0].facets[0];  // 10 x 6 m
+  buried.seen = 0.5;
+  EXPECT_NEAR(Compare(result, truth, 0.05).facade_id_rate, 1, 1e-9);
+  result.buildings[0].facets[0].facade = "B0007/F00";
+  EXPECT_NEAR(Compare(result, truth, 0.05).facade_id_rate, 444.0 / 474, 1e-9);
+}
+
 // Every rectangle as strips along its first side.
 Proxy Cut(const Proxy& proxy, int strips) {
   Proxy cut = proxy;
