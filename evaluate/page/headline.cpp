@@ -42,21 +42,25 @@ bool IsMeasured(const SurfaceFigures& figures) {
   return std::isfinite(figures.error95_m) || std::isfinite(figures.completeness);
 }
 
-std::string SurfaceRow(const std::string& name, const SurfaceFigures& figures) {
+enum class RowOf { kBuildings, kPart };
+
+std::string SurfaceRow(RowOf row, const std::string& name, const SurfaceFigures& figures) {
   if (!IsMeasured(figures)) return "";
   return fmt::format(
-      "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td>"
+      "<tr{}><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td>"
       "<td class=\"num\">{}</td></tr>",
-      name, Metres(figures.error95_m), Percent(figures.completeness),
-      Percent(figures.completeness_all));
+      row == RowOf::kPart ? " class=\"part\"" : "", name, Metres(figures.error95_m),
+      Percent(figures.completeness), Percent(figures.completeness_all));
 }
 
 // The buildings first: most of what there is near them is ground.
 std::string PartRows(const std::string& name, const PartFigures& figures) {
   if (!IsMeasured(figures.all)) return "";
-  return SurfaceRow(name + ": buildings", figures.building) + SurfaceRow("walls", figures.wall) +
-         SurfaceRow("roofs", figures.roof) + SurfaceRow("ground", figures.ground) +
-         SurfaceRow("everything", figures.all);
+  return SurfaceRow(RowOf::kBuildings, name + ": buildings", figures.building) +
+         SurfaceRow(RowOf::kPart, "walls", figures.wall) +
+         SurfaceRow(RowOf::kPart, "roofs", figures.roof) +
+         SurfaceRow(RowOf::kPart, "ground", figures.ground) +
+         SurfaceRow(RowOf::kPart, "everything", figures.all);
 }
 
 std::string Surfaces(const Evaluation& evaluation) {
