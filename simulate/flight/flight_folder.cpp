@@ -194,9 +194,10 @@ void WriteFlight(const Flight& flight, const std::filesystem::path& survey) {
   json["cameras"] = Json::array();
   for (const Camera& camera : cameras) json["cameras"].push_back(ToJson(camera));
   json["photos"] = std::move(photos);
-  WriteColmapText(ModelOf(flight), survey / kTruthFolder / "sparse");
   const auto handler = Json::error_handler_t::replace;  // paths need not be UTF-8
+  // First: by this file the next call knows that the others are its own.
   WriteFileAtomically(survey / kFlightFile, json.dump(1, ' ', false, handler) + "\n");
+  WriteColmapText(ModelOf(flight), survey / kTruthFolder / "sparse");
 }
 
 }  // namespace stucco::simulate

@@ -82,19 +82,24 @@ auto About(const std::string& files, const char* remedy, const Fn& fn) {
   }
 }
 
+void RequireNoOtherPlan(const fs::path& plan, const fs::path& survey) {
+  const fs::path kept = survey / kPlanFile;
+  std::error_code error;
+  if (!fs::exists(kept, error) || fs::equivalent(plan, kept, error)) return;
+  if (ReadFile(kept) == ReadFile(plan)) return;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: is another plan than {}", kept.string(), plan.string()),
+              "simulate into a new survey");
+}
+
 // The survey keeps the plan that it was flown by.
 void KeepPlan(const fs::path& plan, const fs::path& survey) {
+  RequireNoOtherPlan(plan, survey);
   const fs::path kept = survey / kPlanFile;
-  const std::string bytes = ReadFile(plan);
   std::error_code error;
-  if (fs::exists(kept, error)) {
-    if (fs::equivalent(plan, kept, error) || ReadFile(kept) == bytes) return;
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: is another plan than {}", kept.string(), plan.string()),
-                "simulate into a new survey");
-  }
+  if (fs::exists(kept, error)) return;
   fs::create_directories(kept.parent_path(), error);  // what fails here fails in writing
-  WriteFileAtomically(kept, bytes);
+  WriteFileAtomically(kept, ReadFile(plan));
 }
 
 }  // namespace
@@ -108,6 +113,9 @@ FlySummary Fly(const FlyRequest& request, const FlightOptions& options,
   const fs::path plan_path = PlanPath(request.plan);
   const Plan plan = About(plan_path.string(), "make the plan again with stucco plan",
                           [&] { return ReadPlan(plan_path); });
+  // Before anything is written, and before the scene is read, which takes time.
+  RequireNoOtherPlan(plan_path, request.survey);
+  RequireFreeStore(request.survey);
   const SceneInfo info = ReadSceneInfo(request.scene);
   Scene scene = ReadScene(request.scene, request.reading);
   const std::string made_from = MadeFrom(scene, info.georef, plan_path, options);

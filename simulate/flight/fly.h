@@ -35,9 +35,9 @@ struct FlySummary {
 // the truth beside them. `progress` hears (0, total) when all input is known to be
 // sound and nothing is written yet, then (done, total) after each photo, one call at a time; what
 // it throws ends the flight. What an interrupted flight has finished is kept: the same call goes
-// on; a call with other options, plan or scene replaces the photos of the flight before, and nobody
-// else's. Throws Error (kBadInput): the plan is for another place, cameras stand inside buildings,
-// the photo folder has photos of a real flight ...
+// on; a call with other options or another scene replaces the photos of the flight before, and
+// nobody else's. Throws Error (kBadInput): the plan is for another place, cameras stand inside
+// buildings, the survey has another plan, photos of a real flight ...
 FlySummary Fly(const FlyRequest& request, const FlightOptions& options,
                const std::function<void(size_t, size_t)>& progress);
 

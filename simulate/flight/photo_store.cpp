@@ -35,6 +35,8 @@ std::optional<Flight> FlightBefore(const fs::path& survey) {
 }
 
 void RequireOurPhotos(const fs::path& survey, const std::optional<Flight>& before) {
+  std::error_code error;
+  if (!fs::exists(survey / kPhotoFolder, error)) return;
   std::set<std::string> ours;
   if (before) {
     for (const FlownPhoto& photo : before->photos) {
@@ -48,6 +50,28 @@ void RequireOurPhotos(const fs::path& survey, const std::optional<Flight>& befor
                             (survey / kPhotoFolder / file.file).string()),
                 "simulate into a new survey: real and simulated photos do not mix");
   }
+}
+
+// A truth without its flight is not ours: flight.json is the first file that is written into it.
+void RequireOurTruth(const fs::path& survey) {
+  const fs::path truth = survey / kTruthFolder;
+  std::error_code error;
+  if (!fs::exists(truth, error)) return;
+  for (const auto& entry : fs::recursive_directory_iterator(truth, error)) {
+    const bool is_hidden = entry.path().filename().string().starts_with('.');
+    if (is_hidden || !entry.is_regular_file(error)) continue;
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: no simulated flight made this file: there is no {}",
+                            entry.path().string(), (survey / kFlightFile).string()),
+                "simulate into a new survey");
+  }
+}
+
+std::optional<Flight> RequireFlightOrNothing(const fs::path& survey) {
+  auto before = FlightBefore(survey);
+  RequireOurPhotos(survey, before);
+  if (!before) RequireOurTruth(survey);
+  return before;
 }
 
 size_t RemovePhotos(const fs::path& survey, const Flight& flight) {
@@ -70,10 +94,13 @@ fs::path PathOfDepth(const fs::path& survey, const FlownPhoto& photo) {
   return survey / kTruthFolder / "depth" / (photo.path + ".dmap");
 }
 
+void RequireFreeStore(const fs::path& survey) {
+  RequireFlightOrNothing(survey);
+}
+
 std::vector<std::string> OpenPhotoStore(const fs::path& survey, const Flight& flight) {
+  const auto before = RequireFlightOrNothing(survey);
   MakeFolder(survey / kPhotoFolder);
-  const auto before = FlightBefore(survey);
-  RequireOurPhotos(survey, before);
   MakeFolder(survey / kTruthFolder / "held_out");
   std::vector<std::string> notes;
   if (before && before->made_from != flight.made_from) {

@@ -121,7 +121,16 @@ f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\nf 9 10 11 12
         (survey / "photos").mkdir(parents=True)
         shutil.copy(stucco.sample_photos(1)[0], survey / "photos" / "real.jpg")
         self.refused(self.fly(*self.scene_and_plan()), 3, "real.jpg")
-        self.assertEqual([path.name for path in (survey / "photos").iterdir()], ["real.jpg"])
+        self.assertEqual(os.listdir(survey), ["photos"])
+        self.assertEqual(os.listdir(survey / "photos"), ["real.jpg"])
+
+    def test_a_survey_with_another_plan_is_left_alone(self):
+        survey = self.root / "survey"
+        (survey / "plan").mkdir(parents=True)
+        (survey / "plan" / "plan.json").write_text("{}")
+        self.refused(self.fly(*self.scene_and_plan()), 3, "another plan", "new survey")
+        self.assertEqual(os.listdir(survey), ["plan"])
+        self.assertEqual((survey / "plan" / "plan.json").read_text(), "{}")
 
 
 if __name__ == "__main__":

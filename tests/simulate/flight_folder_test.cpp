@@ -103,6 +103,12 @@ TEST_F(FlightFolder, ColmapModelHasThePhotosThatThereAre) {
   EXPECT_EQ(model.cameras.begin()->second.params, flight.photos[0].camera.params);
 }
 
+TEST_F(FlightFolder, TheFlightIsWrittenBeforeItsColmapModel) {
+  WriteFile(survey_ / "truth/sparse", "in the way of the folder");
+  EXPECT_THROW(WriteFlight(MadeFlight(), survey_), Error);
+  EXPECT_EQ(ReadFlight(survey_).made_from, "abc");
+}
+
 TEST_F(FlightFolder, DamageIsNamed) {
   EXPECT_THROW(ReadFlight(survey_), Error);  // missing
   WriteFlight(MadeFlight(), survey_);

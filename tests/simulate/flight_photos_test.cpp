@@ -155,6 +155,24 @@ TEST_F(TakePhotosTest, RealPhotosAreLeftAlone) {
   EXPECT_FALSE(fs::exists(survey_ / "truth"));
 }
 
+TEST_F(TakePhotosTest, ATruthOfSomebodyElseIsLeftAlone) {
+  EXPECT_NO_THROW(RequireFreeStore(survey_));
+  fs::create_directories(survey_ / "truth/held_out");  // as far as a call came that was killed
+  WriteFile(survey_ / "truth/.flight.json.1.0.partial", "{");
+  EXPECT_NO_THROW(RequireFreeStore(survey_));
+  fs::create_directories(survey_ / "truth/scans");
+  WriteFile(survey_ / "truth/scans/house.ply", "ply");
+  try {
+    Take(SmallPhotos());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+    EXPECT_THAT(error.what(), HasSubstr("house.ply"));
+  }
+  EXPECT_FALSE(fs::exists(survey_ / "photos"));
+  EXPECT_FALSE(fs::exists(survey_ / kFlightFile));
+}
+
 TEST_F(TakePhotosTest, DepthMapsAreInTheFormatOfTheDenseStage) {
   FlightOptions options = SmallPhotos();
   options.write_depth = true;
