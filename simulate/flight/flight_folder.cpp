@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "survey/colmap_io.h"
 #include "survey/error.h"
@@ -17,6 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
+constexpr char kHeldOut[] = "held_out/";
 
 template <typename Vector>
 Json ListOf(const Vector& vector) {
@@ -118,6 +121,18 @@ Json ToJson(const FlownPhoto& photo, std::vector<Camera>& cameras) {
   return json;
 }
 
+// Photos are removed by these paths: they must not lead out of the flight's own folders.
+void RequireOwnPath(const FlownPhoto& photo) {
+  std::string_view name = photo.path;
+  const bool is_in_place = !photo.held_out || name.starts_with(kHeldOut);
+  if (photo.held_out && is_in_place) name.remove_prefix(std::size(kHeldOut) - 1);
+  const bool is_plain = !name.empty() && name != "." && name != ".." &&
+                        name.find_first_of(std::string_view("/\\\0", 3)) == name.npos;
+  if (is_in_place && is_plain) return;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("has a photo \"{}\" that is not in the folder for it", photo.path));
+}
+
 FlownPhoto PhotoFrom(const Json& json, const std::vector<Camera>& cameras) {
   FlownPhoto photo;
   photo.path = json.at("path").get<std::string>();
@@ -135,6 +150,7 @@ FlownPhoto PhotoFrom(const Json& json, const std::vector<Camera>& cameras) {
   Take(json.at("white_balance"), photo.white_balance);
   photo.held_out = json.at("held_out").get<bool>();
   photo.lost = json.at("lost").get<bool>();
+  RequireOwnPath(photo);
   photo.duplicate_of = json.value("duplicate_of", std::string());
   return photo;
 }
@@ -181,7 +197,7 @@ Flight ReadFlight(const std::filesystem::path& survey) {
     reason = error.what();
   }
   throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", path.string(), reason),
-              "simulate the flight again; when this file is gone, into a new survey");
+              "simulate into a new survey");
 }
 
 void WriteFlight(const Flight& flight, const std::filesystem::path& survey) {

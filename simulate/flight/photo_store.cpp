@@ -74,12 +74,21 @@ std::optional<Flight> RequireFlightOrNothing(const fs::path& survey) {
   return before;
 }
 
+// False where there was nothing. What stays would be taken for a photo of the next flight.
+bool Remove(const fs::path& file) {
+  std::error_code error;
+  const bool removed = fs::remove(file, error);
+  if (!error) return removed;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: cannot be removed ({})", file.string(), error.message()),
+              "simulate into a new survey");
+}
+
 size_t RemovePhotos(const fs::path& survey, const Flight& flight) {
   size_t removed = 0;
   for (const FlownPhoto& photo : flight.photos) {
-    std::error_code error;
-    if (fs::remove(PathOfPhoto(survey, photo), error)) ++removed;
-    fs::remove(PathOfDepth(survey, photo), error);
+    if (Remove(PathOfPhoto(survey, photo))) ++removed;
+    Remove(PathOfDepth(survey, photo));
   }
   return removed;
 }

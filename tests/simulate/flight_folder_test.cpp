@@ -56,6 +56,7 @@ Flight MadeFlight() {
   flight.photos[1].lost = true;
   flight.photos[2].duplicate_of = "photo0.JPG";
   flight.photos[3].held_out = true;
+  flight.photos[3].path = "held_out/photo3.JPG";
   return flight;
 }
 
@@ -134,6 +135,31 @@ TEST_F(FlightFolder, DamageIsNamed) {
   text = whole;
   text.replace(text.find("\"version\": 1"), 12, "\"version\": 2");
   fails_with(text, "version");
+}
+
+TEST_F(FlightFolder, PhotosOutsideOfItsFoldersAreRefused) {
+  const auto is_read = [&](const std::string& path, bool held_out) {
+    Flight flight = MadeFlight();
+    flight.photos[0].path = path;
+    flight.photos[0].held_out = held_out;
+    WriteFlight(flight, survey_);
+    try {
+      ReadFlight(survey_);
+      return true;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("not in the folder"));
+      return false;
+    }
+  };
+  EXPECT_TRUE(is_read("a.JPG", false));
+  EXPECT_TRUE(is_read("held_out/a.JPG", true));
+  for (const char* path : {"", ".", "..", "../a.JPG", "/tmp/a.JPG", "sub/a.JPG", "..\\a.JPG"}) {
+    EXPECT_FALSE(is_read(path, false)) << path;
+    EXPECT_FALSE(is_read(std::string("held_out/") + path, true)) << path;
+  }
+  EXPECT_FALSE(is_read("held_out/a.JPG", false));
+  EXPECT_FALSE(is_read("flight.json", true));
 }
 
 }  // namespace

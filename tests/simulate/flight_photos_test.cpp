@@ -140,6 +140,21 @@ TEST_F(TakePhotosTest, AnotherFlightReplacesThePhotosOfThisOne) {
   EXPECT_THAT(summary.notes, ::testing::Contains(HasSubstr("20 photos")));
 }
 
+TEST_F(TakePhotosTest, APhotoThatCannotBeRemovedIsAnError) {
+  Take(SmallPhotos());
+  const fs::path stuck = PathOfPhoto(survey_, ReadFlight(survey_).photos[3]);
+  fs::remove(stuck);
+  fs::create_directories(stuck / "folder");
+  try {
+    Take(SmallPhotos(), 1, "b");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+    EXPECT_THAT(error.what(), HasSubstr(stuck.filename().string()));
+  }
+  EXPECT_EQ(ReadFlight(survey_).made_from, "a");
+}
+
 TEST_F(TakePhotosTest, RealPhotosAreLeftAlone) {
   fs::create_directories(survey_ / "photos");
   WriteImage(Image{8, 8, 3, std::vector<uint8_t>(192, 9)}, survey_ / "photos/DJI_0001.JPG");
