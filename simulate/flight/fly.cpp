@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Changes when the same flight gives other photos.
-constexpr char kFlightVersion[] = "3";
+constexpr char kFlightVersion[] = "4";
 
 fs::path PlanPath(const fs::path& given) {
   std::error_code error;
@@ -45,8 +45,9 @@ std::string MadeFrom(const Scene& scene, const Georef& place, const fs::path& pl
   return HashParts(parts);
 }
 
-SceneShape ShapeOf(const Renderer& renderer) {
+SceneShape ShapeOf(const Renderer& renderer, const SceneInfo& info) {
   SceneShape shape;
+  shape.is_ours = !info.style.empty() || info.has_truth;
   for (const Eigen::Vector3f& position : renderer.scene().positions) {
     shape.box.extend(position.cast<double>().eval());
   }
@@ -122,7 +123,7 @@ FlySummary Fly(const FlyRequest& request, const FlightOptions& options,
   const Renderer renderer(std::move(scene));
   const std::string both = fmt::format("{} in {}", plan_path.string(), request.scene.string());
   PreparedFlight prepared =
-      About(both, "", [&] { return PrepareFlight(plan, info, ShapeOf(renderer), options); });
+      About(both, "", [&] { return PrepareFlight(plan, info, ShapeOf(renderer, info), options); });
   prepared.flight.scene = request.scene.string();
   prepared.flight.scene_hash = HashFile(ModelFile(request.scene));
   prepared.flight.made_from = made_from;

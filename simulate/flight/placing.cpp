@@ -6,13 +6,14 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include "survey/attitude.h"
 #include "survey/error.h"
+#include "survey/median.h"
 #include "survey/plan_frame.h"
 
 namespace stucco::simulate {
@@ -28,14 +29,15 @@ std::string_view NameOf(const SceneShape& scene, int element) {
   return is_known ? std::string_view(scene.elements[element]) : std::string_view();
 }
 
-// "G0", "G1": the ground of a scene of ours.
+// "G0", "G1": the ground of a scene of ours. In other models names mean nothing.
 bool IsGround(const SceneShape& scene, int element) {
   const std::string_view name = NameOf(scene, element);
-  return name.size() > 1 && name[0] == 'G' && std::isdigit(static_cast<unsigned char>(name[1]));
+  return scene.is_ours && name.size() > 1 && name[0] == 'G' &&
+         name.find_first_not_of("0123456789", 1) == name.npos;
 }
 
 bool IsOccluder(const SceneShape& scene, int element) {
-  return NameOf(scene, element).starts_with(kOccluderPrefix);
+  return scene.is_ours && NameOf(scene, element).starts_with(kOccluderPrefix);
 }
 
 // All that a vertical line meets from `from` on; a long way, as scenes have many leaves.
@@ -119,21 +121,27 @@ void RequireSamePlace(const Plan& plan, const PlacedPlan& placed, const SceneSha
               kModelHint);
 }
 
+std::vector<RayHit> SurfacesAtPlanned(const SceneShape& scene, const PlacedPlan& placed,
+                                      const Eigen::Vector2d& place) {
+  const double height_m = placed.world.origin_height_m;
+  return SurfacesAt(scene, WorldAtHeight(placed, place, height_m).head<2>());
+}
+
+// A place of the plan before the middle of a wall, farther than balconies reach.
+Eigen::Vector2d BeforeWall(const PlannedFacade& wall) {
+  constexpr double kBefore_m = 2;
+  return (wall.a_m + wall.b_m) / 2 + kBefore_m * wall.outwards();
+}
+
 // Whether something high stands behind a wall of the plan and nothing before it; nothing where the
 // scene has no ground.
 std::optional<bool> Stands(const PlannedFacade& wall, const PlacedPlan& placed,
                            const SceneShape& scene) {
   constexpr double kBehind_m = 1;
-  constexpr double kBefore_m = 2;  // more than balconies
   constexpr double kHigh_m = 2;
-  const Eigen::Vector2d outwards = wall.outwards();
   const Eigen::Vector2d middle = (wall.a_m + wall.b_m) / 2;
-  const auto surfaces_at = [&](const Eigen::Vector2d& place) {
-    const double height_m = placed.world.origin_height_m;
-    return SurfacesAt(scene, WorldAtHeight(placed, place, height_m).head<2>());
-  };
-  const auto before = surfaces_at(middle + kBefore_m * outwards);
-  const auto behind = surfaces_at(middle - kBehind_m * outwards);
+  const auto before = SurfacesAtPlanned(scene, placed, BeforeWall(wall));
+  const auto behind = SurfacesAtPlanned(scene, placed, middle - kBehind_m * wall.outwards());
   const auto ground = GroundOf(scene, before);
   if (!ground || behind.empty()) return std::nullopt;
   const double high = *ground + kHigh_m;
@@ -141,20 +149,48 @@ std::optional<bool> Stands(const PlannedFacade& wall, const PlacedPlan& placed,
 }
 
 // Models from elsewhere all lie about their origin, as plans do: that something is there does not
-// mean that it is what was planned for.
-void RequireWalls(const Plan& plan, const PlacedPlan& placed, const SceneShape& scene) {
-  size_t known = 0;
-  size_t standing = 0;
+// mean that it is what was planned for. Returns of how many walls that can be said.
+int RequireWalls(const Plan& plan, const PlacedPlan& placed, const SceneShape& scene) {
+  int known = 0;
+  int standing = 0;
   for (const PlannedFacade& wall : plan.facades) {
     const auto stands = Stands(wall, placed, scene);
     if (!stands) continue;
     ++known;
     if (*stands) ++standing;
   }
-  if (2 * standing >= known) return;
+  if (2 * standing >= known) return known;
   throw Error(ErrorKind::kBadInput,
               fmt::format("the plan is for another place: {} of its {} walls stand in the scene",
                           standing, known),
+              kModelHint);
+}
+
+// Height of the scene's ground at a place of the plan; the way through geodetic coordinates takes
+// the earth's curvature along.
+std::optional<double> GroundHeightAt(const SceneShape& scene, const PlacedPlan& placed,
+                                     const Eigen::Vector2d& place) {
+  const Eigen::Vector3d in_world = WorldAtHeight(placed, place, placed.world.origin_height_m);
+  const auto ground = GroundOf(scene, SurfacesAt(scene, in_world.head<2>()));
+  if (!ground) return std::nullopt;
+  return GeodeticFromEnu(placed.world, {in_world.x(), in_world.y(), *ground}).z();
+}
+
+// The height that z = 0 of a plan without terrain means. Before walls there is ground; the plan's
+// origin may lie in a house, and models from elsewhere have no ground under their roofs.
+double GroundHeight(const Plan& plan, const PlacedPlan& placed, const SceneShape& scene) {
+  std::vector<double> heights;
+  for (const PlannedFacade& wall : plan.facades) {
+    const auto height_m = GroundHeightAt(scene, placed, BeforeWall(wall));
+    if (height_m) heights.push_back(*height_m);
+  }
+  if (const auto height_m = Median(std::move(heights))) return *height_m;
+  for (const Eigen::Vector2d& place : {Eigen::Vector2d(0, 0), plan.home_m.head<2>().eval()}) {
+    if (const auto height_m = GroundHeightAt(scene, placed, place)) return *height_m;
+  }
+  throw Error(ErrorKind::kBadInput,
+              "the scene has no ground before the plan's walls, at its origin nor at its home, so "
+              "that the plan's heights mean nothing",
               kModelHint);
 }
 
@@ -174,21 +210,9 @@ PlacedPlan PlacePlan(const Plan& plan, const SceneInfo& info, const SceneShape& 
     placed.world.metric = true;
   }
   RequireSamePlace(plan, placed, scene);
-  RequireWalls(plan, placed, scene);
-  if (plan.origin.height_m != 0) return placed;
-  // Of a plan without terrain only the heights above the ground are known.
-  for (const Eigen::Vector2d& place : {Eigen::Vector2d(0, 0), plan.home_m.head<2>().eval()}) {
-    const Eigen::Vector3d in_world = WorldAtHeight(placed, place, placed.world.origin_height_m);
-    if (const auto ground = GroundOf(scene, SurfacesAt(scene, in_world.head<2>()))) {
-      // The way back through geodetic coordinates takes the earth's curvature along.
-      placed.height_m = GeodeticFromEnu(placed.world, {in_world.x(), in_world.y(), *ground}).z();
-      return placed;
-    }
-  }
-  throw Error(ErrorKind::kBadInput,
-              "the scene has no ground at the plan's origin nor at its home, so that the plan's "
-              "heights mean nothing",
-              kModelHint);
+  placed.walls_judged = RequireWalls(plan, placed, scene);
+  if (plan.origin.height_m == 0) placed.height_m = GroundHeight(plan, placed, scene);
+  return placed;
 }
 
 Eigen::Vector3d WorldFromPlan(const PlacedPlan& placed, const Eigen::Vector3d& position_m) {

@@ -26,20 +26,23 @@ using CastRay = std::function<std::optional<RayHit>(const Eigen::Vector3d& from,
 struct SceneShape {
   Eigen::AlignedBox3d box;
   std::vector<std::string> elements;
+  bool is_ours = false;  // made by MakeCity: the names of its elements say what they are
   CastRay cast;
 };
 
 // Where a plan lies in the frame of a scene.
 struct PlacedPlan {
   PlanOrigin origin;
-  double height_m = 0;  // of the plan's z = 0, in the heights of `world`
-  Georef world;         // frame "enu": the scene's
+  double height_m = 0;   // of the plan's z = 0, in the heights of `world`
+  Georef world;          // frame "enu": the scene's
+  int walls_judged = 0;  // of how many walls it can be said whether they stand in the scene
 };
 
 // A scene that does not say where it lies is taken to be in the frame of the plan. The plan's z = 0
-// is origin.height_m; where that is 0 (a plan without terrain) it is the scene's ground at the
-// plan's origin. Throws Error (kBadInput) when the plan's footprints are not where the scene is, or
-// fewer than half of its walls stand there.
+// is origin.height_m; where that is 0 (a plan without terrain) it is the median of the scene's
+// ground before the plan's walls, or its ground at the plan's origin or home. Throws Error
+// (kBadInput) when the plan's footprints are not where the scene is, or fewer than half of its
+// walls stand there.
 PlacedPlan PlacePlan(const Plan& plan, const SceneInfo& info, const SceneShape& scene);
 
 Eigen::Vector3d WorldFromPlan(const PlacedPlan& placed, const Eigen::Vector3d& position_m);

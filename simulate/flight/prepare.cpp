@@ -77,20 +77,35 @@ std::vector<BlockedView> LoseBlockedPhotos(const SceneShape& scene, PreparedFlig
 
 void RequireFewBlocked(const std::vector<BlockedView>& blocked, PreparedFlight& prepared) {
   const size_t views = prepared.plan.views.size();
-  const auto misplanned = static_cast<size_t>(
-      std::count_if(blocked.begin(), blocked.end(), [](auto& view) { return view.is_planned; }));
+  const auto misplanned =
+      static_cast<size_t>(std::ranges::count_if(blocked, &BlockedView::is_planned));
   constexpr size_t kOneIn = 20;
-  if (blocked.size() == views || (misplanned > 1 && misplanned * kOneIn > views)) {
+  const bool is_all = blocked.size() == views;
+  if (is_all || (misplanned > 1 && misplanned * kOneIn > views)) {
+    const BlockedView& first =
+        is_all ? blocked[0] : *std::ranges::find_if(blocked, &BlockedView::is_planned);
     throw Error(ErrorKind::kBadInput,
                 fmt::format("the cameras of {} of {} views cannot be where the plan wants them: "
                             "view {} {}",
-                            blocked.size(), views, blocked[0].id, blocked[0].why),
+                            is_all ? views : misplanned, views, first.id, first.why),
                 "plan with a map of this scene; for a model from elsewhere, --unit and --up say "
                 "what its numbers mean");
   }
   for (const BlockedView& view : blocked) {
     prepared.notes.push_back(fmt::format("view {} {}: no photo", view.id, view.why));
   }
+}
+
+// Of plans for other places only walls tell; a model may have no ground to judge them by.
+void NoteWallsUnknown(PreparedFlight& prepared) {
+  constexpr size_t kOneIn = 5;
+  const size_t walls = prepared.plan.facades.size();
+  const auto judged = static_cast<size_t>(prepared.placed.walls_judged);
+  if (judged * kOneIn >= walls) return;
+  prepared.notes.push_back(fmt::format(
+      "only {} of the plan's {} walls have ground before them and a roof behind them in "
+      "the scene: whether the plan is for this scene cannot be told",
+      judged, walls));
 }
 
 // A camera that touches a wall is no use either.
@@ -123,7 +138,7 @@ void AddHeldOut(const SceneShape& scene, const Camera& lens, const FlightOptions
   }
 }
 
-// Heights from satellites are about twice as uncertain as places.
+// Heights from satellites are about one and a half times as uncertain as places.
 constexpr double kUpOverHorizontal = 1.5;
 const Eigen::Vector3d kRtkSigma_m(0.011, 0.011, 0.02);
 
@@ -134,6 +149,7 @@ PreparedFlight PrepareFlight(const Plan& plan, const SceneInfo& info, const Scen
   PreparedFlight prepared;
   prepared.plan = plan;
   prepared.placed = PlacePlan(plan, info, scene);
+  NoteWallsUnknown(prepared);
   prepared.flight.seed = static_cast<uint64_t>(options.seed);
   prepared.flight.georef = prepared.placed.world;
   const Camera lens = MakeLens(plan.camera, options);

@@ -25,8 +25,61 @@ std::string ProblemOf(const Plan& plan, const SceneShape& scene) {
 
 TEST(Placing, GroundOfAPlanWithoutTerrainIsTheScenes) {
   const PlacedPlan placed = PlacePlan(MadePlan(2), MadeSceneInfo(), MadeScene(17));
-  EXPECT_NEAR(placed.height_m, 267, 1e-6);
+  EXPECT_NEAR(placed.height_m, 267, 1e-4);
   EXPECT_LT((WorldFromPlan(placed, {5, -15, 4}) - Eigen::Vector3d(5, -15, 21)).norm(), 1e-3);
+}
+
+// As models from elsewhere are: names that mean nothing, and no ground under the house.
+SceneShape SceneFromElsewhere(double ground_m) {
+  SceneShape scene = MadeScene(ground_m);
+  scene.is_ours = false;
+  scene.elements = {"field", "G7"};
+  scene.cast = [=, whole = scene.cast](const Eigen::Vector3d& from,
+                                       const Eigen::Vector3d& direction) {
+    const auto hit = whole(from, direction);
+    const Eigen::AlignedBox2d house(Eigen::Vector2d(0, 0), Eigen::Vector2d(12, 8));
+    const bool is_hole = hit && std::abs(hit->point.z() - ground_m) < 1e-9 &&
+                         house.contains(hit->point.head<2>().eval());
+    return is_hole ? std::nullopt : hit;
+  };
+  return scene;
+}
+
+TEST(Placing, ARoofWithoutGroundBelowIsNoGround) {
+  // The plan's origin is a corner of the house.
+  const PlacedPlan placed = PlacePlan(MadePlan(2), MadeSceneInfo(), SceneFromElsewhere(17));
+  EXPECT_NEAR(placed.height_m, 267, 1e-4);
+  EXPECT_EQ(placed.walls_judged, 1);
+}
+
+TEST(Placing, NamesMeanNothingInOtherModels) {
+  SceneShape scene = MadeScene();
+  scene.elements[1] = "G7";
+  EXPECT_EQ(WhyBlocked(scene, {6, 4, 3}), "is below the ground");
+  scene.is_ours = false;
+  EXPECT_EQ(WhyBlocked(scene, {6, 4, 3}), "stands inside G7");
+  scene.elements[1] = "occluder/house";
+  EXPECT_EQ(WhyBlocked(scene, {6, 4, 3}), "stands inside occluder/house");
+  scene.is_ours = true;
+  scene.elements[1] = "G7 Main Street";
+  EXPECT_EQ(WhyBlocked(scene, {6, 4, 3}), "stands inside G7 Main Street");
+}
+
+TEST(Placing, WallsThatCannotBeJudgedAreNoted) {
+  // Roofs alone.
+  SceneShape scene = SceneFromElsewhere(0);
+  scene.cast = [with = scene.cast](const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
+    const auto hit = with(from, direction);
+    return hit && hit->element == 0 ? std::nullopt : hit;
+  };
+  Plan plan = MadePlan(8);
+  plan.origin.height_m = 250;
+  FlightOptions options;
+  const PreparedFlight prepared = PrepareFlight(plan, MadeSceneInfo(), scene, options);
+  EXPECT_EQ(prepared.placed.walls_judged, 0);
+  ASSERT_EQ(prepared.notes.size(), 1u);
+  EXPECT_THAT(prepared.notes[0], HasSubstr("only 0 of the plan's 1 walls"));
+  EXPECT_TRUE(PrepareFlight(plan, MadeSceneInfo(), MadeScene(), options).notes.empty());
 }
 
 TEST(Placing, HeightsOfAPlanWithTerrainAreAbsolute) {
@@ -151,6 +204,15 @@ TEST(Placing, CamerasInTheCrownsOfTreesAreFound) {
   EXPECT_FALSE(prepared.flight.photos[6].lost);
   ASSERT_EQ(prepared.notes.size(), 6u);
   EXPECT_EQ(prepared.notes[0], "view h0000v0 stands in occluder/tree-001: no photo");
+  // What the plan is blamed for is only what it could know.
+  for (int i = 6; i < 9; ++i) plan.views[i].position_m = {6, 4, 3};
+  try {
+    PrepareFlight(plan, MadeSceneInfo(), scene, options);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("3 of 20 views"));
+    EXPECT_THAT(error.what(), HasSubstr("view h0003v0 stands inside B0001"));
+  }
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ SceneShape MadeScene(double ground_m) {
   shape.box = Eigen::AlignedBox3d(Eigen::Vector3d(-100, -100, ground_m),
                                   Eigen::Vector3d(100, 100, ground_m + 6));
   shape.elements = {"G0", "B0001"};
+  shape.is_ours = true;
   shape.cast = [=](const Eigen::Vector3d& from,
                    const Eigen::Vector3d& direction) -> std::optional<RayHit> {
     auto hit = MeetBox(house, from, direction, 1);
