@@ -22,6 +22,9 @@ constexpr uint64_t kViewSeed = 0x71E3;
 constexpr uint64_t kChoiceSeed = 0xC401;
 constexpr uint64_t kHeldOutSeed = 0x8E1D;
 
+constexpr int kFirstYear = 2026;
+constexpr int kDaysInYear = 365;  // of all years: a flight knows no leap years
+
 constexpr double kBetweenPhotos_s = 2.5;  // at one stop: turn the gimbal, settle, shoot
 constexpr double kTwice_s = 0.7;          // between a photo and its double
 constexpr double kNewBattery_s = 240;
@@ -63,25 +66,23 @@ double SecondsBetween(const Plan& plan, const PlannedView* from, const PlannedVi
   return effort_s((to.position_m - from->position_m).norm(), 1);
 }
 
-// Walks through the days: photos are taken between the hour of the start and the lowest sun.
+// Walks through the days: photos are taken between the hour of the start and the lowest sun, or
+// midnight where the sun does not set.
 class Clock {
  public:
   Clock(const FlightOptions& options, double latitude_deg)
       : latitude_deg_(latitude_deg), start_hour_(options.start_hour), day_(options.day_of_year) {
-    if (SunElevation_deg(latitude_deg, day_, start_hour_) >= kLowestSun_deg) return;
-    throw Error(ErrorKind::kUsage,
-                fmt::format("start_hour {:g}: on day {} the sun is lower than {:g} degrees there",
-                            start_hour_, day_, kLowestSun_deg),
-                "choose an hour around noon, or another day_of_year");
+    RequireLight();
   }
 
   void Advance(double seconds) {
     today_s_ += seconds;
     total_s_ += seconds;
-    if (SunElevation_deg(latitude_deg_, day_, Hour()) >= kLowestSun_deg) return;
+    if (IsLight(Hour())) return;
     total_s_ += 24 * 3600 - today_s_;
     today_s_ = 0;
-    day_ = day_ % 365 + 1;
+    ++day_;
+    RequireLight();
   }
   double Hour() const { return start_hour_ + today_s_ / 3600; }
 
@@ -92,6 +93,21 @@ class Clock {
   }
 
  private:
+  bool IsLight(double hour) const {
+    return hour < 24 && SunElevation_deg(latitude_deg_, day_, hour) >= kLowestSun_deg;
+  }
+  // For a quarter of an hour at least: days of a photo each would never end.
+  void RequireLight() const {
+    constexpr double kShortest_h = 0.25;
+    if (IsLight(start_hour_) && IsLight(start_hour_ + kShortest_h)) return;
+    throw Error(
+        ErrorKind::kUsage,
+        fmt::format("start_hour {:g}: on day {} the sun is lower than {:g} degrees, or the day "
+                    "ends, within a quarter of an hour",
+                    start_hour_, (day_ - 1) % kDaysInYear + 1, kLowestSun_deg),
+        "choose an hour nearer to noon, or another day_of_year");
+  }
+
   double latitude_deg_;
   double start_hour_;
   int day_;
@@ -126,13 +142,14 @@ Shot RealShot(const Plan& plan, int index, const FlightOptions& options) {
 }
 
 struct CalendarTime {
-  int month = 0, day = 0, hour = 0, minute = 0, second = 0, millisecond = 0;
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0, second = 0, millisecond = 0;
 };
 
 CalendarTime TimeOf(const Shot& shot) {
   constexpr int kDaysInMonth[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
   CalendarTime time;
-  int day = (shot.day - 1) % 365;
+  time.year = kFirstYear + (shot.day - 1) / kDaysInYear;
+  int day = (shot.day - 1) % kDaysInYear;
   while (day >= kDaysInMonth[time.month]) day -= kDaysInMonth[time.month++];
   time.month += 1;
   time.day = day + 1;
@@ -204,14 +221,14 @@ Shot HeldOutShot(const Plan& plan, const std::vector<Shot>& shots, const FlightO
 
 std::string FileTime(const Shot& shot) {
   const CalendarTime t = TimeOf(shot);
-  return fmt::format("2026{:02d}{:02d}{:02d}{:02d}{:02d}", t.month, t.day, t.hour, t.minute,
+  return fmt::format("{}{:02d}{:02d}{:02d}{:02d}{:02d}", t.year, t.month, t.day, t.hour, t.minute,
                      t.second);
 }
 
 std::string ExifTime(const Shot& shot) {
   const CalendarTime t = TimeOf(shot);
-  return fmt::format("2026:{:02d}:{:02d} {:02d}:{:02d}:{:02d}", t.month, t.day, t.hour, t.minute,
-                     t.second);
+  return fmt::format("{}:{:02d}:{:02d} {:02d}:{:02d}:{:02d}", t.year, t.month, t.day, t.hour,
+                     t.minute, t.second);
 }
 
 int Milliseconds(const Shot& shot) {

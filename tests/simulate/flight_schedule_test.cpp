@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -106,6 +107,62 @@ TEST(Schedule, FliesByDay) {
   EXPECT_THROW(ScheduleShots(MadePlan(0), {}), Error);
 }
 
+// What scheduling says about the start; nothing where it works.
+std::string ProblemOf(const Plan& plan, const FlightOptions& options) {
+  try {
+    ScheduleShots(plan, options);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Schedule, ADayThatGetsDarkBeforeItsStartEndsTheFlight) {
+  FlightOptions options;
+  options.day_of_year = 277;
+  options.start_hour = 16.5;
+  EXPECT_EQ(ProblemOf(MadePlan(20), options), "");
+  EXPECT_THAT(ProblemOf(MadePlan(5000), options),
+              testing::HasSubstr("start_hour 16.5: on day 279"));
+  options.day_of_year = 280;
+  EXPECT_THAT(ProblemOf(MadePlan(20), options), testing::HasSubstr("on day 280"));
+  options.start_hour = 12;
+  EXPECT_EQ(ProblemOf(MadePlan(5000), options), "");
+}
+
+TEST(Schedule, APolarDayEndsAtMidnight) {
+  FlightOptions options;
+  options.day_of_year = 172;
+  options.start_hour = 22;
+  Plan plan = MadePlan(3000);
+  plan.origin.latitude_deg = 80;
+  const auto shots = ScheduleShots(plan, options);
+  EXPECT_GT(shots.back().day, 172);
+  for (size_t i = 1; i < shots.size(); ++i) {
+    EXPECT_LT(shots[i].hour, 24);
+    EXPECT_GE(shots[i].hour, 22);
+    EXPECT_GT(ExifTime(shots[i]), ExifTime(shots[i - 1]));
+  }
+  options.start_hour = 24;
+  EXPECT_THAT(ProblemOf(plan, options), testing::HasSubstr("the day ends"));
+}
+
+TEST(Schedule, TimesGoOnInTheNewYear) {
+  FlightOptions options;
+  options.day_of_year = 364;
+  options.start_hour = 13;
+  Plan plan = MadePlan(5000);
+  plan.origin.latitude_deg = 40;
+  const auto shots = ScheduleShots(plan, options);
+  EXPECT_EQ(ExifTime(shots.front()).substr(0, 10), "2026:12:30");
+  EXPECT_EQ(ExifTime(shots.back()).substr(0, 7), "2027:01");
+  for (size_t i = 1; i < shots.size(); ++i) {
+    EXPECT_GE(ExifTime(shots[i]), ExifTime(shots[i - 1]));
+    EXPECT_GT(shots[i].time_s, shots[i - 1].time_s);
+  }
+}
+
 TEST(Schedule, NamesAndTimesAreThoseOfTheDrone) {
   Shot shot;
   shot.day = 60;
@@ -117,8 +174,9 @@ TEST(Schedule, NamesAndTimesAreThoseOfTheDrone) {
   shot.day = 365;
   shot.hour = 12;
   EXPECT_EQ(FileTime(shot), "20261231120000");
-  shot.day = 366;  // of a leap year
-  EXPECT_EQ(FileTime(shot), "20260101120000");
+  shot.day = 366;
+  EXPECT_EQ(FileTime(shot), "20270101120000");
+  EXPECT_EQ(ExifTime(shot), "2027:01:01 12:00:00");
 }
 
 TEST(Schedule, HeldOutPosesAreNearPlannedOnesAndDifferent) {
