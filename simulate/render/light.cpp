@@ -10,11 +10,10 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-// The sun's declination on a day of the year 2025, in radians. Other years of the calendar's cycle
-// of four differ by up to 0.4 degrees at the equinoxes; a flight has no year.
-double Declination(int day_of_year) {
-  const double days = day_of_year - 1 + 0.5 + 9131;  // noon, since 2000-01-01 12:00 (J2000)
-  const double centuries = (days - 0.5) / 36525;
+// The sun's declination at noon of a day, in radians.
+double Declination(int day_of_2026) {
+  const double days = day_of_2026 - 1 + 9497;  // since 2000-01-01 12:00 (J2000)
+  const double centuries = days / 36525;
   const double mean_longitude = 280.46646 + 36000.76983 * centuries;
   const double anomaly = (357.52911 + 35999.05029 * centuries) * kRadians;
   const double centre = 1.914602 * std::sin(anomaly) + 0.019993 * std::sin(2 * anomaly) +
@@ -26,8 +25,8 @@ double Declination(int day_of_year) {
 
 }  // namespace
 
-Eigen::Vector3d SunDirection(double latitude_deg, int day_of_year, double solar_hour) {
-  const double declination = Declination(day_of_year);
+Eigen::Vector3d SunDirection(double latitude_deg, int day_of_2026, double solar_hour) {
+  const double declination = Declination(day_of_2026);
   const double latitude = latitude_deg * kRadians;
   const double hour_angle = (solar_hour - 12) * 15 * kRadians;  // positive in the afternoon
   return {-std::cos(declination) * std::sin(hour_angle),

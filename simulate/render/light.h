@@ -16,8 +16,10 @@ struct Light {
   double haze_m = 0;                            // distance at which contrast is 1/e; 0: clear air
 };
 
-// The sun's direction (towards it) at an hour of local solar time on a day of the year: Meeus,
-// "Astronomical Algorithms" (1998), ch. 25, to a tenth of a degree.
-Eigen::Vector3d SunDirection(double latitude_deg, int day_of_year, double solar_hour);
+// The sun's direction (towards it) at an hour of local solar time on a day of 2026, 1 is January 1;
+// 366 is that of 2027. Meeus, "Astronomical Algorithms" (1998), ch. 25, to a tenth of a degree at
+// the longitude of Greenwich; half a day of declination, 0.2 degrees, at the other side of the
+// earth.
+Eigen::Vector3d SunDirection(double latitude_deg, int day_of_2026, double solar_hour);
 
 }  // namespace stucco::simulate

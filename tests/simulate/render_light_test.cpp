@@ -348,6 +348,15 @@ TEST(RenderLight, OvercastSkyIsBrightestAboveAndClearSkyBelow) {
   EXPECT_GT(towards({1, 0, 0.02}, clear), 1.5f * towards({0.3, 0, 1}, clear));
 }
 
+TEST(SunDirection, EquinoxesAreThoseOf2026) {
+  const auto declination_deg = [](int day) {
+    return std::asin(SunDirection(0, day, 12).y()) * 180 / std::numbers::pi;
+  };
+  // 20 March 14:46 and 23 September 00:05 UT, by 0.39 degrees a day.
+  EXPECT_NEAR(declination_deg(79), -0.05, 0.02);
+  EXPECT_NEAR(declination_deg(266), -0.19, 0.02);
+}
+
 TEST(SunDirection, StandsWhereTheAlmanacSays) {
   const auto height = [](const Eigen::Vector3d& to_sun) {
     return std::asin(to_sun.z()) * 180 / std::numbers::pi;
