@@ -132,6 +132,7 @@ FlySummary Fly(const FlyRequest& request, const FlightOptions& options,
         "the scene has no textures: photos show plain colours, on which little can be matched");
   }
   const Photographer photographer = PhotographerOf(renderer);
+  renderer.PrepareLight();
   MeterFlight(photographer, options, real.threads, prepared);
   if (progress) {
     progress(0, static_cast<size_t>(

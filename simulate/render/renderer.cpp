@@ -67,10 +67,12 @@ struct Renderer::State {
 
   explicit State(Scene model) : scene(std::move(model)), mean_albedo(MeanAlbedo(scene)) {}
 
+  void MakeSkyLight() {
+    std::call_once(sky_light_made, [&] { sky_light = std::make_unique<SkyLight>(scene); });
+  }
+
   Radiance Draw(const internal::View& view, const Light& light, const RenderOptions& options) {
-    if (light.lit) {
-      std::call_once(sky_light_made, [&] { sky_light = std::make_unique<SkyLight>(scene); });
-    }
+    if (light.lit) MakeSkyLight();
     internal::Shader shader;
     shader.scene = &scene;
     shader.sky_light = sky_light.get();
@@ -87,6 +89,10 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 const Scene& Renderer::scene() const {
   return state_->scene.scene();
+}
+
+void Renderer::PrepareLight() const {
+  state_->MakeSkyLight();
 }
 
 Radiance Renderer::Photograph(const Camera& camera, const Pose& cam_from_world, const Light& light,

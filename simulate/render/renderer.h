@@ -67,6 +67,10 @@ class Renderer {
 
   const Scene& scene() const;
 
+  // Finds how much of the sky each place sees, on all threads. The first lit picture does it
+  // otherwise; where pictures are drawn in parallel, all would wait for the one thread of that one.
+  void PrepareLight() const;
+
   // What a perfect lens with the distortion of `camera` shows.
   Radiance Photograph(const Camera& camera, const Pose& cam_from_world, const Light& light,
                       const RenderOptions& options = {}) const;
