@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "survey/error.h"
+#include "survey/escape.h"
 
 namespace stucco::simulate {
 namespace {
@@ -146,7 +147,7 @@ std::string XmpPacket(const PhotoMetadata& metadata) {
       "    xmlns:dc=\"http://purl.org/dc/elements/1.1/\"\n"
       "    xmlns:drone-dji=\"http://www.dji.com/drone-dji/1.0/\"";
   for (const auto& [name, value] : XmpAttributes(metadata)) {
-    text += fmt::format("\n   {}=\"{}\"", name, value);
+    text += fmt::format("\n   {}=\"{}\"", name, EscapeHtml(value));
   }
   return text + "/>\n </rdf:RDF>\n</x:xmpmeta>\n<?xpacket end=\"w\"?>";
 }

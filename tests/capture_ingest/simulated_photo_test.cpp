@@ -83,6 +83,17 @@ TEST(SimulatedPhoto, SouthAndSixtySecondsAreWrittenRight) {
   EXPECT_EQ(Text(read.tags, "Exif.GPSInfo.GPSLatitude"), "34/1 0/1 0/10000");
 }
 
+TEST(SimulatedPhoto, AnyNameOfACameraIsReadBack) {
+  simulate::PhotoMetadata m = Metadata();
+  m.model = "R&D \"wide\"";
+  const std::string jpeg = simulate::WithMetadata(MakeJpeg(1), m);
+  EXPECT_THAT(jpeg, ::testing::HasSubstr("tiff:Model=\"R&amp;D &quot;wide&quot;\""));
+  const PhotoTags read = ReadTags(jpeg);
+  EXPECT_EQ(read.problem, "");
+  EXPECT_EQ(Text(read.tags, "Exif.Image.Model"), m.model);
+  EXPECT_TRUE(ReadGimbal(read.tags).angles.has_value());
+}
+
 TEST(SimulatedPhoto, PictureIsUntouchedAndBytesAreTheSame) {
   const std::string jpeg = MakeJpeg(3);
   const std::string once = simulate::WithMetadata(jpeg, Metadata());
