@@ -103,10 +103,13 @@ bool Shader::FacesSun(int triangle, const Eigen::Vector3f& direction) const {
 Ray Shader::ToSun(const Eigen::Vector3f& point, int triangle,
                   const Eigen::Vector3f& direction) const {
   // Off the surface, towards the viewer, by more than floats err at this distance from the origin.
-  const Eigen::Vector3f& normal = scene->surface(triangle).normal;
-  const float side = normal.dot(direction) > 0 ? -1.0f : 1.0f;
+  // Leaves are lit through from behind: towards the sun, or they would stand in their own shadow.
+  const Surface& surface = scene->surface(triangle);
+  const Eigen::Vector3f to_sun = lighting.light.to_sun.cast<float>();
+  const bool is_leaf = scene->scene().materials[surface.material].cut_out;
+  const float facing = is_leaf ? surface.normal.dot(to_sun) : -surface.normal.dot(direction);
   const float lift = 5e-4f + 2e-6f * point.cwiseAbs().maxCoeff();
-  return {point + side * lift * normal, lighting.light.to_sun.cast<float>()};
+  return {point + std::copysign(lift, facing) * surface.normal, to_sun};
 }
 
 bool Shader::Mirrors(int triangle) const {

@@ -99,9 +99,12 @@ float SkyAt(const RayScene& scene, const Eigen::Vector3f& place, const Surface& 
     return LookUp(scene, place, Eigen::Vector3f::UnitZ(), kRaysForLeaves).sky;
   }
   const Seen front = LookUp(scene, place, surface.normal, rays);
-  if (front.backs <= kMostlyBacks) return front.sky;
+  const bool is_free = front.backs <= kMostlyBacks;
+  if (is_free && front.sky > 0) return front.sky;
+  // Turned the wrong way: in a model that is closed, or of one sheet with nothing below.
   const Seen back = LookUp(scene, place, -surface.normal, rays);
-  return back.backs <= kMostlyBacks && back.sky > 0 ? back.sky : -1;
+  if (back.backs <= kMostlyBacks && back.sky > 0) return back.sky;
+  return is_free ? 0 : -1;
 }
 
 float Distance(const Scene& scene, const Eigen::Vector3i& triangle, int a, int b) {

@@ -65,6 +65,25 @@ TEST(RenderLight, OpenGroundGetsTheWholeSky) {
   EXPECT_NEAR(Down(renderer, 3, 4, 20, SkyOnly()).x(), 1, 1e-5);
 }
 
+TEST(RenderLight, GroundTurnedTheWrongWayGetsTheWholeSky) {
+  Scene scene;
+  testing::AddQuad(scene, {{-kFar, -kFar, 0}, {2 * kFar, 0, 0}, {0, 2 * kFar, 0}},
+                   testing::AddTexture(scene, testing::Plain(255)), "ground");
+  const Renderer renderer(std::move(scene));
+  EXPECT_NEAR(Down(renderer, 3, 4, 20, SkyOnly()).x(), 1, 1e-5);
+}
+
+TEST(RenderLight, UndersidesOfSolidsGetNoSky) {
+  Scene scene;
+  const int white = testing::AddTexture(scene, testing::Plain(255));
+  AddGround(scene, AddBlack(scene));
+  testing::AddBox(scene, {-2, -2, 5}, {2, 2, 6}, white, "box");
+  const Renderer renderer(std::move(scene));
+  const Pose up = LookAt({0, 0, 1}, {0, 0, 2}, Eigen::Vector3d::UnitY());
+  const Radiance picture = renderer.Photograph(testing::Pinhole(9, 9, 200), up, SkyOnly());
+  EXPECT_NEAR(picture.rgb[3 * 40], 0, 0.02);
+}
+
 // A white quad 2 cm above the ground of a street between black walls, h high and w apart, sees the
 // share cos(atan(2 h / w)) of the sky in its middle (Oke, "Boundary layer climates", 1987).
 TEST(RenderLight, StreetGetsItsShareOfTheSky) {
@@ -235,6 +254,18 @@ TEST(RenderLight, CutOutLetsSightAndSunThrough) {
   EXPECT_LT(below.y(), 0.5f);  // in its shadow
 }
 
+TEST(RenderLight, LeavesAreLitThroughFromBehind) {
+  Scene scene;
+  const int leaf = testing::AddTexture(scene, Image{1, 1, 4, {255, 255, 255, 255}});
+  scene.materials[leaf].cut_out = true;
+  testing::AddQuad(scene, {{-10, 10, 5}, {20, 0, 0}, {0, -20, 0}}, leaf, "leaf");
+  const Renderer renderer(std::move(scene));
+  const Pose up = LookAt({0, 0, 1}, {0, 0, 2}, Eigen::Vector3d::UnitY());
+  const Camera camera = testing::Pinhole(9, 9, 200);
+  EXPECT_GT(renderer.Photograph(camera, up, SunOnly({0.1, 0, 1})).rgb[3 * 40], 0.3f);
+  EXPECT_GT(Down(renderer, 0, 0, 20, SunOnly({0.1, 0, 1})).x(), 0.6f);
+}
+
 TEST(RenderLight, LeavesOutWhatIsNotWanted) {
   Scene scene;
   const int white = testing::AddTexture(scene, testing::Plain(255));
@@ -281,6 +312,7 @@ TEST(RenderLight, SamePictureAtAnyNumberOfThreads) {
   options.threads = 1;
   const Radiance single = one.Photograph(camera, pose, light, options);
   options.threads = 0;
+  two.PrepareLight();
   EXPECT_EQ(single.rgb, one.Photograph(camera, pose, light, options).rgb);
   EXPECT_EQ(single.rgb, two.Photograph(camera, pose, light, options).rgb);
 }
