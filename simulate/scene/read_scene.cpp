@@ -4,9 +4,11 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -42,6 +44,12 @@ struct PictureSource {
   std::string name;  // for messages
 };
 
+// Which of a mesh's sets of texture coordinates a material means, and how it moves them.
+struct UvReading {
+  int set = 0;
+  Eigen::Affine2f transform = Eigen::Affine2f::Identity();
+};
+
 // Assimp's scene, being turned into ours.
 struct Conversion {
   std::filesystem::path path;
@@ -50,9 +58,27 @@ struct Conversion {
   double unit_m = 1;
   Scene scene;
   std::vector<PictureSource> pictures;  // as scene.textures
+  std::vector<UvReading> uv_readings;   // of materials
   std::map<std::string, int> picture_of;
   std::map<std::string, int> element_of;
 };
+
+// glTF names files as URIs do: "brick%20wall.png".
+std::string PercentDecoded(const std::string& name) {
+  std::string decoded;
+  for (size_t i = 0; i < name.size(); ++i) {
+    unsigned code = 0;
+    const char* digits = name.data() + i + 1;
+    if (name[i] != '%' || i + 2 >= name.size() ||
+        std::from_chars(digits, digits + 2, code, 16).ptr != digits + 2) {
+      decoded += name[i];
+      continue;
+    }
+    decoded += static_cast<char>(code);
+    i += 2;
+  }
+  return decoded;
+}
 
 int PictureIndex(Conversion& conversion, const std::string& reference) {
   const auto [at, is_new] =
@@ -67,6 +93,9 @@ int PictureIndex(Conversion& conversion, const std::string& reference) {
     std::replace(relative.begin(), relative.end(), '\\', '/');  // as Windows programs write
     source.file = conversion.path.parent_path() / relative;
     source.name = source.file.string();
+    if (!std::filesystem::is_regular_file(source.file)) {
+      source.file = conversion.path.parent_path() / PercentDecoded(relative);
+    }
     if (!std::filesystem::is_regular_file(source.file)) {
       Refuse(conversion.path, fmt::format("its picture {} is missing", source.name),
              "put the pictures beside the model, as its materials name them");
@@ -104,6 +133,34 @@ Material ConvertMaterial(Conversion& conversion, const aiMaterial& from) {
   return material;
 }
 
+// KHR_texture_transform; its rotation is counter-clockwise as one sees it, with v downwards.
+Eigen::Affine2f UvTransformOf(const aiUVTransform& from) {
+  // Assimp turns about the middle of a picture whose v points up, and its translation makes up for
+  // that: back to glTF's, which turns about the top-left corner.
+  const float turn = -from.mRotation;
+  const Eigen::Vector2f scale(from.mScaling.x, from.mScaling.y);
+  const float c = std::cos(turn);
+  const float s = std::sin(turn);
+  const Eigen::Vector2f offset(
+      from.mTranslation.x - 0.5f * scale.x() * (1 - c + s),
+      1 - scale.y() - from.mTranslation.y + 0.5f * scale.y() * (s + c - 1));
+  return Eigen::Translation2f(offset) * Eigen::Rotation2Df(-turn) * Eigen::Scaling(scale);
+}
+
+UvReading UvReadingOf(const aiMaterial& material) {
+  UvReading reading;
+  for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
+    if (material.GetTextureCount(type) == 0) continue;
+    material.Get(AI_MATKEY_UVWSRC(type, 0), reading.set);
+    aiUVTransform transform;
+    if (material.Get(AI_MATKEY_UVTRANSFORM(type, 0), transform) == AI_SUCCESS) {
+      reading.transform = UvTransformOf(transform);
+    }
+    break;
+  }
+  return reading;
+}
+
 int ElementIndex(Conversion& conversion, const std::string& name) {
   const auto [at, is_new] =
       conversion.element_of.emplace(name, static_cast<int>(conversion.scene.elements.size()));
@@ -123,14 +180,23 @@ void AppendMesh(Conversion& conversion, const aiMesh& mesh, const Eigen::Matrix4
                 int element) {
   Scene& scene = conversion.scene;
   const auto first = static_cast<int>(scene.positions.size());
+  const UvReading& reading = conversion.uv_readings[mesh.mMaterialIndex];
+  const auto uv_set = static_cast<unsigned>(reading.set);
+  const bool has_uv = uv_set < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh.HasTextureCoords(uv_set);
+  const int texture = scene.materials[mesh.mMaterialIndex].texture;
+  if (texture >= 0 && !has_uv && (mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) != 0) {
+    Refuse(conversion.path,
+           fmt::format("its part {} has the picture {}, but no texture coordinates (UV)",
+                       scene.elements[element], conversion.pictures[texture].name),
+           "export the model with its texture coordinates");
+  }
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
     const aiVector3D& p = mesh.mVertices[i];
     const Eigen::Vector4d place = world_from_node * Eigen::Vector4d(p.x, p.y, p.z, 1);
     scene.positions.push_back(ConvertPlace(conversion, place.head<3>()));
     // Assimp counts v upwards from the bottom of the picture.
-    const aiVector3D uv =
-        mesh.HasTextureCoords(0) ? mesh.mTextureCoords[0][i] : aiVector3D(0, 1, 0);
-    scene.uv.emplace_back(uv.x, 1 - uv.y);
+    const aiVector3D uv = has_uv ? mesh.mTextureCoords[uv_set][i] : aiVector3D(0, 1, 0);
+    scene.uv.push_back(reading.transform * Eigen::Vector2f(uv.x, 1 - uv.y));
   }
   // A mirrored node turns its triangles round.
   const bool mirrored = world_from_node.topLeftCorner<3, 3>().determinant() < 0;
@@ -295,6 +361,7 @@ Scene ReadScene(const std::filesystem::path& path, const ModelReading& reading) 
   for (unsigned i = 0; i < conversion.model->mNumMaterials; ++i) {
     conversion.scene.materials.push_back(
         ConvertMaterial(conversion, *conversion.model->mMaterials[i]));
+    conversion.uv_readings.push_back(UvReadingOf(*conversion.model->mMaterials[i]));
   }
   AppendNode(conversion, *conversion.model->mRootNode, Eigen::Matrix4d::Identity());
   CheckPlaces(conversion);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -146,6 +147,82 @@ TEST_F(ReadSceneTest, TakesGltfNodes) {
     const auto at = [&](int k) { return scene.positions[scene.triangles[i][k]]; };
     EXPECT_LT((at(1) - at(0)).cross(at(2) - at(0)).y(), 0);
   }
+}
+
+// A triangle with two sets of texture coordinates; `texture` goes on where its picture is named.
+std::string GltfWithPicture(const std::string& picture, const std::string& texture,
+                            const std::string& attributes) {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+    "extensionsUsed":["KHR_texture_transform"],
+    "nodes":[{"name":"wall","mesh":0}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0)" +
+         attributes + R"(},"material":0}]}],
+    "materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0)" +
+         texture + R"(}}}],
+    "textures":[{"source":0}],"images":[{"uri":")" +
+         picture + R"("}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+                  "min":[0,0,0],"max":[1,2,0]},
+                 {"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"},
+                 {"bufferView":2,"componentType":5126,"count":3,"type":"VEC2"}],
+    "bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},
+                   {"buffer":0,"byteOffset":36,"byteLength":24},
+                   {"buffer":0,"byteOffset":60,"byteLength":24}],
+    "buffers":[{"byteLength":84,"uri":"triangle.bin"}]})";
+}
+
+std::string TriangleBytes() {
+  const std::array<float, 21> numbers = {0,    0,    0,     1,    0,    0,    0, 2, 0,  // places
+                                         0,    0,    1,     0,    0,    1,       // the first set
+                                         0.5f, 0.5f, 0.75f, 0.5f, 0.5f, 0.75f};  // the second
+  return {reinterpret_cast<const char*>(numbers.data()), sizeof numbers};
+}
+
+TEST_F(ReadSceneTest, TakesTheTextureCoordinatesThatAGltfMeans) {
+  WritePicture();
+  Write("triangle.bin", TriangleBytes());
+  const auto uv_with = [&](const std::string& texture) {
+    const std::string both = R"(,"TEXCOORD_0":1,"TEXCOORD_1":2)";
+    return ReadScene(Write("a.gltf", GltfWithPicture("brick.png", texture, both))).uv;
+  };
+  const auto near = [](float u, float v) {
+    return ::testing::Truly(
+        [=](const Eigen::Vector2f& uv) { return (uv - Eigen::Vector2f(u, v)).norm() < 1e-5f; });
+  };
+  EXPECT_THAT(uv_with(""), ElementsAre(near(0, 0), near(1, 0), near(0, 1)));
+  EXPECT_THAT(uv_with(R"(,"texCoord":1)"),
+              ElementsAre(near(0.5f, 0.5f), near(0.75f, 0.5f), near(0.5f, 0.75f)));
+  const std::string moved =
+      R"(,"extensions":{"KHR_texture_transform":{"offset":[0.1,0.2],"scale":[2,4]}})";
+  EXPECT_THAT(uv_with(moved), ElementsAre(near(0.1f, 0.2f), near(2.1f, 0.2f), near(0.1f, 4.2f)));
+  // A quarter turn, counter-clockwise, after scaling and before moving.
+  const std::string turned = R"(,"extensions":{"KHR_texture_transform":
+    {"offset":[0.1,0.2],"rotation":1.5707963,"scale":[2,4]}})";
+  EXPECT_THAT(uv_with(turned), ElementsAre(near(0.1f, 0.2f), near(0.1f, -1.8f), near(4.1f, 0.2f)));
+  EXPECT_THAT(uv_with(R"(,"texCoord":1)" + moved),
+              ElementsAre(near(1.1f, 2.2f), near(1.6f, 2.2f), near(1.1f, 3.2f)));
+}
+
+TEST_F(ReadSceneTest, PicturesWithoutTextureCoordinatesAreRefused) {
+  WritePicture();
+  Write("triangle.bin", TriangleBytes());
+  const auto path = Write("a.gltf", GltfWithPicture("brick.png", "", ""));
+  EXPECT_THAT(WhatRefuses(path), HasSubstr("part wall has the picture"));
+  EXPECT_THAT(WhatRefuses(path), HasSubstr("brick.png"));
+}
+
+TEST_F(ReadSceneTest, NamesOfPicturesMayBeUris) {
+  WritePicture();
+  Write("triangle.bin", TriangleBytes());
+  const auto read = [&](const std::string& uri) {
+    return WhatRefuses(Write("a.gltf", GltfWithPicture(uri, "", R"(,"TEXCOORD_0":1)")));
+  };
+  std::filesystem::rename(folder_ / "brick.png", folder_ / "brick wall.png");
+  EXPECT_EQ(read("brick%20wall.png"), "accepted");
+  EXPECT_THAT(read("brick%wall.png"), HasSubstr("brick%wall.png is missing"));
+  // A name that is so is taken before what it would mean.
+  std::filesystem::rename(folder_ / "brick wall.png", folder_ / "brick%20wall.png");
+  EXPECT_EQ(read("brick%20wall.png"), "accepted");
 }
 
 TEST_F(ReadSceneTest, NamesWhatIsMissing) {
