@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "survey/parallel.h"
@@ -92,10 +93,12 @@ class Drawing {
   struct Group {  // rays of one pixel that met the same triangle; each by itself on a pane
     Place sum;
     int rays = 0;
-    const ViewRay* ray = nullptr;  // on a pane
+    int lane = -1;  // of its ray, on a pane
   };
   struct Traced {
-    std::array<ViewRay, kLanes> rays;
+    std::array<Eigen::Vector2d, kLanes> places;  // in the picture
+    RayPack rays;
+    std::array<bool, kLanes> valid;
     HitPack hits;
     uint32_t sunlit = 0;  // bit i: ray i met something that the sun shines on
   };
@@ -114,6 +117,7 @@ class Drawing {
   bool Differ(size_t a, size_t b, int x, int y) const;
   bool IsEdge(int x, int y) const;
   bool LieOnOneSurface(int a, int b, int x, int y) const;
+  ViewRay CentreRay(const Eigen::Vector2i& pixel) const;
   void Refine(std::span<const Eigen::Vector2i> pixels, Places places);
   // The mean over the lanes of one pixel.
   Eigen::Array3f Resolve(const Eigen::Vector2i& pixel, const Traced& traced, int first,
@@ -132,7 +136,7 @@ uint32_t Drawing::FindSunlit(const Traced& traced, int count) const {
   int asked = 0;
   for (int i = 0; i < count; ++i) {
     const Hit& hit = traced.hits[i];
-    const Ray& ray = traced.rays[i].ray;
+    const Ray& ray = traced.rays[i];
     if (hit.triangle < 0 || !shader_.FacesSun(hit.triangle, ray.direction)) continue;
     lanes[asked] = i;
     to_sun[asked++] =
@@ -149,14 +153,20 @@ uint32_t Drawing::FindSunlit(const Traced& traced, int count) const {
 
 Drawing::Traced Drawing::Trace(const std::array<Eigen::Vector2d, kLanes>& places, int count) const {
   Traced traced;
-  RayPack pack;
+  traced.places = places;
   for (int i = 0; i < count; ++i) {
-    traced.rays[i] = RayAt(view_, places[i].x(), places[i].y());
-    pack[i] = traced.rays[i].ray;
+    traced.valid[i] = RayAt(view_, places[i].x(), places[i].y(), traced.rays[i]);
   }
-  traced.hits = shader_.scene->Nearest(pack, count, *shader_.left_out);
+  traced.hits = shader_.scene->Nearest(traced.rays, count, *shader_.left_out);
   traced.sunlit = FindSunlit(traced, count);
   return traced;
+}
+
+ViewRay Drawing::CentreRay(const Eigen::Vector2i& pixel) const {
+  const Eigen::Vector2d at = pixel.cast<double>().array() + 0.5;
+  Ray ray;
+  RayAt(view_, at.x(), at.y(), ray);
+  return ViewRayOf(view_, at.x(), at.y(), ray);
 }
 
 void Drawing::DrawCentres(const Tile& tile) {
@@ -165,23 +175,23 @@ void Drawing::DrawCentres(const Tile& tile) {
     for (int i = 0; i < count; ++i) centres[i] = pixels[i].cast<double>().array() + 0.5;
     const Traced traced = Trace(centres, count);
     for (int i = 0; i < count; ++i) {
-      const ViewRay& ray = traced.rays[i];
-      if (!ray.valid) continue;
+      const Ray& ray = traced.rays[i];
+      if (!traced.valid[i]) continue;
       const size_t at = Index(pixels[i].x(), pixels[i].y());
       const Hit& hit = traced.hits[i];
       if (hit.triangle < 0) {
-        Put(at, Background(shader_.lighting.light, ray.ray.direction.normalized()));
+        Put(at, Background(shader_.lighting, ray.direction.normalized()));
         continue;
       }
       const bool in_sun = traced.sunlit >> i & 1;
       Place place;
       place.triangle = hit.triangle;
-      place.point = ray.ray.origin + hit.at * ray.ray.direction;
+      place.point = ray.origin + hit.at * ray.direction;
       place.at = hit.at;
       place.b1 = hit.b1;
       place.b2 = hit.b2;
       place.in_sun = in_sun ? 1.0f : 0.0f;
-      Put(at, shader_.Radiance(ray, place));
+      Put(at, shader_.Radiance(ViewRayOf(view_, centres[i].x(), centres[i].y(), ray), place));
       const int material = shader_.scene->surface(hit.triangle).material;
       const bool leaf = shader_.scene->scene().materials[material].cut_out;
       marks_[at] = static_cast<uint32_t>(hit.triangle) | (in_sun ? kInSun : 0) |
@@ -197,7 +207,8 @@ bool Drawing::LieOnOneSurface(int a, int b, int x, int y) const {
   const Surface& other = shader_.scene->surface(b);
   constexpr float kSameDirection = 0.999f;
   if (one.material != other.material || one.normal.dot(other.normal) < kSameDirection) return false;
-  const Ray ray = RayAt(view_, x + 0.5, y + 0.5).ray;
+  Ray ray;
+  RayAt(view_, x + 0.5, y + 0.5, ray);
   const float way = one.normal.dot(one.corner - ray.origin) / one.normal.dot(ray.direction);
   const float other_way =
       other.normal.dot(other.corner - ray.origin) / other.normal.dot(ray.direction);
@@ -241,11 +252,11 @@ Eigen::Array3f Drawing::Resolve(const Eigen::Vector2i& pixel, const Traced& trac
   std::array<Group, kLanes> groups;
   int group_count = 0;
   for (int i = first; i < first + count; ++i) {
-    if (!traced.rays[i].valid) continue;
-    const Ray& ray = traced.rays[i].ray;
+    if (!traced.valid[i]) continue;
+    const Ray& ray = traced.rays[i];
     const Hit& hit = traced.hits[i];
     if (hit.triangle < 0) {
-      sum += Background(shader_.lighting.light, ray.direction.normalized());
+      sum += Background(shader_.lighting, ray.direction.normalized());
       continue;
     }
     // What a pane mirrors changes from ray to ray.
@@ -257,7 +268,7 @@ Eigen::Array3f Drawing::Resolve(const Eigen::Vector2i& pixel, const Traced& trac
       ++group_count;
       place.triangle = hit.triangle;
       place.point.setZero();
-      if (mirrors) groups[g].ray = &traced.rays[i];
+      if (mirrors) groups[g].lane = i;
     }
     ++groups[g].rays;
     place.point += ray.origin + hit.at * ray.direction;
@@ -266,7 +277,7 @@ Eigen::Array3f Drawing::Resolve(const Eigen::Vector2i& pixel, const Traced& trac
     place.b2 += hit.b2;
     place.in_sun += static_cast<float>(traced.sunlit >> i & 1);
   }
-  const ViewRay centre = RayAt(view_, pixel.x() + 0.5, pixel.y() + 0.5);
+  std::optional<ViewRay> centre;
   for (int g = 0; g < group_count; ++g) {
     const auto rays_of = static_cast<float>(groups[g].rays);
     Place place = groups[g].sum;
@@ -276,7 +287,13 @@ Eigen::Array3f Drawing::Resolve(const Eigen::Vector2i& pixel, const Traced& trac
     place.b2 /= rays_of;
     place.in_sun /= rays_of;
     place.pixel_side = std::sqrt(rays_of / static_cast<float>(count));
-    sum += rays_of * shader_.Radiance(groups[g].ray ? *groups[g].ray : centre, place);
+    if (const int lane = groups[g].lane; lane >= 0) {
+      const Eigen::Vector2d& at = traced.places[lane];
+      sum += shader_.Radiance(ViewRayOf(view_, at.x(), at.y(), traced.rays[lane]), place);
+      continue;
+    }
+    if (!centre) centre = CentreRay(pixel);
+    sum += rays_of * shader_.Radiance(*centre, place);
   }
   return sum / static_cast<float>(count);
 }
@@ -345,9 +362,7 @@ std::vector<float> MeasureWays(const View& view, const RayScene& scene,
       RayPack pack;
       std::array<bool, kLanes> valid;
       for (int i = 0; i < count; ++i) {
-        const ViewRay ray = RayAt(view, pixels[i].x() + 0.5, pixels[i].y() + 0.5);
-        pack[i] = ray.ray;
-        valid[i] = ray.valid;
+        valid[i] = RayAt(view, pixels[i].x() + 0.5, pixels[i].y() + 0.5, pack[i]);
       }
       const HitPack hits = scene.Nearest(pack, count, options.left_out);
       for (int i = 0; i < count; ++i) {

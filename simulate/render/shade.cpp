@@ -23,20 +23,21 @@ float OvercastSky(float z) {  // Moon and Spencer, "Illumination from a non-unif
   return (1 + 2 * z) * 3 / 7;
 }
 
-bool IsOvercast(const Light& light) {
-  return light.sun.maxCoeff() <= 0;
+// x to the 24th, round the sun.
+float Glow(float x) {
+  const float x2 = x * x, x4 = x2 * x2, x8 = x4 * x4;
+  return x8 * x8 * x8;
 }
 
-Eigen::Array3f SkyRadiance(const Light& light, const Eigen::Vector3f& direction) {
+Eigen::Array3f SkyRadiance(const Lighting& lighting, const Eigen::Vector3f& direction) {
   const float z = std::clamp(direction.z(), 0.0f, 1.0f);
-  const Eigen::Array3f sky = light.sky.array();
-  if (IsOvercast(light)) return sky * OvercastSky(z);
+  const Eigen::Array3f sky = lighting.light.sky.array();
+  if (lighting.is_overcast) return sky * OvercastSky(z);
   // Near the horizon the long way through air makes it white; a glow lies round the sun.
   const float white = (1 - z) * (1 - z) * (1 - z);
-  const Eigen::Array3f colour = sky + 0.7f * white * (sky.mean() - sky);
-  const float to_sun = std::max(0.0f, direction.dot(light.to_sun.cast<float>()));
-  const float glow = 0.35f * std::pow(to_sun, 24.0f);
-  return colour * ClearSky(z) + glow * light.sun.array() * light.sky.mean();
+  const Eigen::Array3f colour = sky + 0.7f * white * (lighting.mean_sky - sky);
+  const float glow = 0.35f * Glow(std::max(0.0f, direction.dot(lighting.to_sun)));
+  return colour * ClearSky(z) + glow * lighting.mean_sky * lighting.light.sun.array();
 }
 
 // The ray's footprint on the plane of a triangle: where the rays of the neighbouring pixels meet
@@ -70,13 +71,20 @@ Lighting LightingOf(const Light& light, const Eigen::Array3f& mean_albedo) {
   const float height = std::max(0.0f, static_cast<float>(light.to_sun.z()));
   // Around a house there is more paving and wall than in a scene's mean, which may be all meadow.
   const Eigen::Array3f albedo = (mean_albedo + mean_albedo.mean()) / 2;
-  return {light,
-          albedo * (kShareInSun * height * light.sun.array() + kShareOfSky * light.sky.array())};
+  Lighting lighting;
+  lighting.light = light;
+  lighting.bounce =
+      albedo * (kShareInSun * height * light.sun.array() + kShareOfSky * light.sky.array());
+  lighting.to_sun = light.to_sun.cast<float>();
+  lighting.mean_sky = light.sky.mean();
+  lighting.is_overcast = light.sun.maxCoeff() <= 0;
+  return lighting;
 }
 
-Eigen::Array3f Background(const Light& light, const Eigen::Vector3f& direction) {
+Eigen::Array3f Background(const Lighting& lighting, const Eigen::Vector3f& direction) {
+  const Light& light = lighting.light;
   if (!light.lit) return Eigen::Array3f::Zero();
-  const Eigen::Array3f sky = SkyRadiance(light, direction);
+  const Eigen::Array3f sky = SkyRadiance(lighting, direction);
   if (direction.z() >= 0) return sky;
   const float height = std::max(0.0f, static_cast<float>(light.to_sun.z()));
   const Eigen::Array3f land = kGroundAlbedo * Eigen::Array3f(0.9f, 1.0f, 0.75f) *
@@ -91,10 +99,8 @@ Eigen::Array3f Background(const Light& light, const Eigen::Vector3f& direction) 
 
 bool Shader::FacesSun(int triangle, const Eigen::Vector3f& direction) const {
   const Surface& surface = scene->surface(triangle);
-  const Light& light = lighting.light;
-  if (!light.lit || IsOvercast(light)) return false;
-  const Eigen::Vector3f to_sun = light.to_sun.cast<float>();
-  if (to_sun.z() <= 0) return false;
+  const Eigen::Vector3f& to_sun = lighting.to_sun;
+  if (!lighting.light.lit || lighting.is_overcast || to_sun.z() <= 0) return false;
   if (scene->scene().materials[surface.material].cut_out) return true;
   const float side = surface.normal.dot(direction) > 0 ? -1.0f : 1.0f;
   return side * surface.normal.dot(to_sun) > 0;
@@ -105,7 +111,7 @@ Ray Shader::ToSun(const Eigen::Vector3f& point, int triangle,
   // Off the surface, towards the viewer, by more than floats err at this distance from the origin.
   // Leaves are lit through from behind: towards the sun, or they would stand in their own shadow.
   const Surface& surface = scene->surface(triangle);
-  const Eigen::Vector3f to_sun = lighting.light.to_sun.cast<float>();
+  const Eigen::Vector3f& to_sun = lighting.to_sun;
   const bool is_leaf = scene->scene().materials[surface.material].cut_out;
   const float facing = is_leaf ? surface.normal.dot(to_sun) : -surface.normal.dot(direction);
   const float lift = 5e-4f + 2e-6f * point.cwiseAbs().maxCoeff();
@@ -130,7 +136,7 @@ Eigen::Array3f Shader::Matt(const Footprint& footprint, const Place& place,
   if (!light.lit) return albedo;
   if (const TextureGrain* grain = scene->grain(surface.material)) albedo *= grain->At(footprint);
   const float side = surface.normal.dot(direction) > 0 ? -1.0f : 1.0f;
-  float slant = std::max(0.0f, side * surface.normal.dot(light.to_sun.cast<float>()));
+  float slant = std::max(0.0f, side * surface.normal.dot(lighting.to_sun));
   // Leaves stand in all directions and pass part of the light.
   if (material.cut_out) slant = 0.35f + 0.35f * slant;
   const float sky = sky_light->At(place.triangle, place.b1, place.b2);
@@ -154,7 +160,7 @@ Eigen::Array3f Shader::Mirrored(const ViewRay& ray, const Place& place,
   mirrored.direction_down = Reflected(ray.direction_down, normal);
   const Hit hit = scene->Nearest(mirrored.ray, *left_out);
   const Eigen::Vector3f unit = mirrored.ray.direction.normalized();
-  if (hit.triangle < 0) return Background(lighting.light, unit);
+  if (hit.triangle < 0) return Background(lighting, unit);
   Place there;
   there.triangle = hit.triangle;
   there.point = mirrored.ray.origin + hit.at * mirrored.ray.direction;
@@ -186,14 +192,15 @@ Eigen::Array3f Shader::Radiance(const ViewRay& ray, const Place& place) const {
     const Eigen::Vector3f normal = facing > 0 ? Eigen::Vector3f(-surface.normal) : surface.normal;
     // Schlick, "An inexpensive BRDF model for physically-based rendering" (1994).
     const float grazing = 1 - std::abs(facing);
-    const float fresnel = kPaneReflectance + (1 - kPaneReflectance) * std::pow(grazing, 5.0f);
+    const float squared = grazing * grazing;
+    const float fresnel = kPaneReflectance + (1 - kPaneReflectance) * squared * squared * grazing;
     const float share = material.gloss * material.gloss * fresnel;
     colour += share * (Mirrored(ray, place, normal) - colour);
   }
   if (!(light.haze_m > 0)) return colour;
   const float through = std::exp(-place.at * length / static_cast<float>(light.haze_m));
   const Eigen::Vector3f horizon(ray.ray.direction.x(), ray.ray.direction.y(), 0);
-  const Eigen::Array3f air = SkyRadiance(light, horizon.normalized());
+  const Eigen::Array3f air = SkyRadiance(lighting, horizon.normalized());
   return air + through * (colour - air);
 }
 

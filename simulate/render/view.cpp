@@ -61,30 +61,34 @@ LensTable::LensTable(const Camera& camera) : camera_(camera) {
   }
 }
 
-LensTable::Bearing LensTable::At(double x, double y) const {
+LensTable::Cell LensTable::CellAt(double x, double y) const {
   const double gx = x / spacing_px_;
   const double gy = y / spacing_px_;
   const int rows = static_cast<int>(nodes_.size()) / columns_;
   const int c = std::clamp(static_cast<int>(gx), 0, columns_ - 2);
   const int r = std::clamp(static_cast<int>(gy), 0, rows - 2);
-  const double tx = gx - c;
-  const double ty = gy - r;
-  const Eigen::Vector2d* upper = &nodes_[static_cast<size_t>(r) * columns_ + c];
+  return {&nodes_[static_cast<size_t>(r) * columns_ + c], gx - c, gy - r};
+}
+
+Eigen::Vector2d LensTable::At(double x, double y) const {
+  const Cell cell = CellAt(x, y);
+  const Eigen::Vector2d* upper = cell.node;
+  const Eigen::Vector2d* lower = upper + columns_;
+  const Eigen::Vector2d left = upper[0] + cell.tx * (upper[1] - upper[0]);
+  const Eigen::Vector2d below = lower[0] + cell.tx * (lower[1] - lower[0]);
+  const Eigen::Vector2d at = left + cell.ty * (below - left);
+  return at.allFinite() ? at : UnprojectOrNan(camera_, x, y);
+}
+
+LensTable::Slopes LensTable::SlopesAt(double x, double y) const {
+  const Cell cell = CellAt(x, y);
+  const Eigen::Vector2d* upper = cell.node;
   const Eigen::Vector2d* lower = upper + columns_;
   const Eigen::Vector2d top = upper[1] - upper[0];
   const Eigen::Vector2d bottom = lower[1] - lower[0];
-  const Eigen::Vector2d left = upper[0] + tx * top;
-  const Eigen::Vector2d below = lower[0] + tx * bottom;
-  Bearing bearing;
-  bearing.at = left + ty * (below - left);
-  bearing.right = (top + ty * (bottom - top)) / spacing_px_;
-  bearing.down = (below - left) / spacing_px_;
-  if (bearing.at.allFinite()) return bearing;
-  bearing.at = UnprojectOrNan(camera_, x, y);
-  // At the rim of the lens the scale of the axis has to do.
-  bearing.right = {1 / camera_.FocalX(), 0};
-  bearing.down = {0, 1 / camera_.FocalY()};
-  return bearing;
+  const Eigen::Vector2d down = lower[0] + cell.tx * bottom - (upper[0] + cell.tx * top);
+  if (!down.allFinite()) return {{1 / camera_.FocalX(), 0}, {0, 1 / camera_.FocalY()}};
+  return {(top + cell.ty * (bottom - top)) / spacing_px_, down / spacing_px_};
 }
 
 bool LensTable::IsOf(const Camera& camera) const {
@@ -113,7 +117,8 @@ View ViewOf(std::shared_ptr<const LensTable> lens, const Camera& camera,
   view.width_px = camera.width_px;
   view.height_px = camera.height_px;
   view.origin = cam_from_world.Center();
-  view.world_from_cam = cam_from_world.rotation.conjugate().toRotationMatrix();
+  view.world_from_cam = cam_from_world.rotation.conjugate().toRotationMatrix().cast<float>();
+  view.direction = view.world_from_cam.col(2);
   view.lens = std::move(lens);
   return view;
 }
@@ -126,32 +131,32 @@ View ViewOf(const PicturePlane& plane) {
   view.origin = plane.origin + plane.from_m * normal;
   view.origin_right = plane.metres_per_texel * plane.u_axis;
   view.origin_down = plane.metres_per_texel * plane.v_axis;
-  view.direction = -normal;
+  view.direction = -normal.cast<float>();
   view.to = plane.from_m + plane.to_m;
   return view;
 }
 
-ViewRay RayAt(const View& view, double x, double y) {
+bool RayAt(const View& view, double x, double y, Ray& ray) {
+  ray.origin = (view.origin + x * view.origin_right + y * view.origin_down).cast<float>();
+  ray.to = static_cast<float>(view.to);
+  ray.direction = view.direction;
+  if (!view.lens) return true;
+  const Eigen::Vector2d at = view.lens->At(x, y);
+  if (!at.allFinite()) return false;
+  ray.direction = view.world_from_cam * at.homogeneous().cast<float>();
+  return true;
+}
+
+ViewRay ViewRayOf(const View& view, double x, double y, const Ray& ray) {
   ViewRay out;
-  out.ray.origin = (view.origin + x * view.origin_right + y * view.origin_down).cast<float>();
-  out.ray.to = static_cast<float>(view.to);
+  out.ray = ray;
   out.origin_right = view.origin_right.cast<float>();
   out.origin_down = view.origin_down.cast<float>();
   out.direction_right = out.direction_down = Eigen::Vector3f::Zero();
-  if (!view.lens) {
-    out.ray.direction = view.direction.cast<float>();
-    return out;
-  }
-  const LensTable::Bearing bearing = view.lens->At(x, y);
-  const Eigen::Matrix3d& world_from_cam = view.world_from_cam;
-  out.valid = bearing.at.allFinite();
-  if (!out.valid) {
-    out.ray.direction = world_from_cam.col(2).cast<float>();
-    return out;
-  }
-  out.ray.direction = (world_from_cam * bearing.at.homogeneous()).cast<float>();
-  out.direction_right = (world_from_cam.leftCols<2>() * bearing.right).cast<float>();
-  out.direction_down = (world_from_cam.leftCols<2>() * bearing.down).cast<float>();
+  if (!view.lens) return out;
+  const LensTable::Slopes slopes = view.lens->SlopesAt(x, y);
+  out.direction_right = view.world_from_cam.leftCols<2>() * slopes.right.cast<float>();
+  out.direction_down = view.world_from_cam.leftCols<2>() * slopes.down.cast<float>();
   return out;
 }
 

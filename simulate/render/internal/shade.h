@@ -15,13 +15,17 @@ namespace stucco::simulate::internal {
 struct Lighting {
   Light light;
   Eigen::Array3f bounce = Eigen::Array3f::Zero();  // what places get where they do not see the sky
+  // Of `light`, as every ray needs it.
+  Eigen::Vector3f to_sun = Eigen::Vector3f::UnitZ();
+  float mean_sky = 0;
+  bool is_overcast = false;
 };
 
 Lighting LightingOf(const Light& light, const Eigen::Array3f& mean_albedo);
 
 // Radiance of the sky and, below the horizon, of land far away, in a unit direction; black where
 // light.lit is false.
-Eigen::Array3f Background(const Light& light, const Eigen::Vector3f& direction);
+Eigen::Array3f Background(const Lighting& lighting, const Eigen::Vector3f& direction);
 
 // A place where a ray, or several rays of one pixel, met a triangle.
 struct Place {

@@ -19,15 +19,22 @@ class LensTable {
  public:
   explicit LensTable(const Camera& camera);
 
-  struct Bearing {
-    Eigen::Vector2d at;     // (x/z, y/z); NaN where the lens shows nothing
-    Eigen::Vector2d right;  // its change for one pixel to the right
-    Eigen::Vector2d down;
+  // (x/z, y/z); NaN where the lens shows nothing.
+  Eigen::Vector2d At(double x, double y) const;
+  // Its change for one pixel to the right and one down; at the rim of the lens, the axis's.
+  struct Slopes {
+    Eigen::Vector2d right, down;
   };
-  Bearing At(double x, double y) const;
+  Slopes SlopesAt(double x, double y) const;
   bool IsOf(const Camera& camera) const;
 
  private:
+  struct Cell {
+    const Eigen::Vector2d* node = nullptr;  // its upper left one
+    double tx = 0, ty = 0;                  // the place in it, in [0, 1]
+  };
+  Cell CellAt(double x, double y) const;
+
   Camera camera_;
   int spacing_px_ = 1;
   int columns_ = 0;
@@ -52,9 +59,10 @@ struct View {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // of the ray at pixel (0, 0)
   Eigen::Vector3d origin_right = Eigen::Vector3d::Zero();
   Eigen::Vector3d origin_down = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // of all rays where there is no lens
+  // Of all rays where there is no lens, and along the axis of one.
+  Eigen::Vector3f direction = Eigen::Vector3f::Zero();
   double to = std::numeric_limits<double>::infinity();
-  Eigen::Matrix3d world_from_cam = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3f world_from_cam = Eigen::Matrix3f::Identity();
   std::shared_ptr<const LensTable> lens;
 };
 
@@ -66,9 +74,11 @@ View ViewOf(const PicturePlane& plane);
 struct ViewRay {
   Ray ray;
   Eigen::Vector3f origin_right, origin_down, direction_right, direction_down;
-  bool valid = true;  // false where the lens shows nothing
 };
 
-ViewRay RayAt(const View& view, double x, double y);
+// False where the lens shows nothing.
+bool RayAt(const View& view, double x, double y, Ray& ray);
+// The ray at a place, as RayAt gives it, with its neighbours.
+ViewRay ViewRayOf(const View& view, double x, double y, const Ray& ray);
 
 }  // namespace stucco::simulate::internal
