@@ -24,7 +24,7 @@ inline constexpr char kTruthFolder[] = "truth";
 inline constexpr char kFlightFile[] = "truth/flight.json";
 
 struct FlownPhoto {
-  std::string path;     // below the photo folder, or below truth/ when held out
+  std::string path;     // a file of the photo folder, or of truth/: "held_out/a.JPG"
   std::string view;     // of the plan; empty: none
   Camera camera;        // exact, with its distortion
   Pose cam_from_world;  // exact; the world is the scene's frame

@@ -127,7 +127,7 @@ simulate::Flight MadeFlight() {
     const double angle = i * std::numbers::pi / 6;
     const Vector3d centre =
         middle + Vector3d(60 * std::cos(angle), 60 * std::sin(angle), 60 + 0.5 * (i % 3));
-    flight.photos.push_back(PhotoFrom(centre, middle, fmt::format("ring/{:02}.jpg", i)));
+    flight.photos.push_back(PhotoFrom(centre, middle, fmt::format("ring{:02}.jpg", i)));
   }
   flight.photos.push_back(PhotoFrom(middle + Vector3d(0, 0, 80), middle, "down.jpg"));
   return flight;

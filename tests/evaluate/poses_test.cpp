@@ -94,7 +94,7 @@ TEST(ComparePoses, OneWrongPositionIsReportedAndSpoilsNoOther) {
   EXPECT_NEAR(found.figures.georeferenced_mean_m, 7.0 / 13, 1e-6);
   ASSERT_EQ(found.notes.size(), 1u);
   EXPECT_THAT(found.notes[0], HasSubstr("1 of 13 positions are much worse than the others"));
-  EXPECT_THAT(found.notes[0], HasSubstr("by 7.000 to 7.000 m, ring/00.jpg most"));
+  EXPECT_THAT(found.notes[0], HasSubstr("by 7.000 to 7.000 m, ring00.jpg most"));
 }
 
 // A survey whose world is turned is right after the alignment and wrong as it is georeferenced.
