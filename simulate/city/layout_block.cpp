@@ -77,7 +77,7 @@ void AddCorners(const Perimeter& block, Random& random, Town& town) {
       {{0, 1}, {-1, 0}}, random, town);
 }
 
-// Cuts a row into lots of 11 to 17 m.
+// Cuts a row into lots of 11.5 to 15 m, or a little more or less, so that they fill it.
 std::vector<double> Lots(double from, double to, Random& random) {
   const double length = to - from;
   const int count = std::max(1, static_cast<int>(length / random.Uniform(11.5, 15) + 0.5));
@@ -94,7 +94,8 @@ void AddRows(const Perimeter& block, Random& random, Town& town) {
   const double y = block.height / 2;
   const double c = block.corner;
   const double d = block.depth;
-  // One lot of the block is free: a way into the courtyard, with fire walls at its sides.
+  // On one side, where it has several lots, one is free: a way into the courtyard, with fire walls
+  // at its sides.
   const int free_side = random.Index(4);
   for (int side = 0; side < 4; ++side) {
     const bool level = side % 2 == 0;  // south and north
@@ -123,8 +124,10 @@ void AddPalace(double x, Random& random, Town& town) {
   House house = MakeTenement(random);
   house.storeys = random.Integer(3, 4);
   const double wing = random.Uniform(9, 10.5);
-  house.outline = Placed(CourtyardShape(random.Uniform(33, 38), random.Uniform(36, 46), wing), 0,
-                         {x + 19, random.Uniform(-4, 4)});
+  const double y = random.Uniform(-4, 4);
+  const double depth = random.Uniform(36, 46);
+  const double width = random.Uniform(33, 38);
+  house.outline = Placed(CourtyardShape(width, depth, wing), 0, {x + 19, y});
   SetRoof(random.Chance(0.5) ? RoofShape::kHipped : RoofShape::kFlat, random, house);
   ClearEdges(house);
   for (const Vector2d& side : {Vector2d(-1, 0), Vector2d(1, 0), Vector2d(0, 1), Vector2d(0, -1)}) {

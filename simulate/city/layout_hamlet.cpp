@@ -12,6 +12,28 @@ namespace {
 
 using Eigen::Vector2d;
 
+struct Range {
+  double from, to;
+};
+
+double Within(const Range& range, Random& random) {
+  return random.Uniform(range.from, range.to);
+}
+
+plan::Polygon RandomRectangle(const Range& widths, const Range& depths, Random& random) {
+  const double depth = Within(depths, random);
+  const double width = Within(widths, random);
+  return Rectangle(width, depth);
+}
+
+plan::Polygon RandomLShape(const Range& widths, const Range& depths, const Range& wings,
+                           Random& random) {
+  const double wing = Within(wings, random);
+  const double depth = Within(depths, random);
+  const double width = Within(widths, random);
+  return LShape(width, depth, wing);
+}
+
 // Three kinds of detached houses; a hamlet has one of each.
 House MakeHome(int kind, Random& random) {
   House house;
@@ -20,25 +42,22 @@ House MakeHome(int kind, Random& random) {
   house.floor_m = random.Uniform(0.25, 0.5);
   switch (kind) {
     case 0:
-      house.outline = Rectangle(random.Uniform(9.5, 12), random.Uniform(7.5, 8.8));
+      house.outline = RandomRectangle({9.5, 12}, {7.5, 8.8}, random);
       house.roof = RoofShape::kGabled;
       house.slope = random.Uniform(0.75, 1.1);
       house.storeys = random.Integer(1, 2);
       house.cladding = random.Chance(0.5) ? Cladding::kBrick : Cladding::kPlaster;
       break;
     case 1:
-      house.outline =
-          LShape(random.Uniform(10.5, 12.5), random.Uniform(9.5, 11.5), random.Uniform(5.4, 6.2));
+      house.outline = RandomLShape({10.5, 12.5}, {9.5, 11.5}, {5.4, 6.2}, random);
       house.roof = random.Chance(0.6) ? RoofShape::kHipped : RoofShape::kGabled;
       house.slope = random.Uniform(0.5, 0.8);
       house.storeys = random.Integer(1, 2);
       house.cladding = random.Chance(0.5) ? Cladding::kPlaster : Cladding::kStone;
       break;
     default:
-      house.outline =
-          random.Chance(0.5)
-              ? Rectangle(random.Uniform(8.5, 10.5), random.Uniform(7.5, 9))
-              : LShape(random.Uniform(9.5, 11), random.Uniform(9, 10), random.Uniform(5.5, 6.2));
+      house.outline = random.Chance(0.5) ? RandomRectangle({8.5, 10.5}, {7.5, 9}, random)
+                                         : RandomLShape({9.5, 11}, {9, 10}, {5.5, 6.2}, random);
       house.roof = RoofShape::kFlat;
       house.parapet_m = random.Uniform(0.25, 0.45);
       house.storeys = random.Integer(2, 3);

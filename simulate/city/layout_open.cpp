@@ -57,9 +57,11 @@ Town LayOutAsia(Random random) {
       House house = MakeTower(random);
       plan::Polygon outline = TowerOutline(random);
       if (random.Chance(0.5)) outline = Mirrored(std::move(outline));
+      const double aside = random.Uniform(-1, 1);
+      const double ahead = random.Uniform(-1, 1);
+      const double turn = random.Chance(0.5) ? 0 : std::numbers::pi;
       house.outline =
-          Placed(std::move(outline), random.Chance(0.5) ? 0 : std::numbers::pi,
-                 {column * cell_x + random.Uniform(-1, 1), row * cell_y + random.Uniform(-1, 1)});
+          Placed(std::move(outline), turn, {column * cell_x + aside, row * cell_y + ahead});
       ClearEdges(house);
       MarkFront({0, -1}, house);
       town.houses.push_back(std::move(house));
@@ -121,9 +123,12 @@ Town LayOutCampus(Random random) {
         break;
     }
     if (random.Chance(0.5)) house.outline = Mirrored(std::move(house.outline));
-    house.outline = Placed(std::move(house.outline),
-                           std::numbers::pi / 2 * random.Index(4) + random.Uniform(-0.12, 0.12),
-                           places[i] + Vector2d(random.Uniform(-4, 4), random.Uniform(-4, 4)));
+    const double ahead = random.Uniform(-4, 4);
+    const double aside = random.Uniform(-4, 4);
+    const int quarters = random.Index(4);
+    const double askew = random.Uniform(-0.12, 0.12);
+    house.outline = Placed(std::move(house.outline), std::numbers::pi / 2 * quarters + askew,
+                           places[i] + Vector2d(aside, ahead));
     house.roof = random.Chance(0.6)   ? RoofShape::kFlat
                  : random.Chance(0.5) ? RoofShape::kHipped
                                       : RoofShape::kGabled;

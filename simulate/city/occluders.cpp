@@ -84,8 +84,9 @@ void AddTree(const Tree& tree, double ground, Trim bark, const std::vector<int>&
              Random random, CityModel& model) {
   const Vector3d foot(tree.position.x(), tree.position.y(), ground - 0.1);
   const double crown_height = tree.height_m * random.Uniform(0.62, 0.75);
-  const Vector3d middle = foot + Vector3d(random.Uniform(-0.2, 0.2), random.Uniform(-0.2, 0.2),
-                                          tree.height_m - crown_height / 2);
+  const double north = random.Uniform(-0.2, 0.2);
+  const double east = random.Uniform(-0.2, 0.2);
+  const Vector3d middle = foot + Vector3d(east, north, tree.height_m - crown_height / 2);
   const double trunk = 0.02 * tree.height_m + 0.05;
   AddStem(bark, foot, middle, trunk, trunk / 2, model);
   for (int i = 0; i < 5; ++i) {

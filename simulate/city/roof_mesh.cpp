@@ -206,23 +206,27 @@ void AddRoofThings(const House& house, const Solid& solid, const Trim& trim, Cit
       if (!FindPlace(house, 1.6, random, place)) continue;
       const double rise =
           std::min(top, house.eaves_m() + house.slope * DistanceToOutline(house.outline, place));
-      AddBox(place, {random.Uniform(0.5, 0.7), random.Uniform(0.5, 1.1)}, along, house.eaves_m(),
-             std::min(rise + 1.6, top + 0.8), trim, model);
+      const double width = random.Uniform(0.5, 0.7);
+      const double depth = random.Uniform(0.5, 1.1);
+      AddBox(place, {width, depth}, along, house.eaves_m(), std::min(rise + 1.6, top + 0.8), trim,
+             model);
     }
     return;
   }
   const double area = plan::Area(house.outline);
   const bool large = house.use != HouseUse::kHome;
   if (large && FindPlace(house, 3, random, place)) {  // the head of the stairs
-    AddBox(place, {3.2, random.Uniform(2.6, 4)}, along, house.eaves_m(),
-           house.eaves_m() + random.Uniform(2.3, 2.7), trim, model);
+    const double height = random.Uniform(2.3, 2.7);
+    const double depth = random.Uniform(2.6, 4);
+    AddBox(place, {3.2, depth}, along, house.eaves_m(), house.eaves_m() + height, trim, model);
   }
   const int boxes = std::min(12, static_cast<int>(area / 60) + 1);
   for (int i = 0; i < boxes; ++i) {
     if (!FindPlace(house, 1.2, random, place)) continue;
     const double side = random.Uniform(0.5, 1.4);
-    AddBox(place, {side, side * random.Uniform(0.7, 1.3)}, along, house.eaves_m(),
-           house.eaves_m() + random.Uniform(0.35, 1.1), trim, model);
+    const double height = random.Uniform(0.35, 1.1);
+    const double depth = side * random.Uniform(0.7, 1.3);
+    AddBox(place, {side, depth}, along, house.eaves_m(), house.eaves_m() + height, trim, model);
   }
 }
 

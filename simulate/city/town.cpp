@@ -85,8 +85,9 @@ void ParkCars(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double sha
     if (!random.Chance(share)) continue;
     Car car;
     car.position = from + (i + 0.5 + random.Uniform(-0.08, 0.08)) * kPlace_m * along;
-    car.heading_rad = std::atan2(along.y(), along.x()) + random.Uniform(-0.03, 0.03) +
-                      (random.Chance(0.2) ? std::numbers::pi : 0);
+    const double askew = random.Uniform(-0.03, 0.03);
+    const double turn = random.Chance(0.2) ? std::numbers::pi : 0;
+    car.heading_rad = std::atan2(along.y(), along.x()) + askew + turn;
     town.cars.push_back(car);
   }
 }

@@ -53,7 +53,8 @@ Camera MakeLens(const PlannedCamera& planned, const FlightOptions& options) {
   camera.model = CameraModel::kOpenCv;
   camera.width_px = std::max(1, static_cast<int>(std::lround(planned.width_px * options.scale)));
   camera.height_px = std::max(1, static_cast<int>(std::lround(planned.height_px * options.scale)));
-  const double off = random.Uniform(0.005, 0.015) * (random.Unit() < 0.5 ? -1 : 1);
+  const double size = random.Uniform(0.005, 0.015);
+  const double off = random.Unit() < 0.5 ? -size : size;
   const double focal_x =
       planned.focal_m / planned.sensor_width_m * camera.width_px * (1 + off * options.distortion);
   // Pixels are square to a few parts in a hundred thousand.
