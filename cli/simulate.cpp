@@ -73,7 +73,9 @@ void AddCityOptions(CLI::App& verb, simulate::CityOptions& city) {
       ->type_name("NUMBER")
       ->capture_default_str()
       ->group(kGroup);
-  verb.add_option("--texel", city.metres_per_texel, "Size of a texel of walls and roofs, in metres")
+  verb.add_option(
+          "--texel", city.metres_per_texel,
+          "Size of a texel of walls and roofs, in metres; those of the ground are no smaller")
       ->type_name("METRES")
       ->capture_default_str()
       ->group(kGroup);

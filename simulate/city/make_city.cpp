@@ -49,11 +49,42 @@ void Check(const CityOptions& options) {
           "the texel of walls must be 0.002 to 1 m");
   // Towards the poles a step of longitude is too short to write.
   require(std::abs(options.latitude_deg) <= 85, "the latitude must be -85 to 85 degrees");
-  require(std::abs(options.longitude_deg) <= 180, "the longitude must be -180 to 180 degrees");
+  // A map must not cross the line where longitudes jump.
+  require(std::abs(options.longitude_deg) <= 179.9,
+          "the longitude must be -179.9 to 179.9 degrees");
   require(std::abs(options.height_m) <= 9000, "the height must be -9000 to 9000 m");
 }
 
-// Makes the folder, or clears an old scene's pictures out of it; files of the user's own stay.
+// What the textures of an older truth name; nothing where they cannot be read.
+std::vector<fs::path> OldPictures(const fs::path& folder) {
+  std::vector<fs::path> names;
+  try {
+    for (const TexturedFacet& facet : ReadTextureSet(folder / kTruthTextures).facets) {
+      names.push_back(fs::path(facet.image).filename());
+    }
+  } catch (const Error&) {
+    names.clear();
+  }
+  return names;
+}
+
+// The model goes first and comes back last: a folder that is made only in part has none.
+void RemoveOldScene(const fs::path& folder) {
+  std::error_code error;
+  fs::remove(folder / kSceneModel, error);
+  if (error) {
+    throw Error(
+        ErrorKind::kBadInput,
+        fmt::format("{}: cannot be replaced: {}", (folder / kSceneModel).string(), error.message()),
+        "give a folder that can be written");
+  }
+  for (const fs::path& name : OldPictures(folder)) {
+    if (!name.empty()) fs::remove(folder / "truth" / "textures" / name, error);
+  }
+  fs::remove(folder / kSceneTerrain, error);
+}
+
+// Makes the folder, or clears an old scene out of it; files of the user's own stay.
 void PrepareFolder(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
@@ -66,13 +97,7 @@ void PrepareFolder(const fs::path& folder) {
                 fmt::format("{}: is there already and no scene", folder.string()),
                 "give another folder; nothing in it was changed");
   }
-  if (is_scene && fs::exists(folder / kTruthTextures, error)) {
-    for (const TexturedFacet& facet : ReadTextureSet(folder / kTruthTextures).facets) {
-      const fs::path name = fs::path(facet.image).filename();
-      if (!name.empty()) fs::remove(folder / "truth" / "textures" / name, error);
-    }
-  }
-  if (is_scene) fs::remove(folder / kSceneTerrain, error);
+  if (is_scene) RemoveOldScene(folder);
   error.clear();
   fs::create_directories(folder / "truth" / "textures", error);
   if (error) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -15,6 +16,7 @@
 #include "survey/plan_frame.h"
 #include "survey/proxy.h"
 #include "survey/texture_set.h"
+#include "survey/triangulate.h"
 #include "tests/survey/support.h"
 
 namespace stucco::simulate {
@@ -184,6 +186,25 @@ TEST_P(Cities, TheModelLiesOnTheTruth) {
   }
 }
 
+// Heights of triangles over a place; those that stand upright have none.
+std::vector<double> HeightsAt(const std::vector<Eigen::Vector3d>& triangles,
+                              const Eigen::Vector2d& at) {
+  constexpr double kUpright_m2 = 1e-6;
+  constexpr double kEdge = 1e-6;
+  std::vector<double> heights;
+  for (size_t i = 0; i < triangles.size(); i += 3) {
+    Eigen::Matrix2d edges;
+    edges << (triangles[i + 1] - triangles[i]).head<2>(),
+        (triangles[i + 2] - triangles[i]).head<2>();
+    if (std::abs(edges.determinant()) < kUpright_m2) continue;
+    const Eigen::Vector2d b = edges.inverse() * (at - triangles[i].head<2>());
+    if (b.minCoeff() < -kEdge || b.sum() > 1 + kEdge) continue;
+    heights.push_back(triangles[i].z() + b.x() * (triangles[i + 1] - triangles[i]).z() +
+                      b.y() * (triangles[i + 2] - triangles[i]).z());
+  }
+  return heights;
+}
+
 TEST_P(Cities, TheGroundOfTheTruthIsThatOfTheModel) {
   constexpr double kFloat_m = 1e-3;
   const test::TemporaryFolder folder;
@@ -192,14 +213,16 @@ TEST_P(Cities, TheGroundOfTheTruthIsThatOfTheModel) {
   const std::vector<Eigen::Vector3d> drawn = CornersByElement(ReadScene(scene)).at("G0");
   for (const auto& [id, facet] : FacetsById(scene)) {
     if (!id.starts_with("G")) continue;  // the floors of buildings are B0001/G0
-    const auto on_plane = [&, &f = facet](const Eigen::Vector3d& corner) {
-      return std::abs(f.normal.dot(corner) - f.offset) < kFloat_m;
-    };
-    bool found = false;
-    for (size_t i = 0; i < drawn.size() && !found; i += 3) {
-      found = std::all_of(drawn.begin() + i, drawn.begin() + i + 3, on_plane);
+    const FacetTriangles shape = TriangulateFacet(facet);
+    for (const auto& triangle : shape.triangles) {
+      Eigen::Vector3d inside = Eigen::Vector3d::Zero();
+      for (const uint32_t corner : triangle) inside += shape.vertices[corner] / 3;
+      const std::vector<double> heights = HeightsAt(drawn, inside.head<2>());
+      ASSERT_FALSE(heights.empty()) << id << ": a hole at " << inside.transpose();
+      ASSERT_TRUE(std::ranges::any_of(
+          heights, [&](double z) { return std::abs(z - inside.z()) < kFloat_m; }))
+          << id << ": at " << inside.transpose() << " the model has " << heights[0];
     }
-    EXPECT_TRUE(found) << id;
   }
 }
 
@@ -257,6 +280,26 @@ TEST(MakeCity, ReplacesAnOlderSceneAndLeavesOtherFilesAlone) {
   EXPECT_FALSE(ReadSceneInfo(scene).has_terrain);
 }
 
+// Whoever is interrupted must not be left with a model of one town and the truth of another.
+TEST(MakeCity, LeavesNoOldModelBesideNewTruth) {
+  const test::TemporaryFolder folder;
+  const fs::path scene = folder / "scene";
+  MakeCity(Coarse("hamlet", 1), scene);
+  fs::remove(scene / kSceneMap);
+  fs::create_directories(scene / kSceneMap / "in the way");
+  EXPECT_THROW(MakeCity(Coarse("hamlet", 2), scene), Error);
+  EXPECT_FALSE(fs::exists(scene / kSceneModel));
+}
+
+TEST(MakeCity, ReplacesASceneWhoseTruthIsDamaged) {
+  const test::TemporaryFolder folder;
+  const fs::path scene = folder / "scene";
+  MakeCity(Coarse("hamlet", 1), scene);
+  WriteFile(scene / kTruthTextures, "{\"facets\": [{\"id\"");
+  MakeCity(Coarse("hamlet", 2), scene);
+  EXPECT_FALSE(ReadTextureSet(scene / kTruthTextures).facets.empty());
+}
+
 TEST(MakeCity, TouchesNoFolderThatIsNoScene) {
   const test::TemporaryFolder folder;
   WriteFile(folder / "thesis.txt", "years of work");
@@ -277,7 +320,9 @@ TEST(MakeCity, RefusesBadOptionsBeforeItWrites) {
   texel.metres_per_texel = std::nan("");
   CityOptions pole = Coarse("hamlet", 1);
   pole.latitude_deg = 90;
-  for (const CityOptions& options : {style, texel, pole}) {
+  CityOptions date_line = Coarse("hamlet", 1);
+  date_line.longitude_deg = 180;
+  for (const CityOptions& options : {style, texel, pole, date_line}) {
     const Error error = test::ErrorOf([&] { MakeCity(options, folder / "scene"); });
     EXPECT_EQ(error.kind(), ErrorKind::kUsage);
     EXPECT_FALSE(fs::exists(folder / "scene"));
