@@ -3,13 +3,10 @@
 #include <cmath>
 
 #include "simulate/paint/internal/covering_look.h"
+#include "simulate/paint/internal/cracks.h"
 
 namespace stucco::simulate::internal {
 namespace {
-
-float Grain(const Tile& tile, int column, int row, uint32_t seed) {
-  return Normal(tile.x0 + column, tile.y0 + row, seed) * std::min(1.0f, 0.01f / tile.texel_m);
-}
 
 // Where the ground was opened and closed again: at most one patch in a square of 5 m.
 struct Cut {
@@ -75,6 +72,7 @@ void PaintAsphalt(Tile& tile, const CoveringLook& look) {
   const Field bend(tile, StepFor(0.3f, texel), [&](float x, float y) {
     return Noise(x, y, {1.7f, 3, 0.6f, look.seed + 8}, texel);
   });
+  const Cracks cracks = {0.7f, 0.22f, {0.21f, 2, 0.6f, look.seed + 9}, 0.006f};
   for (int row = 0; row < tile.height; ++row) {
     const float y = tile.Y(row);
     for (int column = 0; column < tile.width; ++column) {
@@ -88,12 +86,7 @@ void PaintAsphalt(Tile& tile, const CoveringLook& look) {
       const Cut cut = CutAt(x, y, look.seed + 7);
       tone += cut.tone * Edge(cut.inside, texel);
       const float open = Smooth(-0.2f, 1.0f, worn(column, row));
-      const float coarse = bend(column, row);
-      if (open > 0 && std::abs(coarse) < 0.7f) {
-        // Cracks, as in plaster.
-        const float level = coarse + 0.22f * Noise(x, y, {0.21f, 2, 0.6f, look.seed + 9}, texel);
-        tone -= 0.8f * Edge(0.006f * open - std::abs(level) / 2.2f, texel);
-      }
+      tone -= 0.8f * CrackShare(cracks, x, y, bend(column, row), open, texel);
       Colour colour = base * Tone(tone);
       // Joints of patches are sealed with tar.
       colour = Mix(colour, Grey(0.012f), 0.7f * Edge(cut.tar_m - std::abs(cut.inside), texel));

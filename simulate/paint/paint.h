@@ -13,7 +13,7 @@ int Texels(double side_m, double metres_per_texel);
 
 // The albedo (sRGB) of a wall at `metres_per_texel`, the top-left corner of the top-left texel at
 // the wall's top-left corner. Grain and joints down to a texel, nothing repeats. Colours and
-// weathering come from the facade pictures of the library.
+// what panes show come from the facade pictures of the library.
 Image PaintWall(const WallDesign& design, double metres_per_texel);
 Image PaintCovering(const CoveringDesign& design, double metres_per_texel);
 
@@ -21,7 +21,7 @@ Image PaintCovering(const CoveringDesign& design, double metres_per_texel);
 // `design` in the material of its wall.
 Image PaintTrim(const WallDesign& design, double metres_per_texel);
 
-// Leaves with alpha, for trees; and the side of a parked car.
+// Leaves with alpha, for trees; and a parked car from the side, both ends and above (car_shape.h).
 Image PaintLeaves(uint64_t seed, int side_px);
 Image PaintCar(uint64_t seed, double metres_per_texel);
 

@@ -2,16 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
+#include "simulate/paint/internal/cracks.h"
 #include "simulate/paint/internal/wall_look.h"
 
 namespace stucco::simulate::internal {
 namespace {
-
-// Of the function whose changes of sign are cracks: its height and slope (per metre), roughly, that
-// of its finer part, and how near to 0 its coarse part must be for the fine one to matter.
-constexpr float kFine = 0.166f;
-constexpr float kSlope = 2.2f;
-constexpr float kNear = 0.6f;
 
 // Repairs: at most one in a square of this size, a few of them filled.
 constexpr float kRepairCell_m = 3.1f;
@@ -66,6 +61,7 @@ void PaintPlaster(Tile& tile, const WallLook& look) {
   const Field bend(tile, StepFor(0.2f, texel), [&](float x, float y) {
     return Noise(x, y, {1.3f, 3, 0.55f, look.wall + 10}, texel);
   });
+  const Cracks cracks = {0.6f, 0.166f, {0.16f, 2, 0.55f, look.wall + 9}, 0.0035f};
   const float coarse = Trait(look, 4);  // of the render's sand
   const float grain = (0.035f + 0.07f * coarse) * std::min(1.0f, 0.01f / texel);
   for (int row = 0; row < tile.height; ++row) {
@@ -77,14 +73,7 @@ void PaintPlaster(Tile& tile, const WallLook& look) {
                    (0.02f + 0.03f * coarse) * GradientNoise(x * 30, y * 30, look.wall + 8) *
                        BandShare(0.033f, texel);
       const float open = Smooth(0.6f, 1.6f, cracked(column, row) + look.soot);
-      const float coarse_level = bend(column, row);
-      if (open > 0 && std::abs(coarse_level) < kNear) {
-        // A crack runs where a rough function of the place changes its sign.
-        const float level =
-            coarse_level + Noise(x, y, {0.16f, 2, 0.55f, look.wall + 9}, texel) * kFine;
-        const float share = Edge(0.0035f * open - std::abs(level) / kSlope, texel);
-        tone -= 0.45f * share;
-      }
+      tone -= 0.45f * CrackShare(cracks, x, y, bend(column, row), open, texel);
       tile.At(column, row) = base * Tone(tone);
     }
   }

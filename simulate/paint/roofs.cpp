@@ -16,10 +16,6 @@ Colour TileColour(int palette) {
   return FromSrgb(c[0], c[1], c[2]);
 }
 
-float Grain(const Tile& tile, int column, int row, uint32_t seed) {
-  return Normal(tile.x0 + column, tile.y0 + row, seed) * std::min(1.0f, 0.01f / tile.texel_m);
-}
-
 }  // namespace
 
 void PaintTiles(Tile& tile, const CoveringLook& look) {

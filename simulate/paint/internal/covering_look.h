@@ -18,6 +18,11 @@ inline float Trait(const CoveringLook& look, int which) {
   return Uniform(which, 78, look.whole);
 }
 
+// Of single texels; it averages out where they are larger than a centimetre.
+inline float Grain(const Tile& tile, int column, int row, uint32_t seed) {
+  return Normal(tile.x0 + column, tile.y0 + row, seed) * std::min(1.0f, 0.01f / tile.texel_m);
+}
+
 void PaintTiles(Tile& tile, const CoveringLook& look);
 void PaintMembrane(Tile& tile, const CoveringLook& look);
 void PaintGravel(Tile& tile, const CoveringLook& look);
