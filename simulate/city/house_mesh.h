@@ -19,7 +19,7 @@ Solid SolidOf(const House& house);
 using FacadeIds = std::vector<std::vector<std::string>>;
 
 // The building as exact polygons: walls under the ids of their facades, party walls as W.., roofs
-// R0, R1 ... by falling area, the floor as G0. What other buildings or the ground hide has seen 0.
+// R0, R1 ... by falling area, the floor as G0. Party walls and floors have seen 0, the others 1.
 Building TruthOf(const House& house, const Solid& solid, const std::vector<std::string>& facades);
 
 // Adds a house to the model, and the pictures of its walls and roofs to the truth.

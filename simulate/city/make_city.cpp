@@ -117,12 +117,25 @@ double SeenArea(const Proxy& truth, FacetClass facet_class) {
   return area;
 }
 
+// Walls start at the lowest ground under their house: on a slope they are partly in the ground.
+void MarkBuried(const Town& town, const GroundGrid& grid, Building& building) {
+  for (Facet& facet : building.facets) {
+    if (facet.facet_class != FacetClass::kWall || facet.seen == 0) continue;
+    const double foot = facet.outer[0].z();
+    const double buried =
+        BuriedArea(town, grid, facet.outer[0].head<2>(), facet.outer[1].head<2>(), foot);
+    facet.inferred = buried / facet.area;
+    facet.seen = 1 - facet.inferred;
+  }
+}
+
 Proxy TruthOf(const Town& town, const FacadeIds& facades, const GroundGrid& grid) {
   Proxy proxy;
   proxy.metric = true;
   for (size_t i = 0; i < town.houses.size(); ++i) {
     const House& house = town.houses[i];
     proxy.buildings.push_back(TruthOf(house, SolidOf(house), facades[i]));
+    MarkBuried(town, grid, proxy.buildings.back());
   }
   proxy.buildings.push_back({"G0", false, "model", GroundFacets(town, grid)});
   if (const auto problem = FindProblem(proxy)) {

@@ -226,6 +226,37 @@ TEST_P(Cities, TheGroundOfTheTruthIsThatOfTheModel) {
   }
 }
 
+// Walls are seen where they stand above the ground that is drawn, in columns of a quarter metre.
+TEST_P(Cities, SeenIsTheShareOfAWallAboveTheGround) {
+  const test::TemporaryFolder folder;
+  const fs::path scene = folder / "scene";
+  MakeCity(Coarse(GetParam(), 12), scene);
+  const bool sloping = ReadSceneInfo(scene).has_terrain;
+  const std::vector<Eigen::Vector3d> ground = CornersByElement(ReadScene(scene)).at("G0");
+  double least = 1;
+  for (const auto& [id, facet] : FacetsById(scene)) {
+    if (facet.seen == 0) continue;
+    EXPECT_DOUBLE_EQ(facet.seen + facet.inferred, 1) << id;
+    if (!sloping || facet.facet_class != FacetClass::kWall) {
+      ASSERT_EQ(facet.seen, 1) << id;
+      continue;
+    }
+    const Eigen::Vector3d along = facet.outer[1] - facet.outer[0];
+    const int columns = static_cast<int>(4 * along.norm()) + 1;
+    double buried = 0;
+    for (int i = 0; i < columns; ++i) {
+      const Eigen::Vector3d foot = facet.outer[0] + (i + 0.5) / columns * along;
+      const std::vector<double> heights = HeightsAt(ground, foot.head<2>());
+      ASSERT_FALSE(heights.empty());
+      buried += std::max(0.0, heights[0] - foot.z()) * along.norm() / columns;
+    }
+    EXPECT_NEAR(facet.seen, 1 - buried / facet.area, 2e-3) << id;
+    EXPECT_GT(facet.seen, 0.3) << id;
+    least = std::min(least, facet.seen);
+  }
+  EXPECT_EQ(least < 0.9, sloping);
+}
+
 // What the map says a building is high, it is: to the ridge, or to a parapet above the roof.
 TEST_P(Cities, HeightsOfTheMapAreThoseOfTheTruth) {
   const test::TemporaryFolder folder;
