@@ -7,8 +7,8 @@
 namespace stucco::simulate::internal {
 namespace {
 
-// Whether a box lies on the wall and touches no part.
-bool IsFree(const WallLook& look, const Box& box) {
+// Whether a box lies on the wall and touches no part. Pipes go on behind a cornice.
+bool IsFree(const WallLook& look, const Box& box, bool behind_cornice = false) {
   if (box.left < 0 || box.top < 0 || box.right > look.width_m || box.bottom > look.height_m) {
     return false;
   }
@@ -18,9 +18,9 @@ bool IsFree(const WallLook& look, const Box& box) {
       const float more = look.shutters ? its.Width() / 2 : 0.0f;
       its = {its.left - more - 0.2f, its.top - 0.3f, its.right + more + 0.2f, its.bottom + 0.2f};
     }
-    if (part.kind != PartKind::kPlinth && part.kind != PartKind::kCornice && Meet(its, box)) {
-      return false;
-    }
+    const bool below =
+        part.kind == PartKind::kPlinth || (behind_cornice && part.kind == PartKind::kCornice);
+    if (!below && Meet(its, box)) return false;
   }
   return true;
 }
@@ -132,7 +132,7 @@ void PaintFittings(Tile& tile, const WallLook& look) {
     PaintSmallThings(tile, look);
     const float pipe_x = Uniform(1, 1, look.wall + 210) < 0.5f ? 0.18f : look.width_m - 0.18f;
     if (Trait(look, 52) < 0.6f &&
-        IsFree(look, {pipe_x - 0.08f, 0, pipe_x + 0.08f, look.height_m})) {
+        IsFree(look, {pipe_x - 0.08f, 0, pipe_x + 0.08f, look.height_m}, /*behind_cornice=*/true)) {
       PaintPipe(tile, look, pipe_x);
     }
     if (look.soot > 0.25f && !look.design->floors_m.empty()) {

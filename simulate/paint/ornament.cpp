@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "simulate/paint/internal/openings.h"
 
 namespace stucco::simulate::internal {
@@ -27,8 +29,11 @@ void PaintQuoins(Tile& tile, const WallLook& look, bool right) {
   }
 }
 
-void PaintBand(Tile& tile, const WallLook& look, float y) {
-  const Box band = {0, y - 0.16f, look.width_m, y};
+Box BandAt(const WallLook& look, float y) {
+  return {0, y - 0.16f, look.width_m, y};
+}
+
+void PaintBand(Tile& tile, const WallLook& look, const Box& band) {
   if (!Meet({band.left, band.top, band.right, band.bottom + 0.1f}, tile.Extent())) return;
   Fill(tile, band, [&](float x, float py, Colour) {
     const float v = (py - band.top) / band.Height();
@@ -37,6 +42,13 @@ void PaintBand(Tile& tile, const WallLook& look, float y) {
   });
   Shade(tile, {band.left, band.bottom, band.right, band.bottom + 0.1f},
         [&](float, float py) { return 0.6f + 0.4f * Smooth(0, 0.1f, py - band.bottom); });
+}
+
+bool MeetsCornice(const WallLook& look, const Box& box) {
+  const std::vector<WallPart>& parts = look.design->parts;
+  return std::any_of(parts.begin(), parts.end(), [&](const WallPart& part) {
+    return part.kind == PartKind::kCornice && Meet(BoxOf(part), box);
+  });
 }
 
 }  // namespace
@@ -49,7 +61,8 @@ void PaintOrnament(Tile& tile, const WallLook& look) {
   }
   if (Trait(look, 62) < 0.5f) {
     for (const double floor : look.design->floors_m) {
-      PaintBand(tile, look, static_cast<float>(floor));
+      const Box band = BandAt(look, static_cast<float>(floor));
+      if (!MeetsCornice(look, band)) PaintBand(tile, look, band);
     }
   }
 }

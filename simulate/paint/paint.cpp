@@ -92,12 +92,22 @@ void PaintSurface(Tile& tile, const CoveringLook& look) {
   }
 }
 
-// Bands along the wall lie under what else is on the wall, balconies over it.
+// What lies over what: the plinth is flush with the wall, ornament and fittings hang on it; what
+// stands out hides them.
+constexpr int kFlush = 0;
+constexpr int kOnTop = 3;
 int Layer(PartKind kind) {
-  const bool band =
-      kind == PartKind::kPlinth || kind == PartKind::kCornice || kind == PartKind::kLedge;
-  if (band) return 0;
-  return kind == PartKind::kBalcony ? 2 : 1;
+  switch (kind) {
+    case PartKind::kPlinth:
+      return kFlush;
+    case PartKind::kCornice:
+    case PartKind::kLedge:
+      return 1;
+    case PartKind::kBalcony:
+      return kOnTop;
+    default:
+      return 2;
+  }
 }
 
 }  // namespace
@@ -123,11 +133,11 @@ Image PaintWall(const WallDesign& design, double metres_per_texel) {
   return InTiles(width, height, metres_per_texel, [&](Tile& tile) {
     PaintGround(tile, look);
     if (design.cladding != Cladding::kGlass) internal::Weather(tile, look);
-    for (int layer = 0; layer < 3; ++layer) {
+    for (int layer = kFlush; layer <= kOnTop; ++layer) {
       for (const WallPart& part : design.parts) {
         if (Layer(part.kind) == layer) internal::PaintPart(tile, look, part);
       }
-      if (layer == 0) {
+      if (layer == kFlush) {
         internal::PaintOrnament(tile, look);
         internal::PaintFittings(tile, look);
       }

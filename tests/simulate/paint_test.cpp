@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "simulate/paint/internal/wall_look.h"
 #include "survey/error.h"
 #include "survey/parallel.h"
 
@@ -240,6 +241,43 @@ TEST(Paint, PartsArePaintedWhereTheyAre) {
     EXPECT_EQ(MeanDifference(bare, with, 0, 0, 500, 100), 0) << static_cast<int>(kind);
     EXPECT_EQ(MeanDifference(bare, with, 0, 0, 40, 500), 0) << static_cast<int>(kind);
     EXPECT_EQ(MeanDifference(bare, with, 430, 0, 500, 500), 0) << static_cast<int>(kind);
+  }
+}
+
+WallDesign CornicedWall(Cladding cladding, uint64_t seed, std::vector<double> floors_m) {
+  WallDesign design = Wall(cladding, 5, 4, seed);
+  design.floors_m = std::move(floors_m);
+  design.parts = {Part(PartKind::kCornice, 0, 0.1, 5, 0.45)};
+  return design;
+}
+
+// A cornice stands out: belts, corner blocks, pipes and cables are behind it.
+TEST(Paint, NothingIsPaintedOverACornice) {
+  constexpr double kTexel_m = 0.02;
+  for (const Cladding cladding : {Cladding::kBrick, Cladding::kPlaster, Cladding::kStone}) {
+    for (uint64_t seed = 0; seed < 20; ++seed) {
+      const WallDesign design = CornicedWall(cladding, seed, {0.4, 3.4});
+      const internal::WallLook look = internal::LookOf(design);
+      internal::Tile tile{0, 0, 250, 22, static_cast<float>(kTexel_m), {}};
+      tile.colours.resize(static_cast<size_t>(tile.width) * tile.height);
+      internal::PaintPart(tile, look, design.parts[0]);
+      const Image image = PaintWall(design, kTexel_m);
+      for (int row = 6; row < tile.height; ++row) {
+        for (int column = 0; column < tile.width; ++column) {
+          const internal::Colour& colour = tile.At(column, row);
+          ASSERT_NEAR(image.Pixel(column, row)[1], internal::FastSrgbCode(colour.g), 2)
+              << "seed " << seed << " at " << column << " " << row;
+        }
+      }
+    }
+  }
+}
+
+TEST(Paint, NoBeltRunsIntoACornice) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const Image with = PaintWall(CornicedWall(Cladding::kPlaster, seed, {0.5}), 0.01);
+    const Image without = PaintWall(CornicedWall(Cladding::kPlaster, seed, {}), 0.01);
+    EXPECT_EQ(MeanDifference(with, without, 0, 10, 500, 50), 0) << seed;
   }
 }
 
