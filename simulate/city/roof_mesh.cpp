@@ -135,6 +135,22 @@ void AddBox(const Vector2d& middle, const Vector2d& size, const Vector2d& along,
            /*with_bottom=*/false, model);
 }
 
+// z of a pitched roof at a place under it.
+double RoofAt(const Solid& solid, const Vector2d& place) {
+  double highest = solid.vertices[0].z();
+  for (const Solid::Face& face : solid.faces) {
+    if (face.facet_class != FacetClass::kRoof) continue;
+    plan::Ring ring;
+    for (const int corner : face.outer) ring.push_back(solid.vertices[corner].head<2>());
+    if (!plan::Contains({{ring}}, place)) continue;
+    const Vector3d normal = NormalOf(solid, face);
+    const Vector3d& corner = solid.vertices[face.outer[0]];
+    const double fall = normal.head<2>().dot(place - corner.head<2>()) / normal.z();
+    highest = std::max(highest, corner.z() - fall);
+  }
+  return highest;
+}
+
 Vector2d Along(const House& house) {
   const plan::Ring& ring = house.outline.rings[0];
   return (ring[1] - ring[0]).normalized();
@@ -204,12 +220,10 @@ void AddRoofThings(const House& house, const Solid& solid, const Trim& trim, Cit
     const int chimneys = house.use == HouseUse::kHome ? 1 : random.Integer(1, 3);
     for (int i = 0; i < chimneys; ++i) {
       if (!FindPlace(house, 1.6, random, place)) continue;
-      const double rise =
-          std::min(top, house.eaves_m() + house.slope * DistanceToOutline(house.outline, place));
       const double width = random.Uniform(0.5, 0.7);
       const double depth = random.Uniform(0.5, 1.1);
-      AddBox(place, {width, depth}, along, house.eaves_m(), std::min(rise + 1.6, top + 0.8), trim,
-             model);
+      AddBox(place, {width, depth}, along, house.eaves_m(),
+             std::min(RoofAt(solid, place) + 1.6, top + 0.8), trim, model);
     }
     return;
   }

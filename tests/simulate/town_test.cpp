@@ -21,6 +21,7 @@
 #include "simulate/city/house_mesh.h"
 #include "simulate/city/make_city.h"
 #include "simulate/city/occluders.h"
+#include "simulate/city/roof_mesh.h"
 #include "simulate/city/town_map.h"
 #include "simulate/paint/car_shape.h"
 #include "simulate/paint/paint.h"
@@ -200,6 +201,19 @@ TEST_P(Towns, SeedOneIsWhatItWas) {
   EXPECT_EQ(Samples(LayOutTown(GetParam(), 1)), expected.at(GetParam()));
 }
 
+// z of the roof over a place of the plan.
+std::optional<double> RoofOver(const Solid& solid, const Eigen::Vector2d& at) {
+  for (const Solid::Face& face : solid.faces) {
+    const Loop loop = Corners(solid, face.outer);
+    plan::Polygon plan = {{{}}};
+    for (const Eigen::Vector3d& corner : loop) plan.rings[0].push_back(corner.head<2>());
+    if (face.facet_class != FacetClass::kRoof || !plan::Contains(plan, at)) continue;
+    const Eigen::Vector3d normal = AreaVector(loop);
+    return (normal.dot(loop[0]) - normal.head<2>().dot(at)) / normal.z();
+  }
+  return std::nullopt;
+}
+
 plan::Polygon OutlineOf(const Car& car) {
   return Placed(Rectangle(kCarLength_m, kCarWidth_m), car.heading_rad, car.position);
 }
@@ -252,6 +266,32 @@ TEST_P(Towns, EveryFreeWallIsAFacadeOfTheMap) {
         const std::string& id = ids[i][edge];
         ASSERT_EQ(id.empty(), town.houses[i].party[edge]) << seed;
         ASSERT_TRUE(id.empty() || all.insert(id).second) << seed;
+      }
+    }
+  }
+}
+
+// Chimneys are smoked through: their tops stand above the roof at all their corners, and not higher
+// above the ridge than drones are told to keep away.
+TEST_P(Towns, ChimneysStandAboveTheirRoofs) {
+  for (int seed = 0; seed < kSeedsOfDesigns; ++seed) {
+    for (const House& house : LayOutTown(GetParam(), seed).houses) {
+      if (house.roof == RoofShape::kFlat) continue;
+      const Solid solid = SolidOf(house);
+      CityModel model;
+      AddRoofThings(house, solid, {}, model);
+      double ridge = 0;
+      for (const Eigen::Vector3d& vertex : solid.vertices) ridge = std::max(ridge, vertex.z());
+      for (const Eigen::Vector3i& triangle : model.scene.triangles) {
+        std::array<Eigen::Vector3d, 3> p;
+        for (int k = 0; k < 3; ++k) p[k] = model.scene.positions[triangle[k]].cast<double>();
+        if (p[0].z() != p[1].z() || p[1].z() != p[2].z()) continue;  // not the top
+        ASSERT_LT(p[0].z(), ridge + 0.8 + 1e-4) << seed << " " << house.id;
+        for (const Eigen::Vector3d& corner : p) {
+          const auto roof = RoofOver(solid, corner.head<2>());
+          ASSERT_TRUE(roof) << seed << " " << house.id << ": beside the roof";
+          ASSERT_GT(corner.z(), *roof + 0.5) << seed << " " << house.id;
+        }
       }
     }
   }
