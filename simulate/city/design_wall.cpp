@@ -181,10 +181,15 @@ class Designer {
     return wanted && bay % std::max(2, manner_.balcony_every) == 1;
   }
 
+  // None in the first and the last bay: it would run into what is set back in the next wall.
+  bool HasLoggia(int bay) const {
+    return manner_.loggia_m > 0 && bay % 4 == manner_.loggia_bay + 1 && bay > 0 && bay + 1 < bays_;
+  }
+
   void AddUpper(int storey, int bay) {
     if (HasBalcony(storey, bay)) {
       AddBalcony(storey, X(bay));
-    } else if (manner_.loggia_m > 0 && bay % 4 == manner_.loggia_bay + 1 && bays_ > 3) {
+    } else if (HasLoggia(bay)) {
       AddLoggia(storey, X(bay), std::min(2.4, place_.width_m / bays_ - 0.5));
     } else {
       AddWindow(storey, X(bay));

@@ -271,6 +271,27 @@ TEST_P(Towns, EveryFreeWallIsAFacadeOfTheMap) {
   }
 }
 
+// Behind a corner the next wall has recesses of its own.
+TEST(Town, LoggiasKeepAwayFromTheCorners) {
+  constexpr double kDeepest_m = 1.5 + 0.4;
+  int loggias = 0;
+  for (int seed = 0; seed < kSeedsOfDesigns; ++seed) {
+    for (const House& house : LayOutTown("asia", seed).houses) {
+      const std::vector<OutlineEdge> edges = EdgesOf(house.outline);
+      for (int edge = 0; edge < static_cast<int>(edges.size()); ++edge) {
+        const double width = (edges[edge].b - edges[edge].a).norm();
+        for (const WallPart& part : DesignWall(house, {edge, width, house.eaves_m(), 0}).parts) {
+          if (part.relief_m > -0.5) continue;
+          ++loggias;
+          ASSERT_GT(part.top_left.x(), kDeepest_m) << seed << " " << house.id;
+          ASSERT_LT(part.bottom_right.x(), width - kDeepest_m) << seed << " " << house.id;
+        }
+      }
+    }
+  }
+  EXPECT_GT(loggias, 1000);
+}
+
 // Chimneys are smoked through: their tops stand above the roof at all their corners, and not higher
 // above the ridge than drones are told to keep away.
 TEST_P(Towns, ChimneysStandAboveTheirRoofs) {
