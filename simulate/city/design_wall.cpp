@@ -246,6 +246,10 @@ class Designer {
 
 }  // namespace
 
+bool HasBalconies(const House& house) {
+  return house.storeys > 1 && house.cladding != Cladding::kGlass && MannerOf(house).balcony_m > 0;
+}
+
 WallDesign DesignWall(const House& house, const WallPlace& place) {
   return Designer(house, place).Design();
 }

@@ -15,6 +15,8 @@ struct WallPlace {
   double gable_rise_m = 0;  // of the triangle at the top; 0: none
 };
 
+bool HasBalconies(const House& house);  // on any of its walls, if they are long enough
+
 // Windows, doors, balconies and what else is on a wall. Parts keep away from the ends of the wall
 // and from each other, and lie on the wall wholly; party walls are blind. Walls of one house share
 // its manner: window sizes, balconies, shops.

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "plan/polygons.h"
+#include "simulate/city/design_wall.h"
 #include "simulate/city/footprints.h"
 #include "simulate/city/internal/layouts.h"
 #include "simulate/city/make_city.h"
@@ -51,6 +52,15 @@ bool KeepsApart(const plan::Polygon& outline, const std::vector<House>& houses, 
                      [&](const House& house) { return Gap(outline, house.outline) >= least_m; });
 }
 
+namespace {
+
+// How far a trunk keeps from walls: crowns bulge beyond their radius, and leaves stand out of them.
+double RoomFor(const Tree& tree) {
+  return 1.2 * tree.crown_m + 0.8;
+}
+
+}  // namespace
+
 void PlantTrees(const Eigen::Vector2d& low, const Eigen::Vector2d& high, int count, Random& random,
                 Town& town, const TreeHeights& heights) {
   constexpr int kTries = 20;
@@ -59,13 +69,11 @@ void PlantTrees(const Eigen::Vector2d& low, const Eigen::Vector2d& high, int cou
     tree.position = {random.Uniform(low.x(), high.x()), random.Uniform(low.y(), high.y())};
     tree.height_m = random.Uniform(heights.from_m, heights.to_m);
     tree.crown_m = tree.height_m * random.Uniform(0.22, 0.34);
-    constexpr double kClearance_m = 0.6;
     const bool free =
         std::all_of(town.houses.begin(), town.houses.end(),
                     [&](const House& house) {
                       return !plan::Contains(house.outline, tree.position) &&
-                             DistanceToOutline(house.outline, tree.position) >
-                                 tree.crown_m + kClearance_m;
+                             DistanceToOutline(house.outline, tree.position) > RoomFor(tree);
                     }) &&
         std::all_of(town.trees.begin(), town.trees.end(), [&](const Tree& other) {
           return (other.position - tree.position).norm() > 0.8 * (other.crown_m + tree.crown_m);
@@ -138,6 +146,18 @@ void Settle(const Relief& relief, House& house) {
   house.floor_m += high;
 }
 
+// Houses have balconies, or not, once they have their seeds: trees that were planted before and
+// would grow into one are taken away.
+void FellTrees(Town& town) {
+  constexpr double kBalcony_m = 1.5;
+  std::erase_if(town.trees, [&](const Tree& tree) {
+    return std::any_of(town.houses.begin(), town.houses.end(), [&](const House& house) {
+      return HasBalconies(house) &&
+             DistanceToOutline(house.outline, tree.position) < internal::RoomFor(tree) + kBalcony_m;
+    });
+  });
+}
+
 }  // namespace
 
 double Relief::HeightAt(const Eigen::Vector2d& position) const {
@@ -177,6 +197,7 @@ Town LayOutTown(const std::string& style, uint64_t seed) {
     house.seed = Random(seed, 1000 + i).Next();
     Settle(town.relief, house);
   }
+  FellTrees(town);
   return town;
 }
 
