@@ -33,10 +33,9 @@ GroundGrid MakeGroundGrid(const Town& town);
 // Texels are as small as asked for a hamlet and coarser for larger towns.
 void AddGround(const Town& town, const GroundGrid& grid, double metres_per_texel, CityModel& model);
 
-// How much of an upright face over the segment from a to b, from `foot_m` upwards, lies below the
-// ground as it is drawn: cells of a slope are pairs of triangles.
-double BuriedArea(const Town& town, const GroundGrid& grid, const Eigen::Vector2d& a,
-                  const Eigen::Vector2d& b, double foot_m);
+// z of the ground as a cell draws it, at a place of the cell in the axes of the ground.
+double DrawnHeight(const Town& town, const GroundGrid& grid, int column, int row,
+                   const Eigen::Vector2d& at);
 
 // The town's ground without the fields, houses cut out of it: one facet per level and closed area
 // where it is flat, else a triangle per half cell; G0 is the largest.

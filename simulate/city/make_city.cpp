@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "simulate/city/buried.h"
 #include "simulate/city/city_model.h"
 #include "simulate/city/ground.h"
 #include "simulate/city/house_mesh.h"
