@@ -240,7 +240,8 @@ PhotoMetadata MetadataOf(const PreparedFlight& prepared, size_t photo,
   metadata.focal_35mm_mm = FocalOn35mm_mm(prepared.plan.camera);
   metadata.width_px = flown.camera.width_px;
   metadata.height_px = flown.camera.height_px;
-  metadata.uuid = fmt::format("{:016x}{:016x}", SeedOf(of_photo.Next(), 1), of_photo.Next());
+  const uint64_t low = of_photo.Next();
+  metadata.uuid = fmt::format("{:016x}{:016x}", SeedOf(of_photo.Next(), 1), low);
   return metadata;
 }
 
