@@ -24,17 +24,18 @@ EVALUATION = {
                            "q_u": 0.7, "q_c": 1},
     "poses": {"posed": 45, "total": 46, "position_mean_m": 0.0123, "position_max_m": 0.03,
               "rotation_mean_deg": 0.01, "rotation_max_deg": 0.02, "georeferenced_mean_m": 1.5},
-    "dense": {"error95_m": 0.21, "completeness": 0.955, "completeness_all": 0.9},
+    "dense": {"error95_m": 0.1, "building_error95_m": 0.21, "building_completeness": 0.955,
+              "building_completeness_all": 0.9, "wall_completeness": 0.6},
     "mesh": {"error95_m": None, "completeness": None, "completeness_all": None},
     "proxy": {"buildings": 3, "truth_buildings": 3, "watertight": 2, "manifold": 3,
-              "self_intersecting": 0, "facets": 40, "truth_facets": 38, "error95_m": 0.3,
-              "completeness": 0.8, "completeness_all": 0.75, "wall_error95_m": 0.25,
-              "wall_completeness": 0.7,
+              "self_intersecting": 0, "facets": 40, "truth_facets": 38, "error95_m": 0.1,
+              "building_error95_m": 0.3, "building_completeness": 0.8,
+              "building_completeness_all": 0.75, "wall_error95_m": 0.25, "wall_completeness": 0.7,
               "facade_id_rate": 0.9},
     "texture": {**{name + "_mean": 0.5 for name in ("ssim", "ms_ssim", "gmsd", "flip")},
                 "psnr_mean": 21.25, "lpips_mean": None, "misregistration_px": 0.75,
-                "facades": [{"area_m2": 30, "painted": 0.5}, {"area_m2": 10, "painted": 1}]},
-    "views": {"ssim_mean": 0.6, "psnr_mean": 19.5, "flip_mean": 0.2, "photos": []}, "notes": []}
+                "misregistration_m": 0.015, "painted": 0.625, "facades": [{"area_m2": 30}]},
+    "views": {"compared": 0.95, "ssim_mean": 0.6, "psnr_mean": 19.5, "flip_mean": 0.2, "photos": []}, "notes": []}
 
 # Notes its commands and makes what the real one would make, as far as the scripts look at it.
 STAND_IN = """#!/usr/bin/env python3
@@ -103,10 +104,10 @@ class Loop(WithStandIn):
             "evaluate out/hamlet-3-cocapture-0.25 --truth out/hamlet-3"])
         start = "| hamlet-3 | cocapture "
         for row in ("| 46 | 20 | 1234 | 7.2 | 30 | 0.90 | 0.80 | 0.70 | 1.00 |",
-                    "| 45 / 46 | 12.3 | 0.0100 | 1.50 | 0.210 | 95.5 % | 90.0 % | 0.300 | 80.0 % "
-                    "| 75.0 % | 0.250 | 70.0 % | 2 / 3 | 40 / 38 | 90.0 % |",
-                    "| 62.5 % | 0.500 | 0.500 | 21.25 | 0.500 | 0.500 | - | 0.75 | 0.600 | 19.50 "
-                    "| 0.200 |", "| 46 | wall | 0 | 0 | - | - | 90 | - | - | - | 0 | 90 |"):
+                    "| 45 / 46 | 12.3 | 0.0100 | 1.50 | 0.210 | 95.5 % | 90.0 % | 60.0 % | 0.300 "
+                    "| 80.0 % | 75.0 % | 0.250 | 70.0 % | 2 / 3 | 40 / 38 | 90.0 % |",
+                    "| 62.5 % | 0.500 | 0.500 | 21.25 | 0.500 | 0.500 | - | 0.75 | 0.015 | 95.0 % "
+                    "| 0.600 | 19.50 | 0.200 |", "| 46 | wall | 0 | 0 | - | - | 90 | - | - | - | 0 | 90 |"):
             self.assertIn(start + row, table)
         figures = json.loads((out / "figures/hamlet-3-cocapture-0.25.json").read_text())
         self.assertEqual(figures["name"], "hamlet-3-cocapture-0.25")
@@ -148,7 +149,7 @@ class Loop(WithStandIn):
     def test_a_run_that_fails_is_measured_as_far_as_it_came(self):
         process = self.call("loop.py", self.root / "out", fails="run")
         self.assertIn("run", process.stderr)
-        self.assertIn("| 0.500 | - | 0.75 | 0.600 |", process.stdout)
+        self.assertIn("| 0.500 | - | 0.75 | 0.015 | 95.0 % | 0.600 |", process.stdout)
         self.assertIn("| wall | 0 | 0 | - | - | - | - | - | - | 0 | - |", process.stdout)
         self.last_commands()
         self.call("loop.py", self.root / "out")
@@ -163,8 +164,8 @@ class Loop(WithStandIn):
     def test_what_was_not_measured_is_a_dash(self):
         figures = json.loads(json.dumps(EVALUATION))
         figures.update(stages={}, steps={}, plan=None, commits=[])
-        figures["texture"]["painted"] = loop.painted_share([])
-        figures["poses"]["position_mean_m"] = figures["dense"]["completeness"] = None
+        figures["texture"]["painted"] = figures["poses"]["position_mean_m"] = None
+        figures["dense"]["building_completeness"] = None
         table = loop.tables([("a", "b", figures)])
         for row in ("| a | b |" + " - |" * 9, "| a | b | 45 / 46 | - | 0.0100 | 1.50 | 0.210 | - |",
                     "| a | b | - | 0.500 |", "| a | b | 46 | CPU |" + " - |" * 10):
