@@ -32,7 +32,7 @@ struct PlaneTable {
   std::vector<int> building;  // -1: ground
 };
 
-PlaneTable TableOf(const Scene& scene) {
+PlaneTable TableOf(const PlanarScene& scene) {
   PlaneTable table;
   for (size_t b = 0; b < scene.buildings.size(); ++b) {
     for (const Plane& plane : scene.buildings[b]) {
@@ -48,7 +48,7 @@ PlaneTable TableOf(const Scene& scene) {
 }
 
 // The open facets of each plane, cut along the planes of its own building and the ground.
-std::vector<std::vector<Facet>> OpenFacets(const Scene& scene, const PlaneTable& table,
+std::vector<std::vector<Facet>> OpenFacets(const PlanarScene& scene, const PlaneTable& table,
                                            const std::vector<PlaneView>& views, int threads,
                                            ProxyFindings& findings) {
   std::vector<std::vector<Facet>> facets(views.size());
@@ -78,7 +78,7 @@ std::vector<std::vector<Facet>> OpenFacets(const Scene& scene, const PlaneTable&
 }
 
 // Closes each building where its planes and points allow it; empty solids otherwise.
-std::vector<Solid> CloseBuildings(const Scene& scene, const Stations& stations,
+std::vector<Solid> CloseBuildings(const PlanarScene& scene, const Stations& stations,
                                   const PlaneTable& table, const std::vector<PlaneView>& views,
                                   const ProxyOptions& options, int threads) {
   const SolidScene solid_scene{.samples = scene.samples,
@@ -128,7 +128,7 @@ void NameAfterPlan(const Georef& georef, const StageContext& context, Proxy& pro
 
 Proxy AbstractCloud(const PointStream& cloud, const Stations& stations, const Georef& georef,
                     const ProxyOptions& options, int threads, ProxyFindings& findings) {
-  const Scene scene = UnderstandCloud(cloud, stations, georef, options, threads, findings);
+  const PlanarScene scene = UnderstandCloud(cloud, stations, georef, options, threads, findings);
   const PlaneTable table = TableOf(scene);
   const auto views = ViewPlanes(scene.samples, stations, table.planes, scene.witnesses, scene.up,
                                 scene.main_direction, scene.tolerances,

@@ -29,7 +29,7 @@ constexpr char kCloudRemedy[] =
 
 // Thins the cloud, measures it, and thins again when the tolerances need fewer points or more.
 CloudScale PrepareSamples(const PointStream& cloud, const Stations& stations, bool metric,
-                          const ProxyOptions& options, Scene& scene) {
+                          const ProxyOptions& options, PlanarScene& scene) {
   constexpr double kSamplesPerDetail = 4;
   constexpr int kFirstLook = 500'000;  // points that tell the scale of any scene
   scene.samples = ThinCloud(cloud, stations, std::min(options.max_points, kFirstLook), 0);
@@ -66,7 +66,7 @@ CloudScale PrepareSamples(const PointStream& cloud, const Stations& stations, bo
 
 // Says when points too far apart, by `max_points` or in the cloud itself, cost details.
 void WarnOfCoarseness(const CloudScale& scale, const Georef& georef, const ProxyOptions& options,
-                      const Scene& scene, ProxyFindings& findings) {
+                      const PlanarScene& scene, ProxyFindings& findings) {
   CloudScale dense = scale;
   dense.spacing = 0;
   const Tolerances wanted = DeriveTolerances(dense, georef.metric, options);
@@ -87,7 +87,7 @@ void WarnOfCoarseness(const CloudScale& scale, const Georef& georef, const Proxy
 }
 
 std::vector<Plane> FindPlanes(const Stations& stations, const ProxyOptions& options, int threads,
-                              Scene& scene) {
+                              PlanarScene& scene) {
   Samples& samples = scene.samples;
   const Tolerances& tolerances = scene.tolerances;
   const GridIndex index(samples.positions, tolerances.radius);
@@ -106,7 +106,7 @@ std::vector<Plane> FindPlanes(const Stations& stations, const ProxyOptions& opti
 }
 
 void FindUp(const std::vector<Plane>& planes, const Stations& stations, const Georef& georef,
-            const ProxyOptions& options, Scene& scene, ProxyFindings& findings) {
+            const ProxyOptions& options, PlanarScene& scene, ProxyFindings& findings) {
   if (options.up.size() == 3) {
     const Eigen::Vector3d up(options.up[0], options.up[1], options.up[2]);
     if (!(up.norm() > 0)) {
@@ -149,9 +149,10 @@ void FindUp(const std::vector<Plane>& planes, const Stations& stations, const Ge
 
 }  // namespace
 
-Scene UnderstandCloud(const PointStream& cloud, const Stations& stations, const Georef& georef,
-                      const ProxyOptions& options, int threads, ProxyFindings& findings) {
-  Scene scene;
+PlanarScene UnderstandCloud(const PointStream& cloud, const Stations& stations,
+                            const Georef& georef, const ProxyOptions& options, int threads,
+                            ProxyFindings& findings) {
+  PlanarScene scene;
   const CloudScale scale = PrepareSamples(cloud, stations, georef.metric, options, scene);
   findings.notes.push_back(
       fmt::format("{} points thinned to {}, {} dropped; noise {:.4g}, level of detail {:.4g} {}",

@@ -14,7 +14,7 @@
 namespace stucco {
 
 // The cloud understood: samples, up, and the regularised planes told apart.
-struct Scene {
+struct PlanarScene {
   Samples samples;
   Tolerances tolerances;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
@@ -26,7 +26,8 @@ struct Scene {
 
 // Steps 1 to 6 of the README: thinning, planes, up, regularisation, ground, buildings. Throws Error
 // (kStageFailed) when there are too few points or no planes.
-Scene UnderstandCloud(const PointStream& cloud, const Stations& stations, const Georef& georef,
-                      const ProxyOptions& options, int threads, ProxyFindings& findings);
+PlanarScene UnderstandCloud(const PointStream& cloud, const Stations& stations,
+                            const Georef& georef, const ProxyOptions& options, int threads,
+                            ProxyFindings& findings);
 
 }  // namespace stucco

@@ -35,6 +35,11 @@ HEAVY = re.compile(
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]', re.M)
 
+# Types of a header. All modules share the namespace stucco: two types of one name in it are two
+# destructors of which the linker keeps one, for both.
+NAMESPACE = re.compile(r"^namespace (\S+) \{", re.M)
+TYPE = re.compile(r"^(?:struct|class|enum class|enum) (\w+)\b[^;({]*\{", re.M)
+
 MAX_LINES = 500
 SOURCES = {".h", ".cpp"}
 SPDX_SUFFIXES = {".h", ".cpp", ".cmake", ".py", ".sh"}
@@ -104,6 +109,14 @@ def spdx_problems(path, text):
         yield f"{path}: does not begin with the two SPDX lines"
 
 
+def types_of(path, text):
+    """Names, with their namespace, of the types that a header of a module defines."""
+    if path.suffix != ".h" or path.parts[0] not in MODULES:
+        return set()
+    namespace = NAMESPACE.search(text)
+    return {f"{namespace[1]}::{name}" for name in TYPE.findall(text)} if namespace else set()
+
+
 def readme_problems(root):
     for module in sorted(MODULES):
         folder = root / module
@@ -115,6 +128,7 @@ def problems(root):
     """Every broken rule below `root`, as lines to print."""
     root = pathlib.Path(root)
     found = list(readme_problems(root))
+    header_of = {}
     for path in find_files(root):
         is_source = path.suffix in SOURCES
         if not is_source and path.suffix not in SPDX_SUFFIXES and path.name != "CMakeLists.txt":
@@ -124,6 +138,10 @@ def problems(root):
         found += size_problems(path, text)
         if is_source:
             found += include_problems(path, text)
+        for name in sorted(types_of(path, text)):
+            if name in header_of:
+                found.append(f"{path}: {name} is a type of {header_of[name]}, too")
+            header_of.setdefault(name, path)
     return found
 
 

@@ -103,6 +103,15 @@ class CheckArchitectureTest(unittest.TestCase):
             self.include("tests/proxy/support.h", f"<{header}>")
             self.assert_clean()
 
+    def test_types_have_names_of_their_own(self):
+        self.write("calib/a.h", "namespace stucco {\nstruct Scene {\n};\nclass Other;\n}\n")
+        self.write("proxy/b.h", "namespace stucco {\nclass Other final : Base {\n};\n}\n")
+        self.write("simulate/c.h", "namespace stucco::simulate {\nstruct Scene {\n};\n}\n")
+        self.write("tests/proxy/d.h", "namespace stucco {\nstruct Scene {\n};\n}\n")
+        self.assert_clean()
+        self.write("proxy/a.h", "namespace stucco {\nclass Scene {\n};\n}\n")
+        self.assert_problem("proxy/a.h", "stucco::Scene", "calib/a.h")
+
     def test_files_are_short(self):
         for name in ("calib/a.cpp", "calib/a.h", "scripts/a.py", "scripts/a.sh", "cmake/a.cmake",
                      "tests/calib/a.cpp", "CMakeLists.txt"):
