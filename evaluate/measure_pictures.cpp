@@ -11,6 +11,7 @@
 
 #include "evaluate/attempt.h"
 #include "evaluate/geometry/seen.h"
+#include "evaluate/geometry/surface.h"
 #include "evaluate/means.h"
 #include "evaluate/picture/compare_textures.h"
 #include "evaluate/picture/page_pictures.h"
@@ -130,7 +131,8 @@ void MeasurePictures(const EvaluateRequest& request, const Truth& truth, simulat
   const Proxy proxy = ReadProxy(request.survey / kFacetsFile);
   const TextureSet textures = ReadTextureSet(request.survey / kTexturesFile);
   std::vector<bool> occluders;
-  for (const std::string& element : scene.elements) occluders.push_back(IsOccluder(element));
+  for (const std::string& element : scene.elements)
+    occluders.push_back(GroupOf(element) == kStandsAbout);
   const simulate::Renderer renderer(std::move(scene));
   const fs::path flight = request.flight.empty() ? request.survey : request.flight;
   const TextureComparison comparison{

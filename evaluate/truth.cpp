@@ -58,10 +58,6 @@ void RequireSameScene(const Truth& truth, const fs::path& scene, const fs::path&
 
 }  // namespace
 
-bool IsOccluder(const std::string& element) {
-  return element.starts_with(simulate::kOccluderPrefix);
-}
-
 Truth ReadTruth(const fs::path& scene, const fs::path& flight) {
   Truth truth;
   truth.info = simulate::ReadSceneInfo(scene);

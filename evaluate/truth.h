@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "simulate/flight/flight_folder.h"
 #include "simulate/scene/scene_folder.h"
@@ -17,9 +16,6 @@ struct Truth {
   Proxy facets;
   simulate::Flight flight;
 };
-
-// Trees, cars and what else stands about: no part of a building or the ground.
-bool IsOccluder(const std::string& element);
 
 // `flight` is the survey folder with truth/flight.json. Throws Error (kBadInput): no truth in one
 // of the folders, of another version, or the flight was flown in another scene.

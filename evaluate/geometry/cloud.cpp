@@ -83,10 +83,8 @@ ResultPoints MeasurePoints(std::span<const Vector3d> points, const SceneIndex& s
   ParallelFor((points.size() + kBlock - 1) / kBlock, threads, [&](size_t block) {
     for (size_t i = block * kBlock; i < std::min(points.size(), (block + 1) * kBlock); ++i) {
       nearest[i] = scene.everything.Nearest(points[i]);
-      const int group = nearest[i].group;
-      const bool on_building =
-          group != static_cast<int>(FacetClass::kGround) && group != kStandsAbout;
-      counts[i] = on_building || scene.buildings.Distance(nearest[i].place) <= kGroundReachM;
+      counts[i] = IsOfBuilding(nearest[i].group) ||
+                  scene.buildings.Distance(nearest[i].place) <= kGroundReachM;
     }
   });
   ResultPoints measured;
@@ -97,6 +95,15 @@ ResultPoints MeasurePoints(std::span<const Vector3d> points, const SceneIndex& s
 }
 
 }  // namespace
+
+std::vector<char> FoundOn(const SurfaceIndex& result, const TruthPoints& truth, double tolerance_m,
+                          int threads) {
+  std::vector<char> found;
+  for (const double distance : Distances(Positions(truth.points), result, threads)) {
+    found.push_back(distance <= tolerance_m ? 1 : 0);
+  }
+  return found;
+}
 
 PartFigures CompareCloud(const std::filesystem::path& ply, const Similarity& truth_from_world,
                          const SceneIndex& scene, const TruthPoints& truth, double tolerance_m,
@@ -116,11 +123,8 @@ PartFigures CompareCloud(const std::filesystem::path& ply, const Similarity& tru
 PartFigures CompareSurface(const SurfaceIndex& result, const SceneIndex& scene,
                            const TruthPoints& truth, double tolerance_m, int threads) {
   const auto points = Positions(SamplePoints(result.surface(), kSurfaceSamples, kSeed));
-  std::vector<char> found;
-  for (const double distance : Distances(Positions(truth.points), result, threads)) {
-    found.push_back(distance <= tolerance_m ? 1 : 0);
-  }
-  return FiguresOf(MeasurePoints(points, scene, threads), truth, found);
+  return FiguresOf(MeasurePoints(points, scene, threads), truth,
+                   FoundOn(result, truth, tolerance_m, threads));
 }
 
 }  // namespace stucco::evaluate

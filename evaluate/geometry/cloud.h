@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "evaluate/geometry/part_figures.h"
 #include "evaluate/geometry/surface_index.h"
@@ -19,6 +20,10 @@ struct SceneIndex {
 
 // Ground farther than this from every building of the truth is none of the survey's.
 inline constexpr double kGroundReachM = 15;
+
+// Which points of the truth have a surface within the tolerance: 1 or 0 by point.
+std::vector<char> FoundOn(const SurfaceIndex& result, const TruthPoints& truth, double tolerance_m,
+                          int threads);
 
 // A cloud that is read from disk once and never held: all its points count for completeness, every
 // n-th of them, at most two million, for the error. Empty clouds have no error and completeness 0.

@@ -53,10 +53,7 @@ PartFigures MeasureSurfaces(const Proxy& result, const ProxyTruth& truth, double
   wanted.points = SamplePoints(Surveyed(planes, buildings), kSamples, kSeed);
   wanted.seen = SeenByAny(wanted.points, truth.photos, truth.scene.everything, threads);
   const SurfaceIndex of_result(VisibleSurface(result));
-  std::vector<char> found;
-  for (const double away : Distances(Positions(wanted.points), of_result, threads)) {
-    found.push_back(away <= tolerance_m ? 1 : 0);
-  }
+  const std::vector<char> found = FoundOn(of_result, wanted, tolerance_m, threads);
   Append(truth.relief, planes);
   const SurfaceIndex of_truth(std::move(planes));
   const auto made = SamplePoints(Surveyed(of_result.surface(), buildings), kSamples, kSeed);

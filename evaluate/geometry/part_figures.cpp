@@ -45,13 +45,12 @@ double Quantile(std::vector<double> values, double share) {
 
 PartFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
                       std::span<const char> found) {
-  constexpr int kGround = static_cast<int>(FacetClass::kGround);
   const auto of = [&](const IsPart& is_part) { return FiguresOf(result, truth, found, is_part); };
   const auto of_class = [&](FacetClass facet_class) {
     return of([=](int group) { return group == static_cast<int>(facet_class); });
   };
   return {.all = of([](int) { return true; }),
-          .building = of([](int group) { return group != kGround && group != kStandsAbout; }),
+          .building = of(IsOfBuilding),
           .wall = of_class(FacetClass::kWall),
           .roof = of_class(FacetClass::kRoof),
           .ground = of_class(FacetClass::kGround)};

@@ -56,6 +56,10 @@ int GroupOf(const std::string& element) {
   return static_cast<int>(part == 'F' || part == 'W' ? FacetClass::kWall : FacetClass::kOuterFloor);
 }
 
+bool IsOfBuilding(int group) {
+  return group != static_cast<int>(FacetClass::kGround) && group != kStandsAbout;
+}
+
 namespace {
 
 Surface SurfaceOf(const simulate::Scene& scene, bool with_what_stands_about) {

@@ -30,6 +30,7 @@ void Append(const Surface& more, Surface& surface);
 // What an element of a made scene is, by its name: walls and roofs are facets of buildings, what
 // stands out from them is kOuterFloor.
 int GroupOf(const std::string& element);
+bool IsOfBuilding(int group);
 // Everything that a camera sees; the relief is that without what stands about.
 Surface SurfaceOf(const simulate::Scene& scene);
 Surface ReliefOf(const simulate::Scene& scene);

@@ -75,8 +75,7 @@ double ShareOfBuildings(const std::vector<uint8_t>& mask, const DepthMap& scene,
 std::vector<bool> NoBuildings(const Renderer& scene) {
   std::vector<bool> others;
   for (const std::string& element : scene.scene().elements) {
-    const int group = GroupOf(element);
-    others.push_back(group == kStandsAbout || group == static_cast<int>(FacetClass::kGround));
+    others.push_back(!IsOfBuilding(GroupOf(element)));
   }
   return others;
 }
