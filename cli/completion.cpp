@@ -8,7 +8,7 @@
 #include <set>
 
 #include "cli/program.h"
-#include "pipeline/export.h"
+#include "pipeline/verbs/export.h"
 
 namespace stucco {
 namespace {

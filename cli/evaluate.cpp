@@ -12,7 +12,7 @@
 #include <string>
 
 #include "cli/program.h"
-#include "pipeline/resources.h"
+#include "pipeline/engine/engine.h"
 #include "survey/numbers.h"
 
 namespace stucco {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/init.h"
+#include "pipeline/verbs/init.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "cli/internal/json_output.h"
 #include "cli/program.h"
-#include "pipeline/shell.h"
+#include "pipeline/engine/engine.h"
 
 namespace stucco {
 namespace {

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/verbs/lint.h"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,7 +9,6 @@
 
 #include "cli/internal/json_output.h"
 #include "cli/program.h"
-#include "pipeline/lint_mission.h"
 
 namespace stucco {
 namespace {

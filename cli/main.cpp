@@ -13,9 +13,7 @@
 #include "cli/program.h"
 #include "cli/suggest.h"
 #include "pipeline/default_stages.h"
-#include "pipeline/exit_code.h"
-#include "pipeline/run_stage.h"
-#include "pipeline/shell.h"
+#include "pipeline/engine/engine.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "cli/internal/json_output.h"
 #include "cli/program.h"
-#include "pipeline/settings.h"
+#include "pipeline/engine/engine.h"
 
 namespace stucco {
 namespace {

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/verbs/plan.h"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,10 +11,7 @@
 
 #include "cli/internal/json_output.h"
 #include "cli/program.h"
-#include "pipeline/interrupt.h"
-#include "pipeline/plan_survey.h"
-#include "pipeline/settings.h"
-#include "pipeline/shell.h"
+#include "pipeline/engine/engine.h"
 
 namespace stucco {
 namespace {

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "cli/internal/json_output.h"
-#include "pipeline/exit_code.h"
+#include "pipeline/engine/engine.h"
 
 namespace stucco {
 namespace {

@@ -6,9 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "pipeline/console.h"
-#include "pipeline/run.h"
-#include "pipeline/stages.h"
+#include "pipeline/engine/engine.h"
 #include "survey/error.h"
 
 namespace CLI {

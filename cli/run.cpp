@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/run.h"
+#include "pipeline/verbs/run.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,7 @@
 
 #include "cli/internal/json_output.h"
 #include "cli/program.h"
-#include "pipeline/interrupt.h"
-#include "pipeline/settings.h"
+#include "pipeline/engine/engine.h"
 #include "survey/survey_folder.h"
 
 namespace stucco {
@@ -133,7 +132,7 @@ int RunAndPrint(const Program& program, RunOptions options) {
   options.memory_limit_gb = program.common.memory_limit_gb;
   options.command = program.command_line;
   Console console = Console::ForStderr(program.common.verbosity());
-  const RunResult result = Run(program.common.survey, program.table, options, console);
+  const RunResult result = RunSurvey(program.common.survey, program.table, options, console);
   PrintEnd(result, program);
   return result.exit_code;
 }

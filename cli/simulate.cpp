@@ -8,9 +8,9 @@
 #include <memory>
 
 #include "cli/internal/json_output.h"
-#include "cli/internal/simulate_flight.h"
 #include "cli/program.h"
-#include "pipeline/shell.h"
+#include "cli/simulate_flight.h"
+#include "pipeline/engine/engine.h"
 #include "simulate/city/make_city.h"
 #include "simulate/scene/scene_folder.h"
 #include "survey/error.h"

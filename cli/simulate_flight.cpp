@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/internal/simulate_flight.h"
+#include "cli/simulate_flight.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,17 +11,12 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "cli/internal/json_output.h"
-#include "pipeline/init.h"
-#include "pipeline/interrupt.h"
-#include "pipeline/layout.h"
-#include "pipeline/lock.h"
-#include "pipeline/progress.h"
-#include "pipeline/resources.h"
-#include "pipeline/settings.h"
-#include "pipeline/shell.h"
-#include "pipeline/work_folder.h"
+#include "pipeline/engine/engine.h"
+#include "pipeline/verbs/init.h"
+#include "pipeline/verbs/simulate.h"
 #include "simulate/flight/fly.h"
 #include "simulate/flight/photo_store.h"
 
@@ -29,6 +24,9 @@ namespace stucco {
 namespace {
 
 namespace fs = std::filesystem;
+
+// The simulator puts the photos where the survey looks for them.
+static_assert(std::string_view(kWaitingPhotos) == simulate::kPhotoFolder);
 
 constexpr char kGroup[] = "The flight that is simulated";
 
@@ -75,30 +73,6 @@ simulate::FlyRequest RequestOf(const FlightArguments& arguments, int threads) {
   if (arguments.up == "z") request.reading.up = simulate::UpAxis::kZ;
   return request;
 }
-
-// The survey while its photos are made: locked, and with photos where the simulator puts them.
-class OpenSurvey {
- public:
-  OpenSurvey(const fs::path& survey, const Program& program, Console& console) {
-    InitWaitingSurvey(survey, program.table);
-    const fs::path photos = LoadSettings(survey, program.table, {}).photos;
-    if (RealPath(photos) != RealPath(survey / simulate::kPhotoFolder)) {
-      throw Error(ErrorKind::kBadInput,
-                  fmt::format("{}: its photos are in {}", survey.string(), photos.string()),
-                  "simulate into a new survey");
-    }
-    lock_.emplace(survey, program.command_line);
-    events_ = std::make_unique<EventLog>(WorkFolder(survey).Events());
-    progress_ = std::make_unique<StageProgress>("simulate", console, *events_);
-  }
-
-  Progress& progress() { return *progress_; }
-
- private:
-  std::optional<SurveyLock> lock_;
-  std::unique_ptr<EventLog> events_;
-  std::unique_ptr<StageProgress> progress_;
-};
 
 void PrintFlight(const simulate::FlySummary& flight, const FlightArguments& arguments,
                  const CommonOptions& common) {
@@ -174,11 +148,11 @@ int SimulateFlight(const FlightArguments& arguments, const Program& program) {
   const simulate::FlyRequest request = RequestOf(arguments, program.common.threads);
   CatchInterrupts();
   Console console = Console::ForStderr(program.common.verbosity());
-  std::optional<OpenSurvey> survey;
+  std::optional<SimulatedSurvey> survey;
   // All that can be wrong with scene and plan shows before the survey is touched.
   const auto progress = [&](size_t done, size_t total) {
     if (done == 0) {
-      survey.emplace(request.survey, program, console);
+      survey.emplace(request.survey, program.table, program.command_line, console);
       survey->progress().Begin("taking photos", total);
     } else {
       survey->progress().Advance();

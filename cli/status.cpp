@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/status.h"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +7,7 @@
 
 #include "cli/internal/json_output.h"
 #include "cli/program.h"
+#include "pipeline/engine/engine.h"
 
 namespace stucco {
 namespace {

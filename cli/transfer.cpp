@@ -10,10 +10,9 @@
 
 #include "cli/internal/json_output.h"
 #include "cli/program.h"
-#include "pipeline/export.h"
-#include "pipeline/import_cloud.h"
-#include "pipeline/import_colmap.h"
-#include "pipeline/shell.h"
+#include "pipeline/engine/engine.h"
+#include "pipeline/verbs/export.h"
+#include "pipeline/verbs/import.h"
 
 namespace stucco {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "pipeline/stages.h"
+#include "pipeline/engine/stages.h"
 
 namespace stucco {
 

@@ -25,6 +25,16 @@ ARROWS["evaluate"] = {"survey", "plan", "simulate"}
 ARROWS["cli"] = {"pipeline", "survey", "simulate", "evaluate"}
 MODULES = set(ARROWS)
 
+# Narrower arrows, for the sources below a folder: beginnings of all that they may include of any
+# module. What decides and runs knows neither the verbs nor any stage; the program knows the engine
+# by its front door.
+FOLDER_ARROWS = {
+    "pipeline/engine/": ("pipeline/engine/", "survey/"),
+    "pipeline/verbs/": ("pipeline/engine/", "pipeline/verbs/", "plan/", "survey/"),
+    "cli/": ("cli/", "evaluate/", "pipeline/default_stages.h", "pipeline/engine/engine.h",
+             "pipeline/verbs/", "simulate/", "survey/"),
+}
+
 # The virtual drone and the measuring of results may serve any test.
 FOR_TESTS = {"survey", "simulate", "evaluate"}
 
@@ -71,6 +81,14 @@ def may_include(path):
     return None
 
 
+def folder_may_not(path, include):
+    """True when the folder of a source file has arrows of its own and none leads to `include`."""
+    for folder, allowed in FOLDER_ARROWS.items():
+        if str(path).startswith(folder):
+            return not include.startswith(allowed)
+    return False
+
+
 def owner(path):
     """The module that a source file belongs to; a module's tests count as its own."""
     top = path.parts[0]
@@ -87,6 +105,8 @@ def include_problems(path, text):
             continue
         if target in MODULES and allowed is not None and target not in allowed:
             yield f"{path}: {owner(path)} may not include {include}"
+        elif target in MODULES and folder_may_not(path, include):
+            yield f"{path}: {path.parent} may not include {include}"
         if target == "tests" and path.parts[0] != "tests":
             yield f"{path}: only tests may include {include}"
         if target in MODULES and "/internal/" in include and target != owner(path):

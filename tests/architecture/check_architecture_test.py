@@ -51,8 +51,13 @@ class CheckArchitectureTest(unittest.TestCase):
         self.include("calib/adjust.cpp", '"calib/adjust.h"', "<ceres/ceres.h>",
                      '"calib/internal/costs.h"', '"survey/pose.h"')
         self.include("calib/internal/costs.h", "<ceres/ceres.h>")
-        self.include("pipeline/run.cpp", '"calib/adjust.h"', '"texture/texture.h"')
-        self.include("cli/main.cpp", '"pipeline/run.h"', '"survey/error.h"', '"simulate/fly.h"')
+        self.include("pipeline/default_stages.cpp", '"calib/adjust.h"', '"texture/texture.h"')
+        self.include("pipeline/engine/run.cpp", '"pipeline/engine/lock.h"', '"survey/error.h"',
+                     "<fmt/format.h>")
+        self.include("pipeline/verbs/plan.cpp", '"pipeline/verbs/init.h"', '"plan/make_plan.h"',
+                     '"pipeline/engine/lock.h"', '"survey/error.h"')
+        self.include("cli/main.cpp", '"pipeline/engine/engine.h"', '"pipeline/verbs/init.h"',
+                     '"pipeline/default_stages.h"', '"survey/error.h"', '"simulate/fly.h"')
         self.include("simulate/fly.cpp", '"survey/pose.h"', '"plan/views.h"')
         self.include("evaluate/poses.cpp", '"survey/pose.h"', '"plan/views.h"')
         self.include("tests/calib/adjust_test.cpp", '"calib/internal/costs.h"',
@@ -79,6 +84,19 @@ class CheckArchitectureTest(unittest.TestCase):
         self.assert_refused("simulate/fly.cpp", '"evaluate/evaluate.h"', may_not)
         self.assert_refused("tests/calib/a_test.cpp", '"dense/densify.h"', may_not)
         self.assert_refused("calib/adjust.cpp", '"tests/calib/scene.h"', "only tests")
+
+    def test_arrows_between_folders_point_one_way(self):
+        may_not = "may not include"
+        self.assert_refused("pipeline/engine/run.cpp", '"pipeline/verbs/check.h"',
+                            "pipeline/engine " + may_not)
+        self.assert_refused("pipeline/engine/run.h", '"pipeline/verbs/check.h"', may_not)
+        self.assert_refused("pipeline/engine/internal/a.h", '"pipeline/verbs/check.h"', may_not)
+        self.assert_refused("pipeline/engine/run.cpp", '"pipeline/default_stages.h"', may_not)
+        self.assert_refused("pipeline/engine/run.cpp", '"calib/adjust.h"', may_not)
+        self.assert_refused("pipeline/engine/run.cpp", "<plan/make_plan.h>", may_not)
+        self.assert_refused("pipeline/verbs/init.cpp", '"pipeline/default_stages.h"', may_not)
+        self.assert_refused("pipeline/verbs/init.cpp", '"calib/adjust.h"', may_not)
+        self.assert_refused("cli/run.cpp", '"pipeline/engine/lock.h"', "cli " + may_not)
 
     def test_arrows_cannot_be_walked_around(self):
         self.assert_refused("calib/adjust.cpp", '"../dense/densify.h"', '"module/file.h"')

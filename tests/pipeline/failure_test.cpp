@@ -8,12 +8,11 @@
 #include <new>
 #include <system_error>
 
-#include "pipeline/exit_code.h"
-#include "pipeline/interrupt.h"
-#include "pipeline/outputs.h"
-#include "pipeline/run.h"
-#include "pipeline/units.h"
-#include "pipeline/work_folder.h"
+#include "pipeline/engine/exit_code.h"
+#include "pipeline/engine/interrupt.h"
+#include "pipeline/engine/run.h"
+#include "pipeline/engine/units.h"
+#include "pipeline/engine/work_folder.h"
 #include "survey/error.h"
 #include "survey/files.h"
 #include "tests/pipeline/fake_survey.h"
@@ -197,60 +196,6 @@ TEST(Interrupt, StopsAlsoWhilePhotosAreHashed) {
   EXPECT_EQ(fake.Run().exit_code, 0);
 }
 
-TEST(Outputs, WorkWithoutTheExchangeOperation) {
-  FakeSurvey fake;
-  ForbidFolderExchange(true);
-  fake.Run();
-  fake.SetOption("side.size", "9");
-  EXPECT_EQ(fake.Run().exit_code, 0);
-  ForbidFolderExchange(false);
-  EXPECT_THAT(fake.Outputs().at("side/result.txt"), HasSubstr("size 9"));
-  EXPECT_TRUE(FilesBelow(WorkFolder(fake.survey).Scratch()).empty());
-}
-
-TEST(Outputs, AreRestoredAfterAKillInTheMiddleOfAReplacement) {
-  FakeSurvey fake;
-  fake.Run();
-  const auto outputs = fake.Outputs();
-  const fs::path scratch = WorkFolder(fake.survey).Scratch();
-  fs::create_directories(scratch / "dense-77");
-  WriteFile(scratch / "dense-77/half.txt", "half");
-  fs::rename(fake.survey / "side", scratch / "side-77.old");
-  EXPECT_EQ(FakeSurvey::Ran(fake.Run()), Stages());
-  EXPECT_EQ(fake.Outputs(), outputs);
-  EXPECT_TRUE(FilesBelow(scratch).empty());
-}
-
-TEST(Outputs, NeverReplaceAFolderOfTheUser) {
-  for (const bool forbidden : {false, true}) {
-    FakeSurvey fake;
-    ForbidFolderExchange(forbidden);
-    fs::create_directories(fake.survey / "calib/mine");
-    WriteFile(fake.survey / "calib/mine/thesis.txt", "years of work");
-    fs::create_directories(fake.survey / "calib.old-1");
-    WriteFile(fake.survey / "report", "a file");
-    EXPECT_EQ(fake.Run().exit_code, 0);
-    auto outputs = fake.Outputs();
-    EXPECT_EQ(outputs.at("calib.old-2/mine/thesis.txt"), "years of work");
-    EXPECT_EQ(outputs.at("report.old-1"), "a file");
-    EXPECT_EQ(outputs.count("calib/mine/thesis.txt"), 0u);
-    EXPECT_THAT(fake.log, HasSubstr("calib was not made by stucco and is now"));
-    fake.SetOption("calib.size", "2");
-    EXPECT_EQ(fake.Run().exit_code, 0);
-    EXPECT_FALSE(fs::exists(fake.survey / "calib.old-3"));
-    ForbidFolderExchange(false);
-  }
-}
-
-TEST(Outputs, OfARunThatWasKilledBeforeItsManifestAreReplaced) {
-  FakeSurvey fake;
-  fake.Run();
-  const auto outputs = fake.Outputs();
-  fs::remove(WorkFolder(fake.survey).Manifest("calib"));
-  EXPECT_EQ(FakeSurvey::Ran(fake.Run()), (Stages{"calib"}));
-  EXPECT_EQ(fake.Outputs(), outputs);
-}
-
 // A file system of 200 KiB. Needs the right to mount, as in a container's root.
 class TinyDisk {
  public:
@@ -268,15 +213,6 @@ class TinyDisk {
   fs::path folder_;
   bool mounted_;
 };
-
-TEST(Failure, OfWritingTellsAFullDiskFromAForbiddenOne) {
-  for (const int error : {ENOSPC, EDQUOT}) {
-    EXPECT_EQ(WriteError("a/b", "cannot be written", error).kind(), ErrorKind::kOutOfResource);
-  }
-  const Error forbidden = WriteError("a/b", "cannot be written", EACCES);
-  EXPECT_EQ(forbidden.kind(), ErrorKind::kBadInput);
-  EXPECT_STREQ(forbidden.what(), "a/b: cannot be written (Permission denied)");
-}
 
 TEST(Failure, OfAUnitOnADiskWithoutRoomForItsFolderIsOutOfResource) {
   const FakeSurvey fake;

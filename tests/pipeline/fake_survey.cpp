@@ -12,8 +12,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include "pipeline/fingerprint.h"
-#include "pipeline/work_folder.h"
+#include "pipeline/engine/fingerprint.h"
+#include "pipeline/engine/work_folder.h"
+#include "pipeline/verbs/run.h"
 #include "survey/files.h"
 #include "survey/image.h"
 
@@ -200,7 +201,7 @@ RunResult FakeSurvey::Run(RunOptions options) {
   };
   try {
     Console console(file, false, Verbosity::kVerbose);
-    result = stucco::Run(survey, table, options, console);
+    result = RunSurvey(survey, table, options, console);
   } catch (...) {
     keep_log();
     throw;
@@ -248,6 +249,20 @@ std::map<std::string, int> FakeSurvey::ComputedUnits() const {
              json.at("key").get<std::string>()];
   }
   return counts;
+}
+
+pid_t StartRun(FakeSurvey& fake) {
+  const pid_t child = fork();
+  if (child == 0) {
+    int code = 99;
+    try {
+      code = fake.Run().exit_code;
+    } catch (const std::exception&) {
+      code = 98;
+    }
+    _exit(code);
+  }
+  return child;
 }
 
 std::string ReasonsOf(const SurveyStatus& status, const std::string& stage) {

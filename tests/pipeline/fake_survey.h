@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -10,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/run.h"
-#include "pipeline/stages.h"
-#include "pipeline/status.h"
+#include "pipeline/engine/run.h"
+#include "pipeline/engine/stages.h"
+#include "pipeline/engine/status.h"
 
 namespace stucco {
 
@@ -54,6 +56,9 @@ class FakeSurvey {
 
   std::map<std::string, std::map<std::string, std::string>> options_;
 };
+
+// A run in a process of its own, which tests can kill; it exits with the run's exit code.
+pid_t StartRun(FakeSurvey& fake);
 
 // The reasons of a stage in a status or run, joined.
 std::string ReasonsOf(const SurveyStatus& status, const std::string& stage);

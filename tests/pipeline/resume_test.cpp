@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -12,32 +10,12 @@
 #include <random>
 #include <thread>
 
-#include "pipeline/lock.h"
-#include "pipeline/outputs.h"
-#include "pipeline/run.h"
-#include "pipeline/work_folder.h"
-#include "survey/error.h"
-#include "survey/files.h"
+#include "pipeline/engine/outputs.h"
+#include "pipeline/engine/work_folder.h"
 #include "tests/pipeline/fake_survey.h"
 
 namespace stucco {
 namespace {
-
-using testing::HasSubstr;
-
-pid_t StartRun(FakeSurvey& fake) {
-  const pid_t child = fork();
-  if (child == 0) {
-    int code = 99;
-    try {
-      code = fake.Run().exit_code;
-    } catch (const std::exception&) {
-      code = 98;
-    }
-    _exit(code);
-  }
-  return child;
-}
 
 // Kills the child after `wait`; returns true when it was still at work.
 bool KillAfter(pid_t child, std::chrono::microseconds wait) {
@@ -88,64 +66,6 @@ TEST_P(Resume, KilledAtAnyMomentGivesTheSameBytesAndNoWorkTwice) {
 }
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutExchange, Resume, testing::Bool());
-
-TEST(Lock, ASecondRunNamesTheFirst) {
-  FakeSurvey fake;
-  const SurveyLock lock(fake.survey, "stucco run here");
-  try {
-    fake.Run();
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::kBadInput);
-    EXPECT_THAT(e.what(), HasSubstr("process " + std::to_string(getpid())));
-    EXPECT_THAT(e.what(), HasSubstr("stucco run here"));
-    EXPECT_THAT(e.remedy(), HasSubstr("kill"));
-  }
-  const SurveyStatus status = fake.Status();
-  ASSERT_TRUE(status.running);
-  EXPECT_EQ(status.running->pid, getpid());
-  EXPECT_THAT(status.next, HasSubstr("wait"));
-}
-
-TEST(Lock, AFileSystemWithoutLocksIsSaidAndUsed) {
-  FakeSurvey fake;
-  ForbidFileLocks(true);
-  const RunResult result = fake.Run();
-  EXPECT_FALSE(CurrentOwner(fake.survey));
-  ForbidFileLocks(false);
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(fake.log, HasSubstr("this file system has no locks"));
-  fake.Run();
-  EXPECT_THAT(fake.log, Not(HasSubstr("no locks")));
-}
-
-TEST(Lock, AnOwnerThatCannotBeReadIsNobody) {
-  FakeSurvey fake;
-  std::filesystem::create_directories(WorkFolder(fake.survey).root);
-  for (const char* text : {"{\"pid\": \"x\"}", "{\"pid\": 1, \"host\": 2}", "[]", "{", "7"}) {
-    WriteFile(WorkFolder(fake.survey).Lock(), text);
-    EXPECT_EQ(fake.Run().exit_code, 0) << text;
-    EXPECT_THAT(fake.log, Not(HasSubstr("did not end in order"))) << text;
-  }
-}
-
-TEST(Lock, OfADeadProcessIsTakenOver) {
-  FakeSurvey fake;
-  fake.SetOption("calib.pause_us", "100000");
-  const pid_t child = StartRun(fake);
-  while (!CurrentOwner(fake.survey)) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  EXPECT_THROW(fake.Run(), Error);
-  kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
-  EXPECT_FALSE(CurrentOwner(fake.survey));
-  fake.SetOption("calib.pause_us", "0");
-  EXPECT_EQ(fake.Run().exit_code, 0);
-  EXPECT_THAT(fake.log, HasSubstr("did not end in order"));
-  fake.Run();
-  EXPECT_THAT(fake.log, Not(HasSubstr("did not end in order")));
-}
 
 }  // namespace
 }  // namespace stucco

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/engine/interrupt.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <string_view>
+
+namespace stucco {
+namespace {
+
+constexpr int kInterruptedExitCode = 130;
+
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "used in a signal handler");
+
+void Say(std::string_view text) {
+  // write() is all that a signal handler may do; whether it worked changes nothing.
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
+}
+
+extern "C" void HandleInterrupt(int) {
+  if (interrupted.exchange(true)) {
+    Say("\nStopped at once; run again to continue.\n");
+    _exit(kInterruptedExitCode);
+  }
+  Say("\nStopping at the next safe point (once more to stop at once) ...\n");
+}
+
+}  // namespace
+
+void CatchInterrupts() {
+  struct sigaction action = {};
+  action.sa_handler = HandleInterrupt;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool Interrupted() {
+  return interrupted.load(std::memory_order_relaxed);
+}
+
+void SetInterrupted(bool value) {
+  interrupted = value;
+}
+
+}  // namespace stucco

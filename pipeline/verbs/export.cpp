@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/verbs/export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "pipeline/engine/shell.h"
+#include "survey/colmap_io.h"
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/options.h"
+#include "survey/survey_folder.h"
+
+namespace stucco {
+namespace {
+
+namespace fs = std::filesystem;
+
+const ExportFormat& Format(const std::string& name) {
+  const std::vector<ExportFormat>& formats = ExportFormats();
+  const auto nearest = std::min_element(
+      formats.begin(), formats.end(), [&](const ExportFormat& a, const ExportFormat& b) {
+        return EditDistance(a.name, name) < EditDistance(b.name, name);
+      });
+  if (nearest->name == name) {
+    return *nearest;
+  }
+  std::string names;
+  for (const ExportFormat& format : formats) {
+    names += (names.empty() ? "" : ", ") + format.name;
+  }
+  throw Error(ErrorKind::kUsage, fmt::format("there is no export format \"{}\"", name),
+              EditDistance(nearest->name, name) <= 2
+                  ? fmt::format("did you mean {}?", nearest->name)
+                  : fmt::format("the formats are {}", names));
+}
+
+void RequireMade(const fs::path& survey, const fs::path& file, const std::string& stage) {
+  std::error_code error;
+  if (!fs::exists(survey / file, error)) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: is not there: {} has not run", (survey / file).string(), stage),
+                fmt::format("run it first: stucco {} {}", stage, ShellWord(survey.string())));
+  }
+}
+
+void RequireFree(const fs::path& out, bool overwrite) {
+  std::error_code error;
+  if (!overwrite && fs::exists(out, error) && !(fs::is_directory(out) && fs::is_empty(out))) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: exists already", out.string()),
+                "choose another name, or add --overwrite");
+  }
+}
+
+void CopyFile(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  if (!to.parent_path().empty()) {
+    fs::create_directories(to.parent_path(), error);
+  }
+  WriteFileAtomically(to, ReadFile(from));
+}
+
+// model.obj names model.mtl, and that names pictures below textures/.
+void CopyObj(const fs::path& texture, const fs::path& out) {
+  CopyFile(texture / "model.obj", out / "model.obj");
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(texture)) {
+    const fs::path relative = entry.path().lexically_relative(texture);
+    if (entry.is_regular_file() &&
+        (relative.extension() == ".mtl" || *relative.begin() == "textures")) {
+      CopyFile(entry.path(), out / relative);
+    }
+  }
+}
+
+}  // namespace
+
+const std::vector<ExportFormat>& ExportFormats() {
+  static const std::vector<ExportFormat> formats = {
+      {"colmap-txt", "folder with cameras.txt, images.txt, points3D.txt", "calib"},
+      {"colmap-bin", "folder with cameras.bin, images.bin, points3D.bin", "calib"},
+      {"obj", "folder with model.obj, its .mtl and its textures", "texture"},
+      {"glb", "file: textured model as binary glTF", "texture"},
+      {"ply", "file: dense point cloud", "dense"}};
+  return formats;
+}
+
+void ExportSurvey(const fs::path& survey, const std::string& format, const fs::path& out,
+                  bool overwrite) {
+  const ExportFormat& chosen = Format(format);
+  if (chosen.stage == "calib") {
+    RequireMade(survey, kSparseFolder, chosen.stage);
+    RequireFree(out, overwrite);
+    const Reconstruction model = ReadColmapModel(survey / kSparseFolder);
+    format == "colmap-txt" ? WriteColmapText(model, out) : WriteColmapBinary(model, out);
+  } else if (format == "obj") {
+    RequireMade(survey, "texture/model.obj", chosen.stage);
+    RequireFree(out, overwrite);
+    CopyObj(survey / "texture", out);
+  } else {
+    const fs::path file = format == "glb" ? fs::path("texture/model.glb") : fs::path(kCloudFile);
+    RequireMade(survey, file, chosen.stage);
+    RequireFree(out, overwrite);
+    CopyFile(survey / file, out);
+  }
+}
+
+}  // namespace stucco

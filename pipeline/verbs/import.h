@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/engine/stages.h"
+
+namespace stucco {
+
+struct ImportReport {
+  int photos = 0;
+  int points = 0;
+  int cameras = 0;
+  std::vector<std::string> notes;  // "camera 1 was scaled from 1600 x 1066 to 3072 x 2048" ...
+};
+
+// Takes a COLMAP model (text or binary) as the survey's calibration: writes the `calib` folder and
+// a manifest that says where it came from, so that `run` goes on from it. Photo names are matched
+// to the photo folder by path, else by a file name that occurs once. A model of resized photos is
+// scaled to the photos. Throws Error (kBadInput) when the model is damaged, names photos that are
+// not there, or was made from pictures of another shape.
+ImportReport ImportColmap(const std::filesystem::path& survey, const std::filesystem::path& model,
+                          const StageTable& table);
+
+struct CloudImportReport {
+  uint64_t points = 0;
+  double seen_share = 0;  // of the points, in the picture of at least one posed photo
+  std::vector<std::string> notes;
+};
+
+// Takes a PLY cloud in the frame of the survey's calibration as its dense cloud: writes the `dense`
+// folder and a manifest that says where it came from, so that `run` goes on from it. Lists of
+// photos in the file are kept when all of them are photos of the calibration. Throws Error
+// (kBadInput) without a calibration, when the file is damaged, and when hardly any photo sees it,
+// as it is then in another frame.
+CloudImportReport ImportCloud(const std::filesystem::path& survey,
+                              const std::filesystem::path& cloud, const StageTable& table);
+
+}  // namespace stucco

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipeline/engine/console.h"
+#include "pipeline/engine/stages.h"
+
+namespace stucco {
+
+// What is planned, as the user names it. Empty paths and texts: not given.
+struct PlanRequest {
+  std::filesystem::path map;
+  std::filesystem::path area;    // polygons: what to capture
+  std::filesystem::path no_fly;  // polygons
+  std::filesystem::path terrain;
+  std::string home;              // "latitude,longitude"
+  std::vector<std::string> set;  // options of planning, "gsd_m=0.02"
+  int threads = 0;
+};
+
+struct PlanSummary {
+  std::string method;
+  size_t photos = 0;
+  size_t hovers = 0;
+  size_t flights = 0;
+  double length_m = 0;
+  double time_min = 0;
+  double battery_percent = 0;
+  std::string table;                 // all figures, for people
+  std::vector<std::string> repairs;  // of the map
+  std::vector<std::string> notes;    // what to know before flying
+};
+
+// Plans a survey and puts the result into SURVEY/plan. A folder that is no survey yet becomes one
+// that waits for its photos in SURVEY/photos. A failed or interrupted plan leaves what was there.
+// Throws Error.
+PlanSummary PlanSurvey(const std::filesystem::path& survey, const PlanRequest& request,
+                       const StageTable& table, Console& console);
+
+// Calls fn for each option of planning, at its default: for help texts.
+void ForPlanOptions(const std::function<void(const Option&)>& fn);
+
+}  // namespace stucco
