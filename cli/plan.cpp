@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "cli/internal/json_output.h"
+#include "cli/interrupt.h"
 #include "cli/program.h"
 #include "pipeline/engine/engine.h"
 
@@ -97,10 +98,10 @@ void AddPlan(CLI::App& app, Program& program) {
   AddPlanOptions(verb, request->set);
   verb.callback([&program, request] {
     program.action = [&program, request] {
-      CatchInterrupts();
+      const Platform platform = CatchInterrupts();
       request->threads = program.common.threads;
       Console console = Console::ForStderr(program.common.verbosity());
-      PrintSummary(PlanSurvey(program.common.survey, *request, program.table, console),
+      PrintSummary(PlanSurvey(program.common.survey, *request, program.table, console, platform),
                    program.common);
       return 0;
     };

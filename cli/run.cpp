@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "cli/internal/json_output.h"
+#include "cli/interrupt.h"
 #include "cli/program.h"
 #include "pipeline/engine/engine.h"
 #include "survey/survey_folder.h"
@@ -127,12 +128,13 @@ void AddStageVerb(CLI::App& app, Program& program, const Stage& stage) {
 }  // namespace
 
 int RunAndPrint(const Program& program, RunOptions options) {
-  CatchInterrupts();
+  const Platform platform = CatchInterrupts();
   options.threads = program.common.threads;
   options.memory_limit_gb = program.common.memory_limit_gb;
   options.command = program.command_line;
   Console console = Console::ForStderr(program.common.verbosity());
-  const RunResult result = RunSurvey(program.common.survey, program.table, options, console);
+  const RunResult result =
+      RunSurvey(program.common.survey, program.table, options, console, platform);
   PrintEnd(result, program);
   return result.exit_code;
 }

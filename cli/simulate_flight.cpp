@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "cli/internal/json_output.h"
+#include "cli/interrupt.h"
 #include "pipeline/engine/engine.h"
 #include "pipeline/verbs/init.h"
 #include "pipeline/verbs/simulate.h"
@@ -146,18 +147,18 @@ void AddFlightOptions(CLI::App& verb, FlightArguments& arguments) {
 int SimulateFlight(const FlightArguments& arguments, const Program& program) {
   const simulate::FlightOptions options = ReadOptions(arguments.set);
   const simulate::FlyRequest request = RequestOf(arguments, program.common.threads);
-  CatchInterrupts();
+  const Platform platform = CatchInterrupts();
   Console console = Console::ForStderr(program.common.verbosity());
   std::optional<SimulatedSurvey> survey;
   // All that can be wrong with scene and plan shows before the survey is touched.
   const auto progress = [&](size_t done, size_t total) {
     if (done == 0) {
-      survey.emplace(request.survey, program.table, program.command_line, console);
+      survey.emplace(request.survey, program.table, program.command_line, console, platform);
       survey->progress().Begin("taking photos", total);
     } else {
       survey->progress().Advance();
     }
-    if (Interrupted()) {
+    if (platform.interrupted()) {
       throw Error(ErrorKind::kInterrupted, "interrupted",
                   "the same command goes on from here: " + program.command_line);
     }

@@ -83,7 +83,7 @@ void AddStatus(CLI::App& app, Program& program) {
   AddSurveyArgument(verb, program);
   verb.callback([&program] {
     program.action = [&program] {
-      const SurveyStatus status = GetStatus(program.common.survey, program.table);
+      const SurveyStatus status = GetStatus(program.common.survey, program.table, RealPlatform());
       if (program.common.json) {
         PrintJson(ToJson(status, program.common.survey));
       } else {

@@ -19,7 +19,7 @@ namespace {
 
 int ImportPly(const Program& program, const std::string& cloud) {
   const CommonOptions& common = program.common;
-  const CloudImportReport report = ImportCloud(common.survey, cloud, program.table);
+  const CloudImportReport report = ImportCloud(common.survey, cloud, program.table, RealPlatform());
   const std::string next = "stucco run " + ShellWord(common.survey);
   if (common.json) {
     const Json json = {{"points", report.points},
@@ -47,7 +47,7 @@ bool IsPly(const std::filesystem::path& path) {
 
 int ImportModel(const Program& program, const std::string& model) {
   const CommonOptions& common = program.common;
-  const ImportReport report = ImportColmap(common.survey, model, program.table);
+  const ImportReport report = ImportColmap(common.survey, model, program.table, RealPlatform());
   const std::string next = "stucco run " + ShellWord(common.survey);
   if (common.json) {
     const Json json = {{"photos", report.photos},

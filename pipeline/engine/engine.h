@@ -7,7 +7,7 @@
 
 #include "pipeline/engine/console.h"    // IWYU pragma: export
 #include "pipeline/engine/exit_code.h"  // IWYU pragma: export
-#include "pipeline/engine/interrupt.h"  // IWYU pragma: export
+#include "pipeline/engine/platform.h"   // IWYU pragma: export
 #include "pipeline/engine/resources.h"  // IWYU pragma: export
 #include "pipeline/engine/run.h"        // IWYU pragma: export
 #include "pipeline/engine/run_stage.h"  // IWYU pragma: export

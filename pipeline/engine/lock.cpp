@@ -5,10 +5,8 @@
 #include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <ctime>
@@ -54,28 +52,10 @@ void WriteOwner(int file, const std::string& command) {
   }
 }
 
-std::atomic<bool> locks_forbidden = false;
-
-enum class LockResult { kHeld, kTaken, kImpossible };
-
-LockResult TryLock(int file, int mode) {
-  if (locks_forbidden) {
-    return LockResult::kImpossible;
-  }
-  int result = 0;
-  do {
-    result = flock(file, mode | LOCK_NB);
-  } while (result != 0 && errno == EINTR);
-  if (result == 0) {
-    return LockResult::kHeld;
-  }
-  return errno == EWOULDBLOCK ? LockResult::kTaken : LockResult::kImpossible;
-}
-
 // `stucco status` holds the lock for a moment to see whether anybody has it.
-LockResult LockPatiently(int file) {
+LockResult LockPatiently(int file, const Platform& platform) {
   for (int attempt = 0; attempt < 5; ++attempt) {
-    const LockResult result = TryLock(file, LOCK_EX);
+    const LockResult result = platform.lock_file(file, LockMode::kExclusive);
     if (result != LockResult::kTaken) {
       return result;
     }
@@ -86,7 +66,8 @@ LockResult LockPatiently(int file) {
 
 }  // namespace
 
-SurveyLock::SurveyLock(const std::filesystem::path& survey, const std::string& command) {
+SurveyLock::SurveyLock(const std::filesystem::path& survey, const std::string& command,
+                       const Platform& platform) {
   const std::filesystem::path path = WorkFolder(survey).Lock();
   std::error_code ignored;
   std::filesystem::create_directories(path.parent_path(), ignored);
@@ -94,7 +75,7 @@ SurveyLock::SurveyLock(const std::filesystem::path& survey, const std::string& c
   if (file_ < 0) {
     throw WriteError(path, "cannot be written", errno);
   }
-  const LockResult result = LockPatiently(file_);
+  const LockResult result = LockPatiently(file_, platform);
   held_ = result == LockResult::kHeld;
   if (result == LockResult::kTaken) {
     const std::optional<LockOwner> owner = ReadOwner(file_);
@@ -118,13 +99,14 @@ SurveyLock::~SurveyLock() {
   close(file_);
 }
 
-std::optional<LockOwner> CurrentOwner(const std::filesystem::path& survey) {
+std::optional<LockOwner> CurrentOwner(const std::filesystem::path& survey,
+                                      const Platform& platform) {
   const int file = open(WorkFolder(survey).Lock().c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {
     return std::nullopt;
   }
   std::optional<LockOwner> owner;
-  if (TryLock(file, LOCK_SH) == LockResult::kTaken) {
+  if (platform.lock_file(file, LockMode::kShared) == LockResult::kTaken) {
     owner = ReadOwner(file);
     if (!owner) {
       owner = LockOwner{};
@@ -132,10 +114,6 @@ std::optional<LockOwner> CurrentOwner(const std::filesystem::path& survey) {
   }
   close(file);
   return owner;
-}
-
-void ForbidFileLocks(bool forbidden) {
-  locks_forbidden = forbidden;
 }
 
 std::string Describe(const LockOwner& owner) {

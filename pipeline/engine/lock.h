@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "pipeline/engine/platform.h"
+
 namespace stucco {
 
 // Who works on a survey.
@@ -22,7 +24,8 @@ class SurveyLock {
  public:
   // Throws Error (kBadInput) that names the owner when another process works on this survey, and
   // when the survey cannot be written.
-  SurveyLock(const std::filesystem::path& survey, const std::string& command);
+  SurveyLock(const std::filesystem::path& survey, const std::string& command,
+             const Platform& platform);
   ~SurveyLock();
   SurveyLock(const SurveyLock&) = delete;
   SurveyLock& operator=(const SurveyLock&) = delete;
@@ -41,10 +44,8 @@ class SurveyLock {
 };
 
 // Who works on the survey at this moment, if anybody. Takes no lock and writes nothing.
-std::optional<LockOwner> CurrentOwner(const std::filesystem::path& survey);
-
-// For tests: behave as on a file system without locks.
-void ForbidFileLocks(bool forbidden);
+std::optional<LockOwner> CurrentOwner(const std::filesystem::path& survey,
+                                      const Platform& platform);
 
 // "process 1234 on host, since 2026-03-01 12:00:00 (stucco run .)"
 std::string Describe(const LockOwner& owner);

@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 
 #include "pipeline/engine/exit_code.h"
@@ -21,8 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kOldSuffix[] = ".old";
-
-std::atomic<bool> exchange_forbidden = false;
 
 void Flush(const fs::path& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -85,15 +82,6 @@ void MarkAsOurs(const fs::path& survey, const std::string& stage) {
   WriteFileAtomically(mark, "survey/" + stage + " is made by stucco and replaced by its runs\n");
 }
 
-bool ExchangeFolders(const fs::path& a, const fs::path& b) {
-  return !exchange_forbidden &&
-         renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
-}
-
-void ForbidFolderExchange(bool forbidden) {
-  exchange_forbidden = forbidden;
-}
-
 ScratchFolder::ScratchFolder(const fs::path& survey, const std::string& stage)
     : survey_(survey),
       stage_(stage),
@@ -112,7 +100,7 @@ ScratchFolder::~ScratchFolder() {
   fs::remove_all(path_, error);
 }
 
-std::optional<fs::path> ScratchFolder::Publish() {
+std::optional<fs::path> ScratchFolder::Publish(const Platform& platform) {
   FlushTree(path_);
   std::optional<fs::path> moved;
   if (fs::exists(fs::symlink_status(target_)) && !IsOurs(survey_, stage_)) {
@@ -124,7 +112,7 @@ std::optional<fs::path> ScratchFolder::Publish() {
   MarkAsOurs(survey_, stage_);
   if (!fs::exists(target_)) {
     Rename(path_, target_);
-  } else if (!ExchangeFolders(path_, target_)) {
+  } else if (!platform.exchange_folders(path_, target_)) {
     // Two steps. A kill between them leaves no target but its old content with this suffix, which
     // CleanScratch puts back.
     const fs::path old = path_.string() + kOldSuffix;

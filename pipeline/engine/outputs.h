@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "pipeline/engine/platform.h"
+
 namespace stucco {
 
 // The folder in which a stage writes: `.stucco/scratch/<stage>-<pid>`. Removed with all that is in
@@ -24,7 +26,7 @@ class ScratchFolder {
   // any moment there is the whole old folder or the whole new one. What was there is removed when
   // this program made it; anything else is the user's and is moved to survey/<stage>.old-N, which
   // is returned. Throws Error.
-  std::optional<std::filesystem::path> Publish();
+  std::optional<std::filesystem::path> Publish(const Platform& platform);
 
  private:
   std::filesystem::path survey_;
@@ -40,12 +42,5 @@ void MarkAsOurs(const std::filesystem::path& survey, const std::string& stage);
 // Removes what killed runs left behind, and restores outputs that a kill caught half way of being
 // replaced on a file system that cannot exchange two folders. Call it with the lock held.
 void CleanScratch(const std::filesystem::path& survey);
-
-// Exchanges two folders; tried by ScratchFolder::Publish first. False when the kernel or the file
-// system cannot.
-bool ExchangeFolders(const std::filesystem::path& a, const std::filesystem::path& b);
-
-// For tests: behave as on a file system without the exchange operation.
-void ForbidFolderExchange(bool forbidden);
 
 }  // namespace stucco

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "pipeline/engine/interrupt.h"
 #include "pipeline/engine/resources.h"
 
 namespace stucco {
@@ -58,8 +57,13 @@ std::string ProgressText(std::string_view stage, std::string_view step, size_t d
   return text + fmt::format(", {}", MemoryText(CurrentMemoryMb()));
 }
 
-StageProgress::StageProgress(std::string stage, Console& console, EventLog& events)
-    : stage_(std::move(stage)), console_(console), events_(events), watcher_([this] { Watch(); }) {}
+StageProgress::StageProgress(std::string stage, Console& console, EventLog& events,
+                             std::function<bool()> interrupted)
+    : stage_(std::move(stage)),
+      console_(console),
+      events_(events),
+      interrupted_(std::move(interrupted)),
+      watcher_([this] { Watch(); }) {}
 
 StageProgress::~StageProgress() {
   {
@@ -127,7 +131,7 @@ void StageProgress::Note(std::string_view text) {
 }
 
 bool StageProgress::Cancelled() const {
-  return Interrupted();
+  return interrupted_();
 }
 
 void StageProgress::Watch() {

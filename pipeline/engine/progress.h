@@ -6,6 +6,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -39,10 +40,12 @@ std::string ProgressText(std::string_view stage, std::string_view step, size_t d
                          double rate);
 
 // Shows a running stage: a bar on a terminal, a line every half minute elsewhere, and records in
-// the event log. A thread of its own draws, so that counting units costs nothing.
+// the event log. A thread of its own draws, so that counting units costs nothing. Cancelled once
+// `interrupted` (of the platform) says so.
 class StageProgress : public Progress {
  public:
-  StageProgress(std::string stage, Console& console, EventLog& events);
+  StageProgress(std::string stage, Console& console, EventLog& events,
+                std::function<bool()> interrupted);
   ~StageProgress() override;
 
   void Begin(std::string_view step, size_t total) override;
@@ -60,6 +63,7 @@ class StageProgress : public Progress {
   const std::string stage_;
   Console& console_;
   EventLog& events_;
+  const std::function<bool()> interrupted_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 
   std::atomic<size_t> done_ = 0;

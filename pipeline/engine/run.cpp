@@ -12,7 +12,6 @@
 
 #include "pipeline/engine/assess.h"
 #include "pipeline/engine/exit_code.h"
-#include "pipeline/engine/interrupt.h"
 #include "pipeline/engine/lock.h"
 #include "pipeline/engine/outputs.h"
 #include "pipeline/engine/progress.h"
@@ -53,15 +52,16 @@ std::string UnitsText(const std::map<std::string, UnitCount>& units) {
 class Runner {
  public:
   Runner(const fs::path& survey, const StageTable& table, const RunOptions& options,
-         Console& console)
+         Console& console, const Platform& platform)
       : survey_(survey),
         table_(table),
         options_(options),
         console_(console),
+        platform_(platform),
         settings_(LoadRunSettings(survey, table, options)),
         selection_(Select(table, options)),
         threads_(ResolvedThreads(settings_.run)),
-        lock_(survey, options.command),
+        lock_(survey, options.command, platform),
         events_(WorkFolder(survey).Events()),
         hashes_(WorkFolder(survey).Hashes()) {}
 
@@ -71,7 +71,7 @@ class Runner {
                                     static_cast<size_t>(threads_));
     Begin();
     for (const Stage& stage : table_) {
-      if (Interrupted()) {
+      if (platform_.interrupted()) {
         result_.interrupted = true;
       }
       if (!result_.interrupted) {
@@ -162,7 +162,7 @@ class Runner {
   }
 
   Fingerprint FingerprintNow(const Stage& stage, const SurveyPaths& paths) {
-    StageProgress progress(stage.name, console_, events_);
+    StageProgress progress(stage.name, console_, events_, platform_.interrupted);
     return TakeFingerprint(stage, settings_.stages.at(stage.name),
                            {paths, statuses_, threads_, hashes_, progress});
   }
@@ -235,7 +235,7 @@ class Runner {
     outcome.reasons = assessment.reasons;
     StageRunResult ran;
     try {
-      ran = RunStage(job, console_, events_, hashes_);
+      ran = RunStage(job, platform_, console_, events_, hashes_);
     } catch (const Error& e) {
       console_.Warning(fmt::format("{}; what was finished is kept", e.what()));
       result_.interrupted = true;
@@ -289,6 +289,7 @@ class Runner {
   const StageTable& table_;
   const RunOptions& options_;
   Console& console_;
+  const Platform& platform_;
   const Settings settings_;
   const Selection selection_;
   const int threads_;
@@ -321,9 +322,9 @@ std::string Name(StageAction action) {
 }
 
 RunResult Run(const fs::path& survey, const StageTable& table, const RunOptions& options,
-              Console& console) {
+              Console& console, const Platform& platform) {
   assert(FindProblem(table).empty());
-  return Runner(survey, table, options, console).Run();
+  return Runner(survey, table, options, console, platform).Run();
 }
 
 }  // namespace stucco

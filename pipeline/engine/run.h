@@ -10,6 +10,7 @@
 
 #include "pipeline/engine/console.h"
 #include "pipeline/engine/manifest.h"
+#include "pipeline/engine/platform.h"
 #include "pipeline/engine/run_options.h"
 #include "pipeline/engine/stages.h"
 
@@ -48,6 +49,6 @@ struct RunResult {
 // everything that is wrong before work starts: another run, settings, what `precheck` finds.
 // Requires FindProblem(table) to find nothing.
 RunResult Run(const std::filesystem::path& survey, const StageTable& table,
-              const RunOptions& options, Console& console);
+              const RunOptions& options, Console& console, const Platform& platform);
 
 }  // namespace stucco

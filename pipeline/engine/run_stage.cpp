@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "pipeline/engine/exit_code.h"
-#include "pipeline/engine/interrupt.h"
 #include "pipeline/engine/outputs.h"
 #include "pipeline/engine/progress.h"
 #include "pipeline/engine/units.h"
@@ -26,10 +25,11 @@ DiskUnits MakeUnits(const StageJob& job, EventLog& events) {
 }
 
 // The stage itself, up to its outputs being in place.
-void ComputeAndPublish(const StageJob& job, Console& console, EventLog& events, UnitStore& units) {
+void ComputeAndPublish(const StageJob& job, const Platform& platform, Console& console,
+                       EventLog& events, UnitStore& units) {
   ScratchFolder scratch(job.paths.survey, job.stage.name);
   {
-    StageProgress progress(job.stage.name, console, events);
+    StageProgress progress(job.stage.name, console, events, platform.interrupted);
     StageContext context;
     context.survey = job.paths.survey;
     context.photos = job.paths.photos;
@@ -42,7 +42,7 @@ void ComputeAndPublish(const StageJob& job, Console& console, EventLog& events, 
     job.bound.run(context);
     context.ThrowIfCancelled();
   }
-  if (const auto moved = scratch.Publish()) {
+  if (const auto moved = scratch.Publish(platform)) {
     const std::string text =
         fmt::format("{} was not made by stucco and is now {}; remove it when you do not need it",
                     (job.paths.survey / job.stage.name).string(), moved->string());
@@ -82,15 +82,15 @@ std::string ProgramVersion() {
   return STUCCO_VERSION;
 }
 
-StageRunResult RunStage(const StageJob& job, Console& console, EventLog& events,
-                        HashCache& hashes) {
+StageRunResult RunStage(const StageJob& job, const Platform& platform, Console& console,
+                        EventLog& events, HashCache& hashes) {
   const std::string& name = job.stage.name;
   const WorkFolder work(job.paths.survey);
   const UsageMeter meter;
   DiskUnits units = MakeUnits(job, events);
   StageRunResult result;
   try {
-    ComputeAndPublish(job, console, events, units);
+    ComputeAndPublish(job, platform, console, events, units);
     Manifest manifest;
     manifest.stage = name;
     manifest.program = ProgramVersion();
@@ -102,7 +102,7 @@ StageRunResult RunStage(const StageJob& job, Console& console, EventLog& events,
     result.manifest = std::move(manifest);
   } catch (...) {
     const Error error = AsError(std::current_exception());
-    if (error.kind() == ErrorKind::kInterrupted || Interrupted()) {
+    if (error.kind() == ErrorKind::kInterrupted || platform.interrupted()) {
       events.Write("interrupted", {{"stage", name}});
       throw Error(ErrorKind::kInterrupted, fmt::format("interrupted during {}", name),
                   error.remedy());

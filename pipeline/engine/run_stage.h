@@ -9,6 +9,7 @@
 #include "pipeline/engine/console.h"
 #include "pipeline/engine/events.h"
 #include "pipeline/engine/manifest.h"
+#include "pipeline/engine/platform.h"
 #include "pipeline/engine/stages.h"
 
 namespace stucco {
@@ -31,7 +32,8 @@ struct StageRunResult {
   std::optional<Manifest> manifest;
   std::optional<Failure> failure;
 };
-StageRunResult RunStage(const StageJob& job, Console& console, EventLog& events, HashCache& hashes);
+StageRunResult RunStage(const StageJob& job, const Platform& platform, Console& console,
+                        EventLog& events, HashCache& hashes);
 
 // Hashes of all files below survey/<stage>, by path relative to the survey.
 std::map<std::string, std::string> HashOutputs(const std::filesystem::path& survey,

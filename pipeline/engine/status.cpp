@@ -35,7 +35,8 @@ std::string NextStep(const SurveyStatus& status, const std::filesystem::path& su
 
 }  // namespace
 
-SurveyStatus GetStatus(const std::filesystem::path& survey, const StageTable& table) {
+SurveyStatus GetStatus(const std::filesystem::path& survey, const StageTable& table,
+                       const Platform& platform) {
   assert(FindProblem(table).empty());
   const Settings settings = LoadSettings(survey, table, {});
   const int threads = ResolvedThreads(settings.run);
@@ -53,7 +54,7 @@ SurveyStatus GetStatus(const std::filesystem::path& survey, const StageTable& ta
     statuses.push_back(ToStatus(stage.name, assessment));
     status.stages.push_back({stage.name, stage.title, std::move(assessment)});
   }
-  status.running = CurrentOwner(survey);
+  status.running = CurrentOwner(survey, platform);
   if (!status.running) {
     hashes.Save();
   }

@@ -27,6 +27,7 @@ struct SurveyStatus {
 
 // Where every stage stands and why. Computes nothing and changes no output. Throws Error when
 // survey.toml is missing or wrong. Requires FindProblem(table) to find nothing.
-SurveyStatus GetStatus(const std::filesystem::path& survey, const StageTable& table);
+SurveyStatus GetStatus(const std::filesystem::path& survey, const StageTable& table,
+                       const Platform& platform);
 
 }  // namespace stucco

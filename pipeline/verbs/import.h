@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/engine/platform.h"
 #include "pipeline/engine/stages.h"
 
 namespace stucco {
@@ -24,7 +25,7 @@ struct ImportReport {
 // scaled to the photos. Throws Error (kBadInput) when the model is damaged, names photos that are
 // not there, or was made from pictures of another shape.
 ImportReport ImportColmap(const std::filesystem::path& survey, const std::filesystem::path& model,
-                          const StageTable& table);
+                          const StageTable& table, const Platform& platform);
 
 struct CloudImportReport {
   uint64_t points = 0;
@@ -38,6 +39,7 @@ struct CloudImportReport {
 // (kBadInput) without a calibration, when the file is damaged, and when hardly any photo sees it,
 // as it is then in another frame.
 CloudImportReport ImportCloud(const std::filesystem::path& survey,
-                              const std::filesystem::path& cloud, const StageTable& table);
+                              const std::filesystem::path& cloud, const StageTable& table,
+                              const Platform& platform);
 
 }  // namespace stucco

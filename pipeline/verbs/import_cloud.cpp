@@ -64,7 +64,7 @@ Reconstruction ReadCalibration(const fs::path& survey) {
 }  // namespace
 
 CloudImportReport ImportCloud(const fs::path& survey, const fs::path& source,
-                              const StageTable& table) {
+                              const StageTable& table, const Platform& platform) {
   RequireApart(survey, LoadSettings(survey, table, {}).photos, table);
   const Reconstruction model = ReadCalibration(survey);
   PointCloud cloud = ReadPly(source);
@@ -90,9 +90,9 @@ CloudImportReport ImportCloud(const fs::path& survey, const fs::path& source,
     cloud.views.clear();
     report.notes.emplace_back("its lists of photos do not fit the poses and are left out");
   }
-  for (std::string& note : PublishImport(survey, kDenseStage, source, [&](const fs::path& out) {
-         WritePly(cloud, out / fs::path(kCloudFile).filename());
-       })) {
+  for (std::string& note : PublishImport(
+           survey, kDenseStage, source, platform,
+           [&](const fs::path& out) { WritePly(cloud, out / fs::path(kCloudFile).filename()); })) {
     report.notes.push_back(std::move(note));
   }
   return report;

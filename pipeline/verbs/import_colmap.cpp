@@ -187,7 +187,8 @@ void WriteCalib(const Reconstruction& model, const Calibration& calibration, con
 
 }  // namespace
 
-ImportReport ImportColmap(const fs::path& survey, const fs::path& source, const StageTable& table) {
+ImportReport ImportColmap(const fs::path& survey, const fs::path& source, const StageTable& table,
+                          const Platform& platform) {
   const Settings settings = LoadSettings(survey, table, {});
   RequireApart(survey, settings.photos, table);
   Reconstruction model = ReadColmapModel(source);
@@ -200,9 +201,9 @@ ImportReport ImportColmap(const fs::path& survey, const fs::path& source, const 
   ScaleToPhotos(settings.photos, model, report);
   const Calibration calibration =
       DescribeModel(model, survey, fs::absolute(source).lexically_normal());
-  for (std::string& note : PublishImport(survey, kCalibStage, source, [&](const fs::path& out) {
-         WriteCalib(model, calibration, out);
-       })) {
+  for (std::string& note :
+       PublishImport(survey, kCalibStage, source, platform,
+                     [&](const fs::path& out) { WriteCalib(model, calibration, out); })) {
     report.notes.push_back(std::move(note));
   }
   report.photos = calibration.photos_posed;

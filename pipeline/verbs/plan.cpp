@@ -78,7 +78,7 @@ void ForPlanOptions(const std::function<void(const Option&)>& fn) {
 }
 
 PlanSummary PlanSurvey(const fs::path& survey, const PlanRequest& request, const StageTable& table,
-                       Console& console) {
+                       Console& console, const Platform& platform) {
   if (survey.empty()) {
     throw Error(ErrorKind::kUsage, "--out: names no folder", "give the folder of the survey");
   }
@@ -87,19 +87,19 @@ PlanSummary PlanSurvey(const fs::path& survey, const PlanRequest& request, const
   // All that can be wrong with the input shows before the survey is touched.
   const plan::Site site = plan::ReadSite(InputsOf(request), options);
   InitWaitingSurvey(survey, table);
-  const SurveyLock lock(survey, fmt::format("plan {}", request.map.string()));
+  const SurveyLock lock(survey, fmt::format("plan {}", request.map.string()), platform);
   CleanScratch(survey);
   ScratchFolder scratch(survey, kPlanFolder);
   EventLog events(WorkFolder(survey).Events());
   PlanSummary summary;
   {
-    StageProgress progress(kPlanFolder, console, events);
+    StageProgress progress(kPlanFolder, console, events, platform.interrupted);
     for (const std::string& repair : site.repairs) progress.Note(repair);
     const plan::PlanResult result = plan::MakePlan(site, options, threads, progress);
     summary = Summarise(result, site);
     summary.notes = plan::WritePlanFolder(result, options, scratch.path());
   }
-  if (const auto moved = scratch.Publish()) {
+  if (const auto moved = scratch.Publish(platform)) {
     summary.notes.push_back(fmt::format("a folder {} that stucco did not make is now {}",
                                         kPlanFolder, moved->string()));
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/engine/console.h"
+#include "pipeline/engine/platform.h"
 #include "pipeline/engine/stages.h"
 
 namespace stucco {
@@ -40,7 +41,7 @@ struct PlanSummary {
 // that waits for its photos in SURVEY/photos. A failed or interrupted plan leaves what was there.
 // Throws Error.
 PlanSummary PlanSurvey(const std::filesystem::path& survey, const PlanRequest& request,
-                       const StageTable& table, Console& console);
+                       const StageTable& table, Console& console, const Platform& platform);
 
 // Calls fn for each option of planning, at its default: for help texts.
 void ForPlanOptions(const std::function<void(const Option&)>& fn);

@@ -14,17 +14,17 @@ namespace stucco {
 namespace fs = std::filesystem;
 
 std::vector<std::string> PublishImport(const fs::path& survey, const std::string& stage,
-                                       const fs::path& source,
+                                       const fs::path& source, const Platform& platform,
                                        const std::function<void(const fs::path& out)>& write) {
   std::vector<std::string> notes;
-  const SurveyLock lock(survey, fmt::format("import {}", source.string()));
+  const SurveyLock lock(survey, fmt::format("import {}", source.string()), platform);
   if (!lock.held()) {
     notes.emplace_back("this file system has no locks; start no run at the same time");
   }
   CleanScratch(survey);
   ScratchFolder scratch(survey, stage);
   write(scratch.path());
-  if (const auto moved = scratch.Publish()) {
+  if (const auto moved = scratch.Publish(platform)) {
     notes.push_back(
         fmt::format("a folder {} that stucco did not make is now {}", stage, moved->string()));
   }

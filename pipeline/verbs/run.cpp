@@ -7,7 +7,7 @@
 namespace stucco {
 
 RunResult RunSurvey(const std::filesystem::path& survey, const StageTable& table,
-                    RunOptions options, Console& console) {
+                    RunOptions options, Console& console, const Platform& platform) {
   options.precheck = [&](const Settings& settings, const std::vector<std::string>& stages,
                          const WarnUser& warn) {
     const CheckResult check = Check(survey, table, settings, stages);
@@ -18,7 +18,7 @@ RunResult RunSurvey(const std::filesystem::path& survey, const StageTable& table
     }
     ThrowIfFatal(check);
   };
-  return Run(survey, table, options, console);
+  return Run(survey, table, options, console, platform);
 }
 
 }  // namespace stucco

@@ -12,6 +12,6 @@ namespace stucco {
 // single stages. `options.precheck` is set here. Throws Error for all that is wrong before work
 // starts.
 RunResult RunSurvey(const std::filesystem::path& survey, const StageTable& table,
-                    RunOptions options, Console& console);
+                    RunOptions options, Console& console, const Platform& platform);
 
 }  // namespace stucco

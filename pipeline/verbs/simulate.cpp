@@ -30,9 +30,10 @@ const fs::path& Prepared(const fs::path& survey, const StageTable& table) {
 }  // namespace
 
 SimulatedSurvey::SimulatedSurvey(const fs::path& survey, const StageTable& table,
-                                 const std::string& command, Console& console)
-    : lock_(Prepared(survey, table), command),
+                                 const std::string& command, Console& console,
+                                 const Platform& platform)
+    : lock_(Prepared(survey, table), command, platform),
       events_(WorkFolder(survey).Events()),
-      progress_("simulate", console, events_) {}
+      progress_("simulate", console, events_, platform.interrupted) {}
 
 }  // namespace stucco

@@ -20,7 +20,7 @@ class SimulatedSurvey {
   // lock. Throws Error (kBadInput) when the survey's photos are elsewhere or another process works
   // on it.
   SimulatedSurvey(const std::filesystem::path& survey, const StageTable& table,
-                  const std::string& command, Console& console);
+                  const std::string& command, Console& console, const Platform& platform);
 
   Progress& progress() { return progress_; }
 

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "pipeline/engine/exit_code.h"
-#include "pipeline/engine/interrupt.h"
 #include "pipeline/engine/run.h"
 #include "pipeline/engine/units.h"
 #include "pipeline/engine/work_folder.h"
@@ -153,13 +152,13 @@ TEST(Failure, UnitsOfAFailedStageAreKept) {
 
 TEST(Interrupt, StopsResumablyWithItsExitCode) {
   FakeSurvey fake;
-  fake.during = [](const std::string& stage, StageContext&) {
+  fake.during = [&fake](const std::string& stage, StageContext&) {
     if (stage == "calib") {
-      SetInterrupted(true);
+      fake.interrupted = true;
     }
   };
   const RunResult result = fake.Run();
-  SetInterrupted(false);
+  fake.interrupted = false;
   EXPECT_EQ(result.exit_code, 130);
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(FakeSurvey::Ran(result), (Stages{"ingest"}));
@@ -174,20 +173,20 @@ TEST(Interrupt, StopsResumablyWithItsExitCode) {
 }
 
 // A stream that interrupts the program when it tells of hashing.
-ssize_t InterruptAtHashing(void*, const char* text, size_t size) {
+ssize_t InterruptAtHashing(void* fake, const char* text, size_t size) {
   if (std::string_view(text, size).find("hashing photos") != std::string_view::npos) {
-    SetInterrupted(true);
+    static_cast<FakeSurvey*>(fake)->interrupted = true;
   }
   return static_cast<ssize_t>(size);
 }
 
 TEST(Interrupt, StopsAlsoWhilePhotosAreHashed) {
   FakeSurvey fake;
-  std::FILE* stream = fopencookie(nullptr, "w", {nullptr, InterruptAtHashing, nullptr, nullptr});
+  std::FILE* stream = fopencookie(&fake, "w", {nullptr, InterruptAtHashing, nullptr, nullptr});
   ASSERT_NE(stream, nullptr);
   Console console(stream, false, Verbosity::kNormal);
-  const RunResult result = stucco::Run(fake.survey, fake.table, {}, console);
-  SetInterrupted(false);
+  const RunResult result = stucco::Run(fake.survey, fake.table, {}, console, fake.platform);
+  fake.interrupted = false;
   std::fclose(stream);
   EXPECT_EQ(result.exit_code, 130);
   EXPECT_TRUE(result.interrupted);

@@ -151,6 +151,7 @@ FakeSurvey::FakeSurvey()
     AddPhoto(fmt::format("p{}.jpg", i), i);
   }
   WriteSettings();
+  platform.interrupted = [this] { return interrupted.load(); };
 }
 
 FakeSurvey::~FakeSurvey() {
@@ -201,7 +202,7 @@ RunResult FakeSurvey::Run(RunOptions options) {
   };
   try {
     Console console(file, false, Verbosity::kVerbose);
-    result = RunSurvey(survey, table, options, console);
+    result = RunSurvey(survey, table, options, console, platform);
   } catch (...) {
     keep_log();
     throw;
@@ -263,6 +264,18 @@ pid_t StartRun(FakeSurvey& fake) {
     _exit(code);
   }
   return child;
+}
+
+Platform WithoutLocks() {
+  Platform platform = RealPlatform();
+  platform.lock_file = [](int, LockMode) { return LockResult::kImpossible; };
+  return platform;
+}
+
+Platform WithoutExchange() {
+  Platform platform = RealPlatform();
+  platform.exchange_folders = [](const fs::path&, const fs::path&) { return false; };
+  return platform;
 }
 
 std::string ReasonsOf(const SurveyStatus& status, const std::string& stage) {

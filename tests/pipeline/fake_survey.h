@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -35,7 +36,7 @@ class FakeSurvey {
   void SetOption(const std::string& name, const std::string& toml_value);  // "calib.size", "3"
 
   RunResult Run(RunOptions options = {});
-  SurveyStatus Status() { return GetStatus(survey, table); }
+  SurveyStatus Status() { return GetStatus(survey, table, platform); }
 
   // What the last Run did: stages that ran.
   static std::set<std::string> Ran(const RunResult& result);
@@ -50,6 +51,9 @@ class FakeSurvey {
   // Called in a running stage after its units and before it returns.
   std::function<void(const std::string& stage, StageContext& context)> during;
   std::string log;  // what Run told on its console
+  // The real one, but interrupted as long as `interrupted` is set.
+  Platform platform = RealPlatform();
+  std::atomic<bool> interrupted = false;
 
  private:
   void WriteSettings() const;
@@ -59,6 +63,10 @@ class FakeSurvey {
 
 // A run in a process of its own, which tests can kill; it exits with the run's exit code.
 pid_t StartRun(FakeSurvey& fake);
+
+// Of file systems that cannot do what most can.
+Platform WithoutLocks();
+Platform WithoutExchange();
 
 // The reasons of a stage in a status or run, joined.
 std::string ReasonsOf(const SurveyStatus& status, const std::string& stage);

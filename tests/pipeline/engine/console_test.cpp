@@ -30,7 +30,7 @@ TEST(Console, ThatCannotBeWrittenStopsNothing) {
   Console console(file, true, Verbosity::kVerbose);
   EventLog no_events;
   {
-    StageProgress progress("calib", console, no_events);
+    StageProgress progress("calib", console, no_events, [] { return false; });
     progress.Begin("matching", 3);
     progress.Warn("a warning");
     EXPECT_NO_THROW(console.Bar("a bar"));

@@ -4,10 +4,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
 #include <chrono>
 #include <thread>
 
@@ -24,7 +24,7 @@ using testing::Not;
 
 TEST(Lock, ASecondRunNamesTheFirst) {
   FakeSurvey fake;
-  const SurveyLock lock(fake.survey, "stucco run here");
+  const SurveyLock lock(fake.survey, "stucco run here", RealPlatform());
   try {
     fake.Run();
     FAIL();
@@ -42,10 +42,10 @@ TEST(Lock, ASecondRunNamesTheFirst) {
 
 TEST(Lock, AFileSystemWithoutLocksIsSaidAndUsed) {
   FakeSurvey fake;
-  ForbidFileLocks(true);
+  fake.platform = WithoutLocks();
   const RunResult result = fake.Run();
-  EXPECT_FALSE(CurrentOwner(fake.survey));
-  ForbidFileLocks(false);
+  EXPECT_FALSE(CurrentOwner(fake.survey, fake.platform));
+  fake.platform = RealPlatform();
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(fake.log, HasSubstr("this file system has no locks"));
   fake.Run();
@@ -66,13 +66,13 @@ TEST(Lock, OfADeadProcessIsTakenOver) {
   FakeSurvey fake;
   fake.SetOption("calib.pause_us", "100000");
   const pid_t child = StartRun(fake);
-  while (!CurrentOwner(fake.survey)) {
+  while (!CurrentOwner(fake.survey, fake.platform)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_THROW(fake.Run(), Error);
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
-  EXPECT_FALSE(CurrentOwner(fake.survey));
+  EXPECT_FALSE(CurrentOwner(fake.survey, fake.platform));
   fake.SetOption("calib.pause_us", "0");
   EXPECT_EQ(fake.Run().exit_code, 0);
   EXPECT_THAT(fake.log, HasSubstr("did not end in order"));

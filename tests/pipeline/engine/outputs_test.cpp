@@ -18,11 +18,10 @@ using Stages = std::set<std::string>;
 
 TEST(Outputs, WorkWithoutTheExchangeOperation) {
   FakeSurvey fake;
-  ForbidFolderExchange(true);
+  fake.platform = WithoutExchange();
   fake.Run();
   fake.SetOption("side.size", "9");
   EXPECT_EQ(fake.Run().exit_code, 0);
-  ForbidFolderExchange(false);
   EXPECT_THAT(fake.Outputs().at("side/result.txt"), HasSubstr("size 9"));
   EXPECT_TRUE(FilesBelow(WorkFolder(fake.survey).Scratch()).empty());
 }
@@ -41,9 +40,9 @@ TEST(Outputs, AreRestoredAfterAKillInTheMiddleOfAReplacement) {
 }
 
 TEST(Outputs, NeverReplaceAFolderOfTheUser) {
-  for (const bool forbidden : {false, true}) {
+  for (const Platform& platform : {RealPlatform(), WithoutExchange()}) {
     FakeSurvey fake;
-    ForbidFolderExchange(forbidden);
+    fake.platform = platform;
     fs::create_directories(fake.survey / "calib/mine");
     WriteFile(fake.survey / "calib/mine/thesis.txt", "years of work");
     fs::create_directories(fake.survey / "calib.old-1");
@@ -57,7 +56,6 @@ TEST(Outputs, NeverReplaceAFolderOfTheUser) {
     fake.SetOption("calib.size", "2");
     EXPECT_EQ(fake.Run().exit_code, 0);
     EXPECT_FALSE(fs::exists(fake.survey / "calib.old-3"));
-    ForbidFolderExchange(false);
   }
 }
 

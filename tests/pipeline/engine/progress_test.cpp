@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-
 namespace stucco {
 namespace {
 
@@ -36,7 +35,7 @@ TEST(Progress, QuietShowsWarningsOnly) {
   EventLog no_events;
   Console console(file, true, Verbosity::kQuiet);
   {
-    StageProgress progress("calib", console, no_events);
+    StageProgress progress("calib", console, no_events, [] { return false; });
     progress.Begin("matching", 3);
     progress.Advance(3);
     progress.Note("a note");

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <thread>
 
-#include "pipeline/engine/interrupt.h"
 #include "pipeline/engine/work_folder.h"
 #include "survey/error.h"
 #include "survey/files.h"
@@ -230,11 +229,13 @@ TEST(Run, AForcedRunThatWasInterruptedGoesOnWithoutForce) {
   FakeSurvey fake;
   fake.Run();
   const auto outputs = fake.Outputs();
-  fake.during = [](const std::string& stage, StageContext&) { SetInterrupted(stage == "calib"); };
+  fake.during = [&fake](const std::string& stage, StageContext&) {
+    fake.interrupted = stage == "calib";
+  };
   RunOptions force;
   force.force = true;
   const RunResult stopped = fake.Run(force);
-  SetInterrupted(false);
+  fake.interrupted = false;
   EXPECT_EQ(OutcomeOf(stopped, "calib").action, StageAction::kInterrupted);
   EXPECT_FALSE(OutcomeOf(stopped, "calib").failure);
   fake.during = nullptr;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/engine/interrupt.h"
+#include "cli/interrupt.h"
 
 #include <unistd.h>
 
@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kInterruptedExitCode = 130;
 
+// All that a signal handler can tell of; read through the platform only.
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "used in a signal handler");
 
@@ -31,21 +32,16 @@ extern "C" void HandleInterrupt(int) {
 
 }  // namespace
 
-void CatchInterrupts() {
+Platform CatchInterrupts() {
   struct sigaction action = {};
   action.sa_handler = HandleInterrupt;
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-}
-
-bool Interrupted() {
-  return interrupted.load(std::memory_order_relaxed);
-}
-
-void SetInterrupted(bool value) {
-  interrupted = value;
+  Platform platform = RealPlatform();
+  platform.interrupted = [] { return interrupted.load(std::memory_order_relaxed); };
+  return platform;
 }
 
 }  // namespace stucco
