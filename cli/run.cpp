@@ -27,6 +27,7 @@ Json ToJson(const StageOutcome& outcome) {
   if (outcome.action == StageAction::kRan || outcome.failure) {
     json["wall_s"] = outcome.usage.wall_s;
     json["cpu_s"] = outcome.usage.cpu_s;
+    json["cores"] = outcome.usage.cores;
     json["peak_memory_mb"] = outcome.usage.peak_memory_mb;
   }
   Json units = Json::object();

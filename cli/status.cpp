@@ -21,6 +21,7 @@ Json ToJson(const StageReport& report) {
   if (status.wall_s >= 0) {
     json["wall_s"] = status.wall_s;
     json["cpu_s"] = status.cpu_s;
+    json["cores"] = UsageOf(report.assessment)->cores;
     json["peak_memory_mb"] = status.peak_memory_mb;
   }
   if (report.assessment.manifest) {
@@ -58,15 +59,23 @@ std::string Why(const StageReport& report) {
   return JoinReasons(report.assessment.reasons);
 }
 
+std::string Row(const StageReport& report) {
+  std::string time = "-", cpu = "-", busy = "-", memory = "-";
+  const Usage* usage = UsageOf(report.assessment);
+  if (usage != nullptr && usage->wall_s > 0) {
+    time = DurationText(usage->wall_s);
+    cpu = DurationText(usage->cpu_s);
+    memory = MemoryText(usage->peak_memory_mb);
+    if (const std::string cores = CoresText(*usage); !cores.empty()) busy = cores;
+  }
+  return fmt::format("{:<8} {:<8} {:<13} {:<13} {:<15} {}\n", report.stage,
+                     Name(report.assessment.state), time, cpu, busy, memory);
+}
+
 void Print(const SurveyStatus& status) {
-  std::cout << "stage    state    time          CPU           memory\n";
+  std::cout << "stage    state    time          CPU           busy            memory\n";
   for (const StageReport& report : status.stages) {
-    const StageStatus row = ToStatus(report.stage, report.assessment);
-    const bool measured = row.wall_s > 0;
-    std::cout << fmt::format("{:<8} {:<8} {:<13} {:<13} {}\n", report.stage, row.state,
-                             measured ? DurationText(row.wall_s) : "-",
-                             measured ? DurationText(row.cpu_s) : "-",
-                             measured ? MemoryText(row.peak_memory_mb) : "-");
+    std::cout << Row(report);
     if (const std::string why = Why(report); !why.empty()) {
       std::cout << "         " << why << "\n";
     }

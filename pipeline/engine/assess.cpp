@@ -126,19 +126,22 @@ std::string JoinReasons(const std::vector<std::string>& reasons) {
   return text;
 }
 
+const Usage* UsageOf(const Assessment& assessment) {
+  if (assessment.failure) {
+    return &assessment.failure->usage;
+  }
+  return assessment.manifest ? &assessment.manifest->usage : nullptr;
+}
+
 StageStatus ToStatus(const std::string& stage, const Assessment& assessment) {
   StageStatus status;
   status.stage = stage;
   status.state = Name(assessment.state);
   status.why = JoinReasons(assessment.reasons);
-  const Usage* usage = nullptr;
   if (assessment.failure) {
     status.remedy = assessment.failure->remedy;
-    usage = &assessment.failure->usage;
-  } else if (assessment.manifest) {
-    usage = &assessment.manifest->usage;
   }
-  if (usage != nullptr) {
+  if (const Usage* usage = UsageOf(assessment)) {
     status.wall_s = usage->wall_s;
     status.cpu_s = usage->cpu_s;
     status.peak_memory_mb = usage->peak_memory_mb;

@@ -38,6 +38,10 @@ void ApplyNeeds(const Stage& stage, const std::map<std::string, StageState>& sta
 // The first few reasons as one line: "a; b; and 3 more".
 std::string JoinReasons(const std::vector<std::string>& reasons);
 
+// What the attempt that says how the stage stands took: the last one when it failed, else the one
+// that made the outputs. Null when there was none.
+const Usage* UsageOf(const Assessment& assessment);
+
 // For StageContext::statuses and for people.
 StageStatus ToStatus(const std::string& stage, const Assessment& assessment);
 

@@ -86,6 +86,20 @@ std::string DurationText(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
 }
 
+std::string CoresText(const Usage& usage) {
+  constexpr double kShortest_s = 0.05;  // a few ticks of the clock that counts CPU time
+  if (!(usage.wall_s >= kShortest_s) || usage.cores <= 0) {
+    return {};
+  }
+  return fmt::format("{:.1f} of {} core{}", usage.cpu_s / usage.wall_s, usage.cores,
+                     usage.cores == 1 ? "" : "s");
+}
+
+std::string UsageText(const Usage& usage) {
+  const std::string cores = CoresText(usage);
+  return DurationText(usage.wall_s) + (cores.empty() ? "" : fmt::format(", {} busy", cores));
+}
+
 std::string MemoryText(double megabytes) {
   return megabytes < 1000 ? fmt::format("{:.0f} MiB", megabytes)
                           : fmt::format("{:.1f} GiB", megabytes / 1024);

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "pipeline/engine/resources.h"
+
 namespace stucco {
 
 enum class Verbosity { kQuiet, kNormal, kVerbose };
@@ -44,6 +46,13 @@ class Console {
 
 // "12 s", "3 min 05 s", "2 h 07 min".
 std::string DurationText(double seconds);
+
+// How many cores a piece of work kept busy in the mean, of those that there were: "1.1 of 2 cores".
+// Empty where that is not known, or the work too short to tell.
+std::string CoresText(const Usage& usage);
+
+// "5 min 29 s, 1.1 of 2 cores busy"; only the time where nothing is known of the cores.
+std::string UsageText(const Usage& usage);
 
 // "812 MiB", "3.2 GiB"; of 2^20 bytes each, as settings count them.
 std::string MemoryText(double megabytes);

@@ -25,11 +25,13 @@ std::string Checksum(Json json) {
 Json UsageToJson(const Usage& usage) {
   return {{"wall_s", Rounded(usage.wall_s)},
           {"cpu_s", Rounded(usage.cpu_s)},
-          {"peak_memory_mb", Rounded(usage.peak_memory_mb, 0.1)}};
+          {"peak_memory_mb", Rounded(usage.peak_memory_mb, 0.1)},
+          {"cores", usage.cores}};
 }
 
 Usage UsageFromJson(const Json& json) {
-  return {json.at("wall_s"), json.at("cpu_s"), json.at("peak_memory_mb")};
+  // Programs before this one left out the cores.
+  return {json.at("wall_s"), json.at("cpu_s"), json.at("peak_memory_mb"), json.value("cores", 0)};
 }
 
 Fingerprint FingerprintFromJson(const Json& json) {

@@ -88,13 +88,14 @@ void StageProgress::EndStep() {
   if (step_.empty()) {
     return;
   }
-  const double seconds = Now() - step_start_s_;
+  const Usage usage{Now() - step_start_s_, CpuSeconds() - step_start_cpu_s_, 0, AvailableCores()};
   events_.Write("step_done", {{"stage", stage_},
                               {"step", step_},
                               {"done", static_cast<int64_t>(done_)},
                               {"total", static_cast<int64_t>(total_)},
-                              {"wall_s", seconds}});
-  console_.Detail(fmt::format("  {}: {} took {}", stage_, step_, DurationText(seconds)));
+                              {"wall_s", usage.wall_s},
+                              {"cpu_s", usage.cpu_s}});
+  console_.Detail(fmt::format("  {}: {} took {}", stage_, step_, UsageText(usage)));
   step_.clear();
 }
 
@@ -105,6 +106,7 @@ void StageProgress::Begin(std::string_view step, size_t total) {
   total_ = total;
   done_ = 0;
   step_start_s_ = Now();
+  step_start_cpu_s_ = CpuSeconds();
   next_line_s_ = step_start_s_ + kLineInterval_s;
   next_event_s_ = step_start_s_ + kEventInterval_s;
   rate_.Restart(step_start_s_);

@@ -71,6 +71,7 @@ class StageProgress : public Progress {
   std::string step_;
   size_t total_ = 0;
   double step_start_s_ = 0;
+  double step_start_cpu_s_ = 0;
   double next_line_s_ = 0;
   double next_event_s_ = 0;
   RateMeter rate_;

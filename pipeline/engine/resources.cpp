@@ -23,12 +23,6 @@ double Seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-double CpuSeconds() {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return Seconds(usage.ru_utime) + Seconds(usage.ru_stime);
-}
-
 // A line "VmHWM:   1234 kB" of a /proc file; 0 when it is not there.
 double ProcMb(const char* file, const std::string& field) {
   std::ifstream in(file);
@@ -53,6 +47,12 @@ double PeakMemoryMb() {
 
 }  // namespace
 
+double CpuSeconds() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return Seconds(usage.ru_utime) + Seconds(usage.ru_stime);
+}
+
 UsageMeter::UsageMeter() : start_wall_s_(WallSeconds()), start_cpu_s_(CpuSeconds()) {
 #ifdef __GLIBC__
   // What was freed before goes back to the system and does not count here.
@@ -63,7 +63,8 @@ UsageMeter::UsageMeter() : start_wall_s_(WallSeconds()), start_cpu_s_(CpuSeconds
 }
 
 Usage UsageMeter::Read() const {
-  return {WallSeconds() - start_wall_s_, CpuSeconds() - start_cpu_s_, PeakMemoryMb()};
+  return {WallSeconds() - start_wall_s_, CpuSeconds() - start_cpu_s_, PeakMemoryMb(),
+          AvailableCores()};
 }
 
 double CurrentMemoryMb() {

@@ -12,6 +12,7 @@ struct Usage {
   double wall_s = 0;
   double cpu_s = 0;  // of all threads, user and system
   double peak_memory_mb = 0;
+  int cores = 0;  // that it could have used; 0: not known
 };
 
 // Measures this process from its construction on. Where the kernel lets a process reset its
@@ -26,6 +27,9 @@ class UsageMeter {
   double start_wall_s_;
   double start_cpu_s_;
 };
+
+// Of all threads of this process since it began, user and system.
+double CpuSeconds();
 
 double CurrentMemoryMb();  // resident set size; 0 when not known
 

@@ -129,10 +129,34 @@ class Runner {
   }
 
   void End() {
+    Summarise();
     if (result_.interrupted) {
       result_.exit_code = ExitCode(ErrorKind::kInterrupted);
     }
     events_.Write("run_done", {{"exit_code", int64_t{result_.exit_code}}});
+  }
+
+  // Beside each other, the stages show where time went and where cores were idle. One stage alone
+  // has said so already.
+  void Summarise() {
+    std::vector<const StageOutcome*> measured;
+    Usage together;
+    for (const StageOutcome& outcome : result_.stages) {
+      if (outcome.usage.wall_s > 0) {
+        measured.push_back(&outcome);
+        together.wall_s += outcome.usage.wall_s;
+        together.cpu_s += outcome.usage.cpu_s;
+        together.cores = outcome.usage.cores;
+      }
+    }
+    if (measured.size() < 2) {
+      return;
+    }
+    console_.Line("Time and cores:");
+    for (const StageOutcome* outcome : measured) {
+      console_.Line(fmt::format("  {:<8} {}", outcome->stage, UsageText(outcome->usage)));
+    }
+    console_.Line(fmt::format("  {:<8} {}", "together", UsageText(together)));
   }
 
   // The first stage that this one needs and that is known to have failed or been blocked.
@@ -261,14 +285,14 @@ class Runner {
     assessment.state = StageState::kDone;
     assessment.reasons.clear();
     console_.Line(fmt::format("{}: done in {}, {} of memory", outcome.stage,
-                              DurationText(outcome.usage.wall_s),
-                              MemoryText(outcome.usage.peak_memory_mb)));
+                              UsageText(outcome.usage), MemoryText(outcome.usage.peak_memory_mb)));
     if (!outcome.units.empty()) {
       console_.Detail(fmt::format("  {}: {}", outcome.stage, UnitsText(outcome.units)));
     }
     events_.Write("stage_done", {{"stage", outcome.stage},
                                  {"wall_s", outcome.usage.wall_s},
                                  {"cpu_s", outcome.usage.cpu_s},
+                                 {"cores", int64_t{outcome.usage.cores}},
                                  {"peak_memory_mb", outcome.usage.peak_memory_mb}});
   }
 

@@ -56,7 +56,9 @@ void RecordFailure(const Failure& failure, const SurveyPaths& paths, EventLog& e
                                 {"kind", failure.kind},
                                 {"why", failure.why},
                                 {"remedy", failure.remedy},
-                                {"wall_s", failure.usage.wall_s}});
+                                {"wall_s", failure.usage.wall_s},
+                                {"cpu_s", failure.usage.cpu_s},
+                                {"cores", int64_t{failure.usage.cores}}});
   try {
     WriteFailure(failure, WorkFolder(paths.survey).Failure(failure.stage));
   } catch (const std::exception&) {

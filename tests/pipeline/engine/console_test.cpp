@@ -22,6 +22,15 @@ TEST(Console, FormatsForPeople) {
   EXPECT_EQ(GroupedDigits(1234567), "1 234 567");
 }
 
+TEST(Console, SaysHowManyCoresWereBusy) {
+  EXPECT_EQ(UsageText({329, 361.9, 800, 2}), "5 min 29 s, 1.1 of 2 cores busy");
+  EXPECT_EQ(CoresText({10, 0.1, 0, 16}), "0.0 of 16 cores");
+  EXPECT_EQ(CoresText({10, 10, 0, 1}), "1.0 of 1 core");
+  EXPECT_EQ(CoresText({329, 361.9, 800, 0}), "");  // a manifest of an older program
+  EXPECT_EQ(UsageText({329, 361.9, 800, 0}), "5 min 29 s");
+  EXPECT_EQ(UsageText({0.01, 0.01, 800, 2}), "0.0 s");
+}
+
 TEST(Console, ThatCannotBeWrittenStopsNothing) {
   std::FILE* file = std::fopen("/dev/full", "w");
   if (file == nullptr) {

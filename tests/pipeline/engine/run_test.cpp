@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "pipeline/engine/work_folder.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "tests/pipeline/burn.h"
 #include "tests/pipeline/fake_survey.h"
 
 namespace stucco {
@@ -275,6 +277,49 @@ TEST(Run, MeasuresWhatAStageTook) {
   EXPECT_GE(OutcomeOf(result, "side").usage.wall_s, 0.03);
   EXPECT_GT(OutcomeOf(result, "side").usage.peak_memory_mb, 1);
   EXPECT_THAT(fake.log, HasSubstr("side: done in"));
+}
+
+TEST(Run, ShowsIdleCores) {
+  FakeSurvey fake;
+  fake.during = [](const std::string& stage, StageContext&) {
+    if (stage == "side") {
+      BurnOnTwoThreads(0.1);
+    } else if (stage == "dense") {
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    }
+  };
+  const RunResult result = fake.Run();
+  const Usage busy = OutcomeOf(result, "side").usage;
+  const Usage idle = OutcomeOf(result, "dense").usage;
+  EXPECT_GE(busy.cpu_s, 0.19);
+  EXPECT_LT(idle.cpu_s, 0.5 * idle.wall_s);
+  EXPECT_THAT(fake.log, HasSubstr("side: done in " + UsageText(busy) + ", "));
+  const size_t summary = fake.log.find("\nTime and cores:\n");
+  ASSERT_NE(summary, fake.log.npos) << fake.log;
+  const std::string end = fake.log.substr(summary);
+  EXPECT_THAT(end, HasSubstr("\n  side     " + UsageText(busy) + "\n"));
+  EXPECT_THAT(end, HasSubstr("\n  dense    " + UsageText(idle) + "\n"));
+  EXPECT_THAT(end, HasSubstr("\n  together "));
+  for (const std::string& line : fake.Events("stage_done")) {
+    const auto record = nlohmann::json::parse(line);
+    if (record.at("stage") == "side") {
+      EXPECT_GE(record.at("cpu_s"), 0.19);
+      EXPECT_EQ(record.at("cores"), AvailableCores());
+    } else if (record.at("stage") == "dense") {
+      EXPECT_LT(record.at("cpu_s"), 0.5 * record.at("wall_s").get<double>());
+    }
+  }
+}
+
+TEST(Run, OfOneStageNeedsNoSummary) {
+  FakeSurvey fake;
+  fake.Run();
+  RunOptions options;
+  options.goal = "side";
+  options.force = true;
+  fake.Run(options);
+  EXPECT_THAT(fake.log, HasSubstr("side: done in"));
+  EXPECT_THAT(fake.log, testing::Not(HasSubstr("Time and cores")));
 }
 
 TEST(Run, ReportSeesStatesAndTimesOfTheOthers) {
