@@ -43,7 +43,8 @@ function(add_module name)
 endfunction()
 
 # add_module_test(calib SOURCES adjust_test.cpp ... LINK test_support)
-# One executable per module: fewer links, one line per test in ctest.
+# One executable per module: fewer links, one line per test in ctest. The library of the module's
+# name is linked where there is one; `pipeline` has several, which are named in LINK.
 function(add_module_test name)
   cmake_parse_arguments(T "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name}_test ${T_SOURCES})

@@ -10,6 +10,7 @@ import struct
 import subprocess
 import time
 import unittest
+import zipfile
 
 import stucco
 
@@ -171,6 +172,23 @@ class RunAndStatus(stucco.TestCase):
         status = self.check(stucco.run("status", survey)).stdout
         self.assertIn("Next: stucco run", status)
 
+    def test_time_and_busy_cores_are_told(self):
+        survey = self.init(self.photo_folder())
+        self.assertNotIn("core", self.check(stucco.run("status", survey)).stdout)
+        process = self.check(stucco.run("ingest", survey))
+        cores = len(os.sched_getaffinity(0))
+        busy = rf"[0-9]+\.[0-9] of {cores} cores?"
+        self.assertRegex(process.stderr,
+                         rf"ingest: done in [0-9.]+ s, {busy} busy, [0-9.]+ [MG]iB of memory\n")
+        self.assertRegex(self.check(stucco.run("status", survey)).stdout,
+                         rf"ingest +done +[0-9.]+ s +[0-9.]+ s +{busy} ")
+        status = json.loads(self.check(stucco.run("status", survey, "--json")).stdout)
+        self.assertEqual(status["stages"][0]["cores"], cores)
+        self.assertGreater(status["stages"][0]["cpu_s"], 0)
+        self.assertNotIn("cores", status["stages"][1])
+        process = stucco.run("ingest", survey, "--force", "--json")
+        self.assertEqual(json.loads(self.check(process).stdout)["stages"][0]["cores"], cores)
+
     def test_options_of_a_stage_verb_hold_for_that_run(self):
         survey = self.init(self.photo_folder(3))
         self.check(stucco.run("ingest", survey))
@@ -215,6 +233,23 @@ class RunAndStatus(stucco.TestCase):
             holder.wait()
             holder.stdout.close()
         self.check(stucco.run("ingest", survey))
+
+    def test_a_second_interruption_ends_it_at_once(self):
+        survey = self.init(self.photo_folder())
+        process = subprocess.Popen([stucco.PROGRAM, "calib", survey, "--max-features=8000"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline and not self.units(survey):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        for line in process.stderr:
+            if "Stopping at the next safe point" in line:
+                break
+        process.send_signal(signal.SIGINT)
+        _, stderr = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130, stderr)
+        self.assertIn("Stopped at once", stderr)
+        self.assertNotIn("failed", self.states(survey).values())
 
     def test_interrupted_it_ends_with_130_and_goes_on(self):
         survey = self.init(self.photo_folder())
@@ -351,6 +386,22 @@ class ImportAndExport(stucco.TestCase):
         self.assertEqual(out.read_bytes(), b"glTF")
         self.refused(stucco.run("export", survey, "--format", "glb", "-o", out), 3, "--overwrite")
         self.check(stucco.run("export", survey, "--format", "glb", "-o", out, "--overwrite"))
+
+
+class Lint(stucco.TestCase):
+    """The rules are tested in tests/plan."""
+
+    def test_faults_are_listed_and_are_a_gate_that_is_not_met(self):
+        mission = self.root / "mission.kmz"
+        with zipfile.ZipFile(mission, "w") as archive:
+            archive.writestr("wpmz/template.kml", "<kml/>")
+        process = self.check(stucco.run("lint", mission), 4)
+        faults = json.loads(self.check(stucco.run("lint", mission, "--json"), 4).stdout)["faults"]
+        self.assertGreater(len(faults), 0)
+        for fault in faults:
+            line = " | ".join(fault[name] for name in ("element", "rule", "text"))
+            self.assertIn(line + "\n", process.stdout)
+        self.refused(stucco.run("lint", self.root / "none.kmz"), 3, "none.kmz")
 
 
 class Evaluate(stucco.TestCase):
