@@ -88,7 +88,7 @@ constexpr char kForceHelp[] =
 
 // --max-image-px for calib.max_image_px; the values end up in `options.set`.
 void AddStageOptions(CLI::App& verb, const Stage& stage,
-                     std::shared_ptr<std::vector<std::string>> set) {
+                     const std::shared_ptr<std::vector<std::string>>& set) {
   const BoundStage bound = stage.bind();
   for (const Option& option : bound.options.options()) {
     std::string dashed = option.name;

@@ -102,9 +102,7 @@ TEST_F(RunStageTest, AnInterruptionIsNoFailureWhateverTheStageMadeOfIt) {
 
 TEST_F(RunStageTest, UnitsThatWereNotUsedGoWhenTheStageIsDone) {
   const auto unit = [](const std::string& key) {
-    return [key](StageContext& context) {
-      ComputeUnit(context, "kind", key, [&] { return key; });
-    };
+    return [key](StageContext& context) { ComputeUnit(context, "kind", key, [&] { return key; }); };
   };
   RunOne(unit("a"));
   const StageRunResult result = RunOne(unit("b"));
