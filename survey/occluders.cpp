@@ -52,7 +52,8 @@ Occluders::Occluders(std::span<const Eigen::Vector3d> vertices,
     : state_(std::make_unique<State>()) {
   for (const Eigen::Vector3d& vertex : vertices) state_->center += vertex;
   if (!vertices.empty()) state_->center /= static_cast<double>(vertices.size());
-  state_->device = rtcNewDevice("threads=1");
+  // Without a number of threads: one would hold for TBB in the whole process while the device lives.
+  state_->device = rtcNewDevice(nullptr);
   if (!state_->device) {
     throw Error(ErrorKind::kStageFailed, "Embree could not be started on this processor");
   }

@@ -14,6 +14,8 @@ import pathlib
 import re
 import sys
 
+import include_graph
+
 STAGES = {"plan", "capture_ingest", "calib", "dense", "proxy", "texture", "report"}
 
 # What the sources of a module may include besides their own module.
@@ -117,6 +119,14 @@ def include_problems(path, text):
             yield f"{path}: public header includes heavy {include}"
 
 
+def includes_of(path, text):
+    """Pairs (path, included header of a module); tests may include what is not exported."""
+    if path.parts[0] == "tests":
+        return set()
+    return {(str(path), include) for _, include in INCLUDE.findall(text)
+            if include.split("/")[0] in MODULES}
+
+
 def size_problems(path, text):
     lines = len(text.splitlines())
     if lines > MAX_LINES:
@@ -149,6 +159,7 @@ def problems(root):
     root = pathlib.Path(root)
     found = list(readme_problems(root))
     header_of = {}
+    includes, exported = set(), set()
     for path in find_files(root):
         is_source = path.suffix in SOURCES
         if not is_source and path.suffix not in SPDX_SUFFIXES and path.name != "CMakeLists.txt":
@@ -158,10 +169,16 @@ def problems(root):
         found += size_problems(path, text)
         if is_source:
             found += include_problems(path, text)
+            includes |= includes_of(path, text)
+        elif path.name == "CMakeLists.txt" and path.parts[0] in MODULES:
+            exported |= include_graph.exported_headers(path, text)
         for name in sorted(types_of(path, text)):
             if name in header_of:
                 found.append(f"{path}: {name} is a type of {header_of[name]}, too")
             header_of.setdefault(name, path)
+    inside = {pair for pair in includes if pair[0].split("/")[0] in MODULES}
+    found += include_graph.circle_problems(inside)
+    found += include_graph.export_problems(includes, exported)
     return found
 
 

@@ -130,6 +130,39 @@ class CheckArchitectureTest(unittest.TestCase):
         self.write("proxy/a.h", "namespace stucco {\nclass Scene {\n};\n}\n")
         self.assert_problem("proxy/a.h", "stucco::Scene", "calib/a.h")
 
+    def test_folders_and_files_do_not_include_each_other_in_circles(self):
+        self.include("calib/internal/b.h", '"calib/c.h"')
+        self.include("calib/b.cpp", '"calib/internal/b.h"', '"calib/deep/d.h"')
+        self.include("calib/deep/d.cpp", '"calib/deep/d.h"', '"survey/e.h"')
+        self.include("tests/calib/deep/d_test.cpp", '"calib/b.h"')
+        self.assert_clean()
+        self.include("calib/c.cpp", '"calib/b.h"')
+        self.assert_problem("files that include each other in a circle: calib/b, calib/c")
+        self.include("calib/c.cpp", '"calib/c.h"')
+        self.include("calib/deep/internal/f.h", '"calib/c.h"')
+        self.assert_problem("folders that include each other in a circle: calib, calib/deep")
+
+    def write_module(self, module, headers):
+        (self.root / module).mkdir(exist_ok=True)
+        (self.root / module / "README.md").write_text("What it does")
+        self.write(f"{module}/CMakeLists.txt",
+                   f"add_module({module} HEAVY\n  HEADERS {headers} # all\n  SOURCES a.cpp)\n",
+                   SPDX.replace("//", "#"))
+
+    def test_modules_show_what_others_use_and_nothing_else(self):
+        self.write_module("calib", "calibrate.h deep/options.h")
+        self.include("calib/calibrate.h", '"calib/deep/options.h"')
+        self.include("calib/calibrate.cpp", '"calib/adjust.h"')
+        self.include("tests/calib/adjust_test.cpp", '"calib/adjust.h"')
+        self.include("pipeline/run.cpp", '"calib/calibrate.h"')
+        self.assert_clean()
+        self.assert_refused("pipeline/a.cpp", '"calib/adjust.h"', "not among the HEADERS")
+        self.include("calib/deep/options.h", '"calib/deep/limits.h"')
+        self.assert_problem("calib/deep/options.h", "not among the HEADERS")
+        self.include("calib/deep/options.h")
+        self.write_module("calib", "calibrate.h deep/options.h adjust.h")
+        self.assert_problem("calib/adjust.h", "no other module includes it")
+
     def test_files_are_short(self):
         for name in ("calib/a.cpp", "calib/a.h", "scripts/a.py", "scripts/a.sh", "cmake/a.cmake",
                      "tests/calib/a.cpp", "CMakeLists.txt"):

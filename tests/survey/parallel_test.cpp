@@ -5,9 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <random>
 #include <stdexcept>
+#include <thread>
 #include <vector>
+
+#include "survey/occluders.h"
 
 namespace stucco {
 namespace {
@@ -33,6 +37,24 @@ TEST(ParallelFor, NeverRunsMoreThanItsThreads) {
     --running;
   });
   EXPECT_LE(most, 2);
+}
+
+// A device of Embree that is given a number of threads limits TBB in the whole process.
+TEST(ParallelFor, UsesTwoThreadsWhileAnEmbreeSceneIsAlive) {
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "the machine has one core";
+  const Occluders alive({}, {});
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  std::atomic<int> running = 0;
+  std::atomic<bool> both = false;
+  ParallelFor(2, 2, [&](size_t) {
+    ++running;
+    while (!both && std::chrono::steady_clock::now() < deadline) {
+      if (running == 2) both = true;
+      std::this_thread::yield();
+    }
+    --running;
+  });
+  EXPECT_TRUE(both);
 }
 
 TEST(ParallelFor, RethrowsAfterTheRunningCallsEnded) {

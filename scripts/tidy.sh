@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 the Stucco authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Runs clang-tidy on the sources that changed: since the branch left its upstream or, where nothing is
+# ahead of it, in the last commit, and what is not committed; of a changed header the sources of its
+# name. With --all on every source. Needs a configured build/dev; where clang-tidy is not installed
+# (Debian package clang-tidy), it says so and is done.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+readonly most=40 # about five minutes on two cores
+readonly modules='survey|site|plan|capture_ingest|calib|dense|proxy|texture|report|pipeline|simulate|evaluate|cli'
+
+usage="usage: ${0##*/} [--all]"
+if (($# > 1)) || [[ ${1:---all} != --all ]]; then
+  echo "$usage" >&2
+  exit 2
+fi
+if ! command -v clang-tidy >/dev/null; then
+  echo "tidy: clang-tidy is not installed; nothing was checked"
+  exit 0
+fi
+[[ -f build/dev/compile_commands.json ]] || { echo "tidy: build first: scripts/build.sh dev" >&2; exit 2; }
+
+git_here() { git -c safe.directory="$PWD" "$@"; }
+
+changed() {
+  local base
+  base=$(git_here merge-base HEAD '@{upstream}' 2>/dev/null || true)
+  [[ -n $base && $base != "$(git_here rev-parse HEAD)" ]] ||
+    base=$(git_here rev-parse --quiet --verify HEAD~1 || git_here rev-parse HEAD)
+  git_here diff --name-only --diff-filter=d "$base"
+  git_here ls-files --others --exclude-standard
+}
+
+sources() {
+  if [[ ${1:-} == --all ]]; then
+    git_here ls-files
+  elif git_here rev-parse HEAD >/dev/null 2>&1; then
+    changed | sed 's/\.h$/.cpp/; s,internal/,,'
+  fi | grep -E "^($modules)/.*\.cpp$" | sort -u | while read -r file; do
+    [[ ! -f $file ]] || echo "$file"
+  done
+}
+
+mapfile -t files < <(sources "${1:-}" || true)
+if ((${#files[@]} > most)) && [[ ${1:-} != --all ]]; then
+  echo "tidy: ${#files[@]} sources changed; the first $most are checked, scripts/tidy.sh --all checks all"
+  files=("${files[@]:0:most}")
+fi
+((${#files[@]} > 0)) || { echo "tidy: no source changed"; exit 0; }
+# GCC's own warning options mean nothing to clang.
+printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$(nproc)" \
+  clang-tidy --quiet -p build/dev --extra-arg=-Wno-unknown-warning-option 2>/dev/null
+echo "tidy: ${#files[@]} sources are clean"
