@@ -2,13 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plan/hover.h"
 
-#include <cmath>
-
 namespace stucco::plan {
 
 Eigen::Vector3d Shot::Direction() const {
-  const double level = std::cos(pitch_rad);
-  return {std::sin(yaw_rad) * level, std::cos(yaw_rad) * level, std::sin(pitch_rad)};
+  return LookingDirection(yaw_rad, pitch_rad);
+}
+
+Viewpoint ViewpointOf(const FieldOfView& field, const Hover& hover, double reach_m) {
+  Viewpoint out{hover.position, {}};
+  out.pictures.reserve(hover.shots.size());
+  for (const Shot& shot : hover.shots) {
+    out.pictures.push_back(
+        LevelFrustum(field, hover.position, shot.yaw_rad, shot.pitch_rad, reach_m));
+  }
+  return out;
 }
 
 }  // namespace stucco::plan

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "site/frustum.h"
 #include "survey/plan.h"
 
 namespace stucco::plan {
@@ -33,5 +34,8 @@ struct Hover {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   std::vector<Shot> shots;
 };
+
+// The hover as a place with pictures, in the order of its shots.
+Viewpoint ViewpointOf(const FieldOfView& field, const Hover& hover, double reach_m);
 
 }  // namespace stucco::plan

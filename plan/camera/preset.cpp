@@ -124,10 +124,6 @@ double CameraPreset::HorizontalFov() const {
   return 2 * std::atan(camera.sensor_width_m / (2 * camera.focal_m));
 }
 
-double CameraPreset::VerticalFov() const {
-  return 2 * std::atan(camera.sensor_height_m / (2 * camera.focal_m));
-}
-
 std::vector<std::string> CameraNames() {
   std::vector<std::string> names;
   for (const auto& [key, value] : Presets()) names.emplace_back(key.str());

@@ -6,14 +6,11 @@
 
 #include "plan/camera/preset.h"
 #include "plan/dipping/reach.h"
-#include "plan/sight/visibility.h"
-#include "plan/site.h"
 #include "plan/space/obstacles.h"
+#include "site/site.h"
+#include "site/visibility.h"
 
 namespace stucco::plan {
-
-// Farther than this from the normal a wall is too stretched to count as seen (radians).
-inline constexpr double kMaxIncidence = 75 * 3.14159265358979323846 / 180;
 
 // What the dipping views are planned with.
 struct DippingSetting {
@@ -49,9 +46,9 @@ double LowestAt(const Level& level, const DippingSetting& setting, const Eigen::
 // Whether the drone may go up and down above p between there and the ceiling.
 bool MayDip(const Level& level, const DippingSetting& setting, const Eigen::Vector2d& p);
 
-// The facades of the level in sight of p with the parts that are near and frontal enough (d_max, 75
-// degrees, and the level's reach). Ends are rounded inwards to whole centimetres, so that the same
-// corner seen from two points gives the same number; pieces below 5 cm are left out.
+// The facades of the level in sight of p with the parts that are near and frontal enough (d_max,
+// the largest incidence, and the level's reach). Ends are rounded inwards to whole centimetres, so
+// that the same corner seen from two points gives the same number; pieces below 5 cm are left out.
 std::vector<SeenFacade> SeenFrom(const Level& level, const DippingSetting& setting,
                                  const Eigen::Vector2d& p);
 

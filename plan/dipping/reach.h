@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "plan/site.h"
+#include "site/site.h"
 #include "survey/intervals.h"
 
 namespace stucco::plan {

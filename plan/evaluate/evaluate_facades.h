@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "plan/camera/preset.h"
-#include "plan/evaluate/facade_views.h"
+#include "plan/evaluate/facade_sight.h"
 #include "plan/hover.h"
-#include "plan/site.h"
+#include "site/site.h"
 
 namespace stucco::plan {
 

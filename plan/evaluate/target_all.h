@@ -6,7 +6,7 @@
 
 #include "plan/camera/preset.h"
 #include "plan/hover.h"
-#include "plan/site.h"
+#include "site/site.h"
 
 namespace stucco::plan {
 

@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "plan/internal/box_grid.h"
-#include "plan/site.h"
+#include "site/box_grid.h"
+#include "site/site.h"
 
 namespace stucco::plan::internal {
 

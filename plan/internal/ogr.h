@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "plan/site.h"
+#include "site/site.h"
 
 namespace stucco::plan::internal {
 

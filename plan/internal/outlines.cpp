@@ -6,7 +6,7 @@
 
 #include "plan/internal/noding.h"
 #include "plan/internal/ogr.h"
-#include "plan/map/facades.h"
+#include "site/facades.h"
 #include "survey/geometry2d.h"
 
 namespace stucco::plan::internal {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "plan/map/read_map.h"
-#include "plan/site.h"
+#include "site/site.h"
 
 namespace stucco::plan {
 

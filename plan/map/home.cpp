@@ -9,7 +9,7 @@
 #include <numbers>
 #include <regex>
 
-#include "plan/internal/box_grid.h"
+#include "site/box_grid.h"
 #include "survey/error.h"
 #include "survey/geometry2d.h"
 
@@ -52,7 +52,7 @@ class Hazards {
   }
 
   const Site& site_;
-  internal::BoxGrid grid_;
+  BoxGrid grid_;
 };
 
 Eigen::AlignedBox2d Captured(const Site& site) {

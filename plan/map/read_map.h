@@ -9,7 +9,7 @@
 
 #include "plan/map/repairs.h"
 #include "plan/options.h"
-#include "plan/site.h"
+#include "site/site.h"
 
 namespace stucco::plan {
 

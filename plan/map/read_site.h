@@ -7,7 +7,7 @@
 #include <string>
 
 #include "plan/options.h"
-#include "plan/site.h"
+#include "site/site.h"
 
 namespace stucco::plan {
 

@@ -7,7 +7,7 @@
 #include "plan/camera/preset.h"
 #include "plan/hover.h"
 #include "plan/path/tour.h"
-#include "plan/site.h"
+#include "site/site.h"
 #include "survey/plan.h"
 #include "survey/stage.h"
 

@@ -9,8 +9,8 @@
 #include <limits>
 #include <numbers>
 
-#include "plan/model/cells.h"
 #include "plan/space/obstacles.h"
+#include "site/grid_cells.h"
 #include "survey/error.h"
 #include "survey/geometry2d.h"
 

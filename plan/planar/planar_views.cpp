@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/model/cells.h"
-#include "plan/model/sightings.h"
 #include "plan/planar/lost_walls.h"
 #include "plan/planar/move_hovers.h"
 #include "plan/planar/reconstructability.h"
 #include "plan/planar/thin_out.h"
 #include "plan/planar/view_graph.h"
 #include "plan/space/obstacles.h"
+#include "site/grid_cells.h"
+#include "site/sightings.h"
 
 namespace stucco::plan {
 namespace {
@@ -88,7 +88,7 @@ std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
   const std::vector<Hover> full = GridHovers(site, camera, options.grid);
   if (full.empty()) return full;
   const GridStep step = StepOf(site, camera, options.grid);
-  const SurfaceView view(site, camera,
+  const SurfaceView view(site, camera.Field(),
                          SampleSurface(site, {.spacing_m = SpacingOf(options, step),
                                               .ground_reach_m = kGroundReach * site.d_min_m}),
                          std::max(options.d_max_m, kReachOfAltitude * site.safe_altitude_m));

@@ -8,7 +8,7 @@
 #include "plan/camera/preset.h"
 #include "plan/hover.h"
 #include "plan/planar/grid_hovers.h"
-#include "plan/site.h"
+#include "site/site.h"
 #include "survey/stage.h"
 
 namespace stucco::plan {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "plan/site.h"
+#include "site/site.h"
 #include "survey/geometry2d.h"
 
 namespace stucco::plan {

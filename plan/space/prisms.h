@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "plan/site.h"
 #include "plan/space/box_tree.h"
+#include "site/site.h"
 
 namespace stucco::plan {
 

@@ -147,11 +147,11 @@ void WriteTerrain(const Town& town, const Georef& georef, const std::filesystem:
 FacadeIds FindFacades(const Town& town, const Georef& georef, const std::filesystem::path& map,
                       const std::optional<std::filesystem::path>& terrain) {
   constexpr double kSame_m = 0.05;  // the planner joins corners within that
-  const plan::Site site = plan::ReadSite({.map = map, .dem = terrain}, plan::PlanOptions{});
+  const Site site = plan::ReadSite({.map = map, .dem = terrain}, plan::PlanOptions{});
   FacadeIds ids;
   for (const House& house : town.houses) ids.emplace_back(house.party.size());
   const std::vector<Wall> walls = FreeWalls(town);
-  for (const plan::Facade& facade : site.facades) {
+  for (const Facade& facade : site.facades) {
     const Vector2d a = ToScene(georef, site.origin, facade.a);
     const Vector2d b = ToScene(georef, site.origin, facade.b);
     const auto wall = std::find_if(walls.begin(), walls.end(), [&](const Wall& w) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "plan/hover.h"
-#include "plan/site.h"
 #include "plan/space/obstacles.h"
+#include "site/site.h"
 #include "survey/intervals.h"
 
 namespace stucco::plan {

@@ -10,10 +10,10 @@
 #include "plan/internal/noding.h"
 #include "plan/internal/ogr.h"
 #include "plan/map/clean.h"
-#include "plan/map/facades.h"
-#include "plan/map/ground.h"
+#include "site/facades.h"
+#include "site/ground.h"
 #include "survey/geometry2d.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {

@@ -12,7 +12,7 @@
 #include "survey/files.h"
 #include "survey/geometry2d.h"
 #include "tests/plan/made_map.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {

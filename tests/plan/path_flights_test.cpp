@@ -10,7 +10,7 @@
 #include "plan/path/flights.h"
 #include "survey/error.h"
 #include "tests/plan/made_hovers.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 #include "tests/survey/stage_support.h"
 
 namespace stucco::plan {

@@ -14,7 +14,7 @@
 #include "plan/space/obstacles.h"
 #include "survey/error.h"
 #include "survey/geometry2d.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 #include "tests/survey/stage_support.h"
 
 namespace stucco::plan {
@@ -36,7 +36,7 @@ PlanarOptions Options() {
 }
 
 SurfaceView ViewOf(const Site& site) {
-  return {site, FindCamera("mavic-3e"),
+  return {site, FindCamera("mavic-3e").Field(),
           SampleSurface(site, {.spacing_m = 5, .ground_reach_m = 2 * site.d_min_m}), kDMax};
 }
 
@@ -50,7 +50,7 @@ std::vector<SampleState> StatesWith(const SurfaceView& view, const std::vector<H
 TEST(RemoveRedundant, LeavesWhatIsRequiredAndNothingThatCouldGo) {
   const Site site = Town();
   const SurfaceView view = ViewOf(site);
-  const std::vector<Hover> grid = GridHovers(site, view.camera, Options().grid);
+  const std::vector<Hover> grid = GridHovers(site, FindCamera("mavic-3e"), Options().grid);
   const double tau = 10 * GoodPair(26, kDMax);
   ViewGraph graph(view, kDMax, 1);
   graph.AddAll(grid);
@@ -88,7 +88,7 @@ TEST(Requirements, AreWhatTheFullSetGives) {
   const Site site = Town();
   const SurfaceView view = ViewOf(site);
   ViewGraph graph(view, kDMax, 1);
-  graph.AddAll(GridHovers(site, view.camera, Options().grid));
+  graph.AddAll(GridHovers(site, FindCamera("mavic-3e"), Options().grid));
   const double tau = 100;
   const auto requirements = RequirementsOf(graph, view.samples, tau);
   int below = 0;
@@ -108,9 +108,9 @@ TEST(Requirements, AreWhatTheFullSetGives) {
 TEST(PlanarViews, KeepCoverageWithFarFewerHovers) {
   const Site site = Town();
   const SurfaceView view = ViewOf(site);
-  const std::vector<Hover> grid = GridHovers(site, view.camera, Options().grid);
+  const std::vector<Hover> grid = GridHovers(site, FindCamera("mavic-3e"), Options().grid);
   const std::vector<Hover> views =
-      PlanarViews(site, view.camera, Options(), {}, 1, SilentProgress());
+      PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, 1, SilentProgress());
   EXPECT_LT(views.size(), grid.size() / 2);
   EXPECT_GT(views.size(), 4U);
   const auto before = StatesWith(view, grid);
@@ -209,7 +209,7 @@ TEST(PlanarViews, FollowTheTerrain) {
   const Site site = Slope();
   const SurfaceView view = ViewOf(site);
   const Obstacles obstacles(site);
-  const auto views = PlanarViews(site, view.camera, Options(), {}, 1, SilentProgress());
+  const auto views = PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, 1, SilentProgress());
   double lowest = 1e9, highest = 0;
   for (const Hover& hover : views) {
     EXPECT_EQ(hover.position.z(), site.CeilingAt(hover.position.head<2>()));
@@ -234,7 +234,7 @@ TEST(MoveHovers, GainsWithoutLosing) {
   const Site site = Town();
   const SurfaceView view = ViewOf(site);
   const double tau = 10 * GoodPair(26, kDMax);
-  std::vector<Hover> grid = GridHovers(site, view.camera, Options().grid);
+  std::vector<Hover> grid = GridHovers(site, FindCamera("mavic-3e"), Options().grid);
   ViewGraph graph(view, kDMax, 1);
   graph.AddAll(grid);
   const auto requirements = RequirementsOf(graph, view.samples, tau);
