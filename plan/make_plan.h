@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "plan/camera/preset.h"
-#include "plan/options.h"
+#include "plan/options/plan_options.h"
 #include "plan/output/stats.h"
 #include "site/site.h"
 #include "survey/plan.h"

@@ -16,15 +16,15 @@ namespace stucco {
 
 // What one picture sees of a facade.
 struct SeenView {
-  int place = 0;    // index of a viewpoint
-  int picture = 0;  // of those taken there
+  int place = 0;                                        // index of a viewpoint
+  int picture = 0;                                      // of those taken there
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // of the camera, unit
   std::vector<uint32_t> cells;                          // ascending, not empty
 };
 
-// Finds the pictures that see a facade: in the picture, not farther than `reach_m` in space, at most
-// kMaxIncidence_rad off the normal and with nothing of the site in between. Safe to ask from several
-// threads.
+// Finds the pictures that see a facade: in the picture, not farther than `reach_m` in space, at
+// most kMaxIncidence_rad off the normal and with nothing of the site in between. Safe to ask from
+// several threads.
 class FacadeViews {
  public:
   // Keeps a reference to the site.

@@ -31,9 +31,8 @@ bool IsOn(const Footprint& footprint, const PlannedFacade& facade) {
 // The footprint of the facade's building (B0012 of B0012/F03) that it is a wall of; -1: none.
 int FootprintOf(const PlannedFacade& facade, const Site& site, const ByBuilding& footprints) {
   const auto [begin, end] = footprints.equal_range(facade.id.substr(0, facade.id.find('/')));
-  const auto found = std::find_if(begin, end, [&](const auto& entry) {
-    return IsOn(site.footprints[entry.second], facade);
-  });
+  const auto found = std::find_if(
+      begin, end, [&](const auto& entry) { return IsOn(site.footprints[entry.second], facade); });
   return found == end ? -1 : found->second;
 }
 
@@ -50,8 +49,8 @@ std::vector<Polygon> PolygonsOf(const std::vector<Ring>& rings) {
 void AddFacades(const Plan& plan, const ByBuilding& footprints, Site& site) {
   for (const PlannedFacade& facade : plan.facades) {
     const int footprint = FootprintOf(facade, site, footprints);
-    site.facades.push_back({facade.id, footprint, facade.a_m, facade.b_m, facade.z_m,
-                            facade.top_known});
+    site.facades.push_back(
+        {facade.id, footprint, facade.a_m, facade.b_m, facade.z_m, facade.top_known});
     if (footprint < 0) continue;
     site.footprints[footprint].in_area = true;
     site.footprints[footprint].top_known = facade.top_known;

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "plan/camera/hover.h"
 #include "plan/camera/preset.h"
-#include "plan/hover.h"
 #include "site/site.h"
 #include "survey/stage.h"
 

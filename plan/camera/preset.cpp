@@ -10,7 +10,7 @@
 #include <optional>
 #include <regex>
 
-#include "plan/internal/presets.h"
+#include "plan/camera/internal/presets.h"
 #include "survey/error.h"
 #include "survey/options.h"
 

@@ -80,17 +80,6 @@ Level MakeLevel(const Site& site, std::vector<int> facades) {
 
 }  // namespace
 
-DippingSetting MakeSetting(const Site& site, const Obstacles& obstacles, const CameraPreset& camera,
-                           double d_max_m) {
-  return {.site = site,
-          .obstacles = obstacles,
-          .hfov_rad = camera.HorizontalFov(),
-          .width_per_m = camera.WidthAt(1),
-          .height_per_m = camera.HeightAt(1),
-          .d_min_m = site.d_min_m,
-          .d_max_m = d_max_m};
-}
-
 std::vector<Level> SplitIntoLevels(const Site& site) {
   std::vector<int> ground;
   std::vector<int> raised;

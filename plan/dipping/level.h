@@ -4,28 +4,12 @@
 
 #include <vector>
 
-#include "plan/camera/preset.h"
 #include "plan/dipping/reach.h"
-#include "plan/space/obstacles.h"
+#include "plan/dipping/setting.h"
 #include "site/site.h"
 #include "site/visibility.h"
 
 namespace stucco::plan {
-
-// What the dipping views are planned with.
-struct DippingSetting {
-  const Site& site;
-  const Obstacles& obstacles;
-  double hfov_rad = 0;
-  double width_per_m = 0;  // of the wall in a photo, per metre of distance
-  double height_per_m = 0;
-  double d_min_m = 0;
-  double d_max_m = 0;
-  double vertical_step = 0.8;  // k_d
-  int threads = 1;
-};
-DippingSetting MakeSetting(const Site& site, const Obstacles& obstacles, const CameraPreset& camera,
-                           double d_max_m);
 
 // The walls that begin at about the same height: those on the ground, or those above one or more
 // roofs of lower parts of the same buildings. Each level is planned as a flat map of its own.

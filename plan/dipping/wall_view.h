@@ -6,9 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "plan/dipping/level.h"
+#include "plan/dipping/setting.h"
 #include "plan/quality/facade_quality.h"
-#include "site/incidence.h"
 #include "site/site.h"
 #include "survey/intervals.h"
 

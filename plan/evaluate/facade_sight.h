@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "plan/camera/hover.h"
 #include "plan/camera/preset.h"
-#include "plan/hover.h"
 #include "plan/quality/facade_quality.h"
 #include "site/facade_views.h"
 #include "site/site.h"

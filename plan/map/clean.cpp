@@ -11,9 +11,9 @@
 #include <set>
 #include <string>
 
-#include "plan/internal/noding.h"
-#include "plan/internal/ogr.h"
-#include "plan/internal/outlines.h"
+#include "plan/map/internal/noding.h"
+#include "plan/map/internal/ogr.h"
+#include "plan/map/internal/outlines.h"
 #include "site/box_grid.h"
 #include "site/facades.h"
 #include "survey/geometry2d.h"

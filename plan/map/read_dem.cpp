@@ -9,8 +9,8 @@
 #include <cmath>
 #include <limits>
 
-#include "plan/internal/ogr.h"
 #include "plan/map/crs.h"
+#include "plan/map/internal/ogr.h"
 #include "survey/error.h"
 
 namespace stucco::plan {

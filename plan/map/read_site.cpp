@@ -10,11 +10,11 @@
 #include <map>
 #include <set>
 
-#include "plan/internal/ogr.h"
-#include "plan/internal/outlines.h"
 #include "plan/map/clean.h"
 #include "plan/map/crs.h"
 #include "plan/map/home.h"
+#include "plan/map/internal/ogr.h"
+#include "plan/map/internal/outlines.h"
 #include "plan/map/read_dem.h"
 #include "plan/map/read_map.h"
 #include "site/facades.h"

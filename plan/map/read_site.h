@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "plan/options.h"
+#include "plan/options/plan_options.h"
 #include "site/site.h"
 
 namespace stucco::plan {

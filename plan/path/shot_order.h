@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "plan/hover.h"
+#include "plan/camera/hover.h"
 
 namespace stucco::plan {
 

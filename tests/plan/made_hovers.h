@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "plan/hover.h"
+#include "plan/camera/hover.h"
 #include "plan/space/obstacles.h"
 #include "site/site.h"
 #include "survey/intervals.h"

@@ -7,9 +7,9 @@
 #include <chrono>
 #include <random>
 
-#include "plan/internal/noding.h"
-#include "plan/internal/ogr.h"
 #include "plan/map/clean.h"
+#include "plan/map/internal/noding.h"
+#include "plan/map/internal/ogr.h"
 #include "site/facades.h"
 #include "site/ground.h"
 #include "survey/geometry2d.h"

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "plan/internal/attributes.h"
+#include "plan/map/internal/attributes.h"
 #include "plan/map/read_map.h"
 #include "plan/map/read_site.h"
 #include "plan/map/repairs.h"

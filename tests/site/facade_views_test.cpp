@@ -24,8 +24,7 @@ Site House() {
 }
 
 Viewpoint Looking(const Eigen::Vector3d& from, double yaw_deg, double pitch_deg = 0) {
-  return {from,
-          {LevelFrustum(kField, from, yaw_deg * kPi / 180, pitch_deg * kPi / 180, kReach_m)}};
+  return {from, {LevelFrustum(kField, from, yaw_deg * kPi / 180, pitch_deg * kPi / 180, kReach_m)}};
 }
 
 size_t CellsSeen(const Site& site, const Viewpoint& place, int facade = 0) {

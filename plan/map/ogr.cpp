@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/internal/ogr.h"
+#include "plan/map/internal/ogr.h"
 
 #include <cpl_error.h>
 #include <cpl_string.h>

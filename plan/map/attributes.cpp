@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/internal/attributes.h"
+#include "plan/map/internal/attributes.h"
 
 #include <fmt/format.h>
 

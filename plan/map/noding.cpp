@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/internal/noding.h"
+#include "plan/map/internal/noding.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "plan/map/read_map.h"
+#include "plan/map/raw_map.h"
+#include "plan/options/plan_options.h"
 
 namespace stucco::plan::internal {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "plan/map/read_map.h"
+#include "plan/map/raw_map.h"
 
 namespace stucco::plan::internal {
 

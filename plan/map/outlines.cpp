@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/internal/outlines.h"
+#include "plan/map/internal/outlines.h"
 
 #include <algorithm>
 
-#include "plan/internal/noding.h"
-#include "plan/internal/ogr.h"
+#include "plan/map/internal/noding.h"
+#include "plan/map/internal/ogr.h"
 #include "site/facades.h"
 #include "survey/geometry2d.h"
 
