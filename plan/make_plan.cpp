@@ -16,8 +16,8 @@
 #include "plan/evaluate/target_all.h"
 #include "plan/path/flights.h"
 #include "plan/planar/planar_views.h"
-#include "plan/quality/intervals.h"
 #include "survey/error.h"
+#include "survey/intervals.h"
 
 namespace stucco::plan {
 namespace {
@@ -54,9 +54,9 @@ std::vector<Hover> Cocapture(const Task& task, Progress& progress) {
                   dipping.points, dipping.candidates, dipping.rounds, dipping.optimise_s));
   const PlanarOptions planar = {.grid = GridOf(task.options),
                                 .d_max_m = PlanarReach(task),
-                                .tau_r = task.options.reconstructability};
-  std::vector<Hover> above =
-      PlanarViews(task.site, task.camera, planar, dipping.hovers, task.threads, progress);
+                                .tau_r = task.options.reconstructability,
+                                .threads = task.threads};
+  std::vector<Hover> above = PlanarViews(task.site, task.camera, planar, dipping.hovers, progress);
   std::vector<Hover> hovers = std::move(dipping.hovers);
   std::move(above.begin(), above.end(), std::back_inserter(hovers));
   return hovers;
@@ -207,8 +207,8 @@ PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, P
   std::vector<Hover> hovers = PlanViews(task, progress);
   Assign(task, hovers);
   const size_t planned = hovers.size();
-  FlightPlan path =
-      PlanFlights(site, task.camera, options.battery_percent, std::move(hovers), threads, progress);
+  FlightPlan path = PlanFlights(site, {task.camera.battery_scale, options.battery_percent},
+                                std::move(hovers), threads, progress);
   const std::vector<Intervals> unobservable = NotDippedAt(site, path.hovers);
   if (path.hovers.size() < planned && options.method == "cocapture") Assign(task, path.hovers);
   PlanResult result;

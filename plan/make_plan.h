@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "plan/camera/preset.h"
-#include "plan/options.h"
+#include "plan/options/plan_options.h"
 #include "plan/output/stats.h"
-#include "plan/site.h"
+#include "site/site.h"
 #include "survey/plan.h"
 #include "survey/stage.h"
 

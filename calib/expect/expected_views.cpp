@@ -5,10 +5,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "calib/project_inside.h"
+#include "site/sightings.h"
+#include "site/site_model.h"
+#include "site/site_of_plan.h"
 #include "survey/parallel.h"
 
 namespace stucco {
@@ -16,6 +18,8 @@ namespace {
 
 constexpr double kRadians = M_PI / 180;
 constexpr double kSpacing_m = 2;
+constexpr double kGroundReach_m = 30;
+constexpr double kOffSurface_m = 0.05;  // a line of sight to a photo begins at the point
 // Farther than this multiple of the farthest distance that the plan counts on, photos show the site
 // too small for its features to match.
 constexpr double kReach = 4;
@@ -37,49 +41,22 @@ constexpr size_t kWallsOfPhoto = 8;
 constexpr int kLeastShared = 6;
 constexpr double kLeastShare = 0.05;  // of what the photo sees
 
-// Points by square cells of the ground plan.
-class PointGrid {
- public:
-  PointGrid(const std::vector<SitePoint>& points, double cell_m) : cell_m_(cell_m) {
-    for (size_t i = 0; i < points.size(); ++i) {
-      cells_[CellOf(points[i].position.head<2>())].push_back(static_cast<int>(i));
-    }
-  }
-  // Points of all cells that reach into the square around `place`, in no order.
-  std::vector<int> Near(const Eigen::Vector2d& place, double reach_m) const {
-    const auto low = CellOf(place.array() - reach_m);
-    const auto high = CellOf(place.array() + reach_m);
-    std::vector<int> found;
-    for (int x = low.first; x <= high.first; ++x) {
-      for (auto cell = cells_.lower_bound({x, low.second});
-           cell != cells_.end() && cell->first <= std::pair(x, high.second); ++cell) {
-        found.insert(found.end(), cell->second.begin(), cell->second.end());
-      }
-    }
-    return found;
-  }
-
- private:
-  std::pair<int, int> CellOf(const Eigen::Vector2d& place) const {
-    return {static_cast<int>(std::floor(place.x() / cell_m_)),
-            static_cast<int>(std::floor(place.y() / cell_m_))};
-  }
-  double cell_m_;
-  std::map<std::pair<int, int>, std::vector<int>> cells_;
-};
-
 std::vector<int> SeenBy(const Pose& pose, const Camera& camera,
-                        const std::vector<SitePoint>& points, std::vector<int> candidates,
-                        const Occluders& site) {
+                        const std::vector<SurfaceSample>& points,
+                        const std::vector<uint32_t>& candidates, const Occluders& site) {
   const Eigen::Vector3d center = pose.Center();
-  std::erase_if(candidates, [&](int i) {
-    const Eigen::Vector3d way = center - points[i].position;
-    return way.dot(points[i].normal) < kLeastFacing * way.norm() ||
-           !ProjectInside(camera, pose * points[i].position) ||
-           site.Block(points[i].position, way, 1);
-  });
-  std::sort(candidates.begin(), candidates.end());
-  return candidates;
+  std::vector<int> seen;
+  for (const uint32_t i : candidates) {
+    const SurfaceSample& point = points[i];
+    const Eigen::Vector3d way = center - point.position;
+    if (way.dot(point.normal) < kLeastFacing * way.norm() ||
+        !ProjectInside(camera, pose * point.position) || site.Block(point.position, way, 1)) {
+      continue;
+    }
+    seen.push_back(static_cast<int>(i));
+  }
+  std::sort(seen.begin(), seen.end());
+  return seen;
 }
 
 // How a photo sees a point.
@@ -154,7 +131,7 @@ std::vector<WallRange> WallsOf(const ExpectedViews& views, size_t photo) {
   std::vector<WallRange> walls;
   const std::vector<int>& seen = views.seen[photo];
   for (size_t i = 0; i < seen.size(); ++i) {
-    const int wall = views.points[seen[i]].wall;
+    const int wall = views.points[seen[i]].facade;
     if (wall < 0) continue;
     if (walls.empty() || walls.back().wall != wall) walls.push_back({wall, i, i});
     walls.back().end = i + 1;
@@ -171,20 +148,24 @@ std::vector<WallRange> WallsOf(const ExpectedViews& views, size_t photo) {
 }  // namespace
 
 ExpectedViews ExpectViews(ExpectInput input, const StageContext& context) {
-  const SiteMesh mesh = MeshOfSite(input.plan);
+  const Site site = SiteOfPlan(input.plan);
   const double reach_m =
       std::clamp(kReach * std::max(input.plan.safe_altitude_m, input.plan.d_max_m), kLeastReach_m,
                  kMostReach_m);
-  std::vector<SitePoint> points = SampleSite(input.plan, kSpacing_m, AreaOf(input.poses, reach_m));
-  ExpectedViews views{
-      std::move(input.poses), std::move(points), {}, Occluders(mesh.vertices, mesh.triangles)};
+  std::vector<SurfaceSample> points = SampleSurface(site, {.spacing_m = kSpacing_m,
+                                                           .never_farther = true,
+                                                           .fewest_rows = 1,
+                                                           .ground_reach_m = kGroundReach_m,
+                                                           .off_surface_m = kOffSurface_m,
+                                                           .within = AreaOf(input.poses, reach_m)});
+  ExpectedViews views{std::move(input.poses), std::move(points), {}, OccludersOf(site)};
   views.seen.resize(views.poses.size());
-  const PointGrid grid(views.points, reach_m / 4);
+  const SampleIndex index(views.points, reach_m / 4);
   ParallelFor(views.poses.size(), context.threads, [&](size_t i) {
     const auto& pose = views.poses[i];
     if (!pose) return;
     views.seen[i] = SeenBy(*pose, *input.cameras[i], views.points,
-                           grid.Near(pose->Center().head<2>(), reach_m), views.site);
+                           index.Near(pose->Center().head<2>(), reach_m), views.site);
   });
   return views;
 }

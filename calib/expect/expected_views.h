@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "calib/expect/site.h"
+#include "site/surface_samples.h"
 #include "survey/camera.h"
 #include "survey/occluders.h"
 #include "survey/plan.h"
@@ -19,7 +19,7 @@ namespace stucco {
 // What the photos should show of the site, from their expected poses.
 struct ExpectedViews {
   std::vector<std::optional<Pose>> poses;  // cam_from_plan
-  std::vector<SitePoint> points;
+  std::vector<SurfaceSample> points;
   // Per photo: indices of the points it should see, ascending. Empty without an expected pose.
   std::vector<std::vector<int>> seen;
   Occluders site;  // buildings and ground

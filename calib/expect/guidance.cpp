@@ -30,8 +30,8 @@ WallView ViewOfWall(const Plan& plan, const ExpectedViews& views, int photo, int
     interval.to_m = std::max(interval.to_m, value);
   };
   for (const int point : views.seen[photo]) {
-    const SitePoint& p = views.points[point];
-    if (p.wall != wall) continue;
+    const SurfaceSample& p = views.points[point];
+    if (p.facade != wall) continue;
     include((p.position.head<2>() - facade.a_m).dot(along), view.along_m);
     include(p.position.z(), view.z_m);
   }

@@ -54,7 +54,7 @@ plan::SiteInputs InputsOf(const PlanRequest& request) {
   return inputs;
 }
 
-PlanSummary Summarise(const plan::PlanResult& result, const plan::Site& site) {
+PlanSummary Summarise(const plan::PlanResult& result, const Site& site) {
   PlanSummary summary;
   summary.method = result.plan.method;
   summary.photos = result.plan.views.size();
@@ -85,7 +85,7 @@ PlanSummary PlanSurvey(const fs::path& survey, const PlanRequest& request, const
   const plan::PlanOptions options = ReadOptions(request.set);
   const int threads = request.threads > 0 ? request.threads : AvailableCores();
   // All that can be wrong with the input shows before the survey is touched.
-  const plan::Site site = plan::ReadSite(InputsOf(request), options);
+  const Site site = plan::ReadSite(InputsOf(request), options);
   InitWaitingSurvey(survey, table);
   const SurveyLock lock(survey, fmt::format("plan {}", request.map.string()), platform);
   CleanScratch(survey);

@@ -9,10 +9,11 @@
 #include <optional>
 #include <queue>
 
-#include "plan/model/sightings.h"
 #include "plan/planar/reconstructability.h"
 #include "plan/planar/view_graph.h"
 #include "plan/space/obstacles.h"
+#include "site/incidence.h"
+#include "site/sightings.h"
 #include "survey/error.h"
 #include "survey/parallel.h"
 
@@ -25,7 +26,6 @@ constexpr double kGroundReach = 2;  // in d_min
 // A candidate that is not free turns up around its sample, towards the vertical, in these steps;
 // then it rises, still over the same point.
 constexpr double kTurn_rad = 5 * std::numbers::pi / 180;
-constexpr double kSteepest_rad = 75 * std::numbers::pi / 180;
 constexpr double kRise_m = 1;
 
 // Constants of the removal (Zhou et al. 2020 and its published code): the target in good pairs;
@@ -65,13 +65,13 @@ class Candidates {
 bool Candidates::Serves(const Eigen::Vector3d& place, const SurfaceSample& sample) const {
   const Eigen::Vector3d ray = place - sample.position;
   return ray.norm() <= view_.reach_m &&
-         ray.dot(sample.normal) >= std::cos(kSteepest_rad) * ray.norm() &&
+         ray.dot(sample.normal) >= std::cos(kMaxIncidence_rad) * ray.norm() &&
          obstacles_.IsFree(place) && view_.model.Sees(place, sample.position);
 }
 
 std::optional<Eigen::Vector3d> Candidates::PlaceFor(const SurfaceSample& sample) const {
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  for (double turn = 0; turn <= kSteepest_rad + 1e-9; turn += kTurn_rad) {
+  for (double turn = 0; turn <= kMaxIncidence_rad + 1e-9; turn += kTurn_rad) {
     const Eigen::Vector3d direction =
         (std::cos(turn) * sample.normal + std::sin(turn) * up).normalized();
     const Eigen::Vector3d place = sample.position + distance_m_ * direction;
@@ -188,7 +188,7 @@ std::vector<Hover> DroneScanViews(const Site& site, const CameraPreset& camera,
   const double spacing = options.sample_spacing_m > 0 ? options.sample_spacing_m
                                                       : (1 - kOverlap) * camera.HeightAt(distance);
   const SurfaceView view(
-      site, camera,
+      site, camera.Field(),
       SampleSurface(site, {.spacing_m = spacing, .ground_reach_m = kGroundReach * site.d_min_m}),
       options.d_max_m);
   const std::vector<Hover> candidates = AllCandidates(site, view, distance, threads);

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "plan/camera/hover.h"
 #include "plan/camera/preset.h"
-#include "plan/hover.h"
-#include "plan/site.h"
+#include "site/site.h"
 #include "survey/stage.h"
 
 namespace stucco::plan {

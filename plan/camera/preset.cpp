@@ -10,7 +10,7 @@
 #include <optional>
 #include <regex>
 
-#include "plan/internal/presets.h"
+#include "plan/camera/internal/presets.h"
 #include "survey/error.h"
 #include "survey/options.h"
 
@@ -122,10 +122,6 @@ const toml::table& Presets() {
 
 double CameraPreset::HorizontalFov() const {
   return 2 * std::atan(camera.sensor_width_m / (2 * camera.focal_m));
-}
-
-double CameraPreset::VerticalFov() const {
-  return 2 * std::atan(camera.sensor_height_m / (2 * camera.focal_m));
 }
 
 std::vector<std::string> CameraNames() {

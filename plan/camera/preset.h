@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "site/frustum.h"
 #include "survey/plan.h"
 
 namespace stucco::plan {
@@ -18,7 +19,6 @@ struct CameraPreset {
   double battery_scale = 1;  // batteries of a Mavic 3E that one of this drone is worth
 
   double HorizontalFov() const;  // radians
-  double VerticalFov() const;
   double PixelPitch() const { return camera.sensor_width_m / camera.width_px; }
   // Size of what the sensor sees on a plane at this distance.
   double WidthAt(double distance_m) const {
@@ -27,6 +27,7 @@ struct CameraPreset {
   double HeightAt(double distance_m) const {
     return camera.sensor_height_m / camera.focal_m * distance_m;
   }
+  FieldOfView Field() const { return {WidthAt(0.5), HeightAt(0.5)}; }
   // The distance at which a pixel covers `gsd_m`.
   double DistanceForGsd(double gsd_m) const { return gsd_m * camera.focal_m / PixelPitch(); }
 };

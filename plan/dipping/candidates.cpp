@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "plan/dipping/wall_view.h"
+#include "site/incidence.h"
 #include "survey/parallel.h"
 
 namespace stucco::plan {
@@ -134,7 +135,8 @@ std::vector<Vector2d> PointsThatSee(const Level& level, const DippingSetting& se
       const double along = part.from_m + part.length_m() * (i + 0.5) / samples;
       const Vector2d x = facade.a + facade.along() * along;
       SquareMetres squares;
-      for (double turn = -kMaxIncidence + kRayStep / 2; turn < kMaxIncidence; turn += kRayStep) {
+      for (double turn = -kMaxIncidence_rad + kRayStep / 2; turn < kMaxIncidence_rad;
+           turn += kRayStep) {
         const Vector2d ray = -Direction(facade, turn);
         const auto p = FirstAllowed(level, setting, x, ray);
         if (p && squares.Take(*p)) points.push_back(*p);

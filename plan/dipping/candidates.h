@@ -4,15 +4,10 @@
 
 #include <vector>
 
+#include "plan/dipping/candidate.h"
 #include "plan/dipping/level.h"
 
 namespace stucco::plan {
-
-// A point where the drone may dip, and what it sees from there in all directions.
-struct Candidate {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  std::vector<SeenFacade> seen;
-};
 
 // Points from which the walls of the level may be captured: a regular grid over the site's area,
 // points straight in front of every wall, and, for wall parts that none of these sees, any other

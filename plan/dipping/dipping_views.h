@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "plan/camera/hover.h"
 #include "plan/dipping/level.h"
-#include "plan/hover.h"
 #include "survey/stage.h"
 
 namespace stucco::plan {

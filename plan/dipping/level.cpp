@@ -42,7 +42,7 @@ Intervals Uncovered(const Site& site, const std::vector<int>& facades, const Vec
 
 // The facades of the level on this footprint, and the rest of its contour, which only blocks.
 void AddWalls(const Site& site, int footprint, const std::vector<int>& facades,
-              std::vector<Wall>& walls) {
+              std::vector<MapWall>& walls) {
   for (const int facade : facades) {
     walls.push_back({site.facades[facade].a, site.facades[facade].b, facade});
   }
@@ -66,7 +66,7 @@ Level MakeLevel(const Site& site, std::vector<int> facades) {
     top_of_feet = std::max(top_of_feet, site.facades[facade].z_m.from_m);
     by_footprint[site.facades[facade].footprint].push_back(facade);
   }
-  std::vector<Wall> walls;
+  std::vector<MapWall> walls;
   for (size_t i = 0; i < site.footprints.size(); ++i) {
     const auto own = by_footprint.find(static_cast<int>(i));
     if (own != by_footprint.end()) {
@@ -79,17 +79,6 @@ Level MakeLevel(const Site& site, std::vector<int> facades) {
 }
 
 }  // namespace
-
-DippingSetting MakeSetting(const Site& site, const Obstacles& obstacles, const CameraPreset& camera,
-                           double d_max_m) {
-  return {.site = site,
-          .obstacles = obstacles,
-          .hfov_rad = camera.HorizontalFov(),
-          .width_per_m = camera.WidthAt(1),
-          .height_per_m = camera.HeightAt(1),
-          .d_min_m = site.d_min_m,
-          .d_max_m = d_max_m};
-}
 
 std::vector<Level> SplitIntoLevels(const Site& site) {
   std::vector<int> ground;

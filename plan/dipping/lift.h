@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "plan/camera/hover.h"
 #include "plan/dipping/level.h"
 #include "plan/dipping/wall_view.h"
-#include "plan/hover.h"
 
 namespace stucco::plan {
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "plan/dipping/candidates.h"
 #include "survey/parallel.h"
 
 namespace stucco::plan {

@@ -6,13 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "plan/quality/intervals.h"
-#include "plan/site.h"
+#include "plan/dipping/candidate.h"
+#include "plan/dipping/setting.h"
+#include "site/site.h"
+#include "survey/intervals.h"
 
 namespace stucco::plan {
-
-struct Candidate;
-struct DippingSetting;
 
 // From how far away each part of a wall may be captured: at most `kFarther` times the distance from
 // which it can be, or a fifth of d_max where that is more (pixels five times as fine as asked for

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "site/incidence.h"
+
 namespace stucco::plan {
 namespace {
 
@@ -29,14 +31,14 @@ Vector2d Direction(const Facade& facade, double turn_rad) {
 
 Interval FrontalWindow(const Facade& facade, const Vector2d& p) {
   const double foot = FootOf(facade, p);
-  const double half = std::max(0.0, DistanceTo(facade, p)) * std::tan(kMaxIncidence);
+  const double half = std::max(0.0, DistanceTo(facade, p)) * std::tan(kMaxIncidence_rad);
   return {foot - half, foot + half};
 }
 
 Interval FieldWindow(const Facade& facade, const Vector2d& p, double turn_rad, double hfov_rad) {
   const double foot = FootOf(facade, p), distance = std::max(0.0, DistanceTo(facade, p));
-  const double low = std::clamp(turn_rad - hfov_rad / 2, -kMaxIncidence, kMaxIncidence);
-  const double high = std::clamp(turn_rad + hfov_rad / 2, -kMaxIncidence, kMaxIncidence);
+  const double low = std::clamp(turn_rad - hfov_rad / 2, -kMaxIncidence_rad, kMaxIncidence_rad);
+  const double high = std::clamp(turn_rad + hfov_rad / 2, -kMaxIncidence_rad, kMaxIncidence_rad);
   return {foot + distance * std::tan(low), foot + distance * std::tan(high)};
 }
 

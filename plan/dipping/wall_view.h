@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "plan/dipping/level.h"
+#include "plan/dipping/setting.h"
 #include "plan/quality/facade_quality.h"
-#include "plan/quality/intervals.h"
-#include "plan/site.h"
+#include "site/site.h"
+#include "survey/intervals.h"
 
 namespace stucco::plan {
 
@@ -33,7 +33,7 @@ struct DippingPoint {
 double DistanceTo(const Facade& facade, const Eigen::Vector2d& p);
 Eigen::Vector2d Direction(const Facade& facade, double turn_rad);
 
-// The stretch of the facade's line that p sees at no more than kMaxIncidence.
+// The stretch of the facade's line that p sees at no more than kMaxIncidence_rad.
 Interval FrontalWindow(const Facade& facade, const Eigen::Vector2d& p);
 // The stretch of the facade's line that lies in the field of view of a camera at p; `turn_rad` as
 // in WallView.

@@ -77,7 +77,7 @@ std::vector<Assignment> AssignFacade(const FacadeSight& sight, int facade) {
   std::vector<double> scores(views.size());
   for (size_t i = 0; i < views.size(); ++i) {
     const SeenView& view = views[i];
-    if (HasTargetOn(sight.hovers()[view.hover].shots[view.shot], facade)) {
+    if (HasTargetOn(sight.hovers()[view.place].shots[view.picture], facade)) {
       coverage.Add(MeantCells(sight, facade, view));
       continue;
     }
@@ -97,7 +97,7 @@ std::vector<Assignment> AssignFacade(const FacadeSight& sight, int facade) {
       continue;
     }
     coverage.Add(added);
-    out.push_back({views[i].hover, views[i].shot, BoxAround(grid, facade, added)});
+    out.push_back({views[i].place, views[i].picture, BoxAround(grid, facade, added)});
   }
   return out;
 }
@@ -129,7 +129,7 @@ FacadeReport ReportOn(const FacadeSight& sight, int facade) {
 
 std::vector<uint32_t> MeantCells(const FacadeSight& sight, int facade, const SeenView& view) {
   std::vector<const Target*> targets;
-  for (const Target& target : sight.hovers()[view.hover].shots[view.shot].targets) {
+  for (const Target& target : sight.hovers()[view.place].shots[view.picture].targets) {
     if (target.facade == facade) targets.push_back(&target);
   }
   std::vector<uint32_t> out;

@@ -4,10 +4,10 @@
 
 #include <vector>
 
+#include "plan/camera/hover.h"
 #include "plan/camera/preset.h"
-#include "plan/evaluate/facade_views.h"
-#include "plan/hover.h"
-#include "plan/site.h"
+#include "plan/evaluate/facade_sight.h"
+#include "site/site.h"
 
 namespace stucco::plan {
 

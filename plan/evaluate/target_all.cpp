@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plan/evaluate/target_all.h"
 
-#include "plan/evaluate/facade_views.h"
+#include "plan/evaluate/facade_sight.h"
 #include "survey/parallel.h"
 
 namespace stucco::plan {
@@ -16,7 +16,7 @@ void TargetAllSeen(const Site& site, const CameraPreset& camera, double d_max_m,
   for (size_t i = 0; i < views.size(); ++i) {
     const int facade = static_cast<int>(i);
     for (const SeenView& view : views[i]) {
-      hovers[view.hover].shots[view.shot].targets.push_back(
+      hovers[view.place].shots[view.picture].targets.push_back(
           BoxAround(sight.grid(facade), facade, view.cells));
     }
   }

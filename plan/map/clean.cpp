@@ -11,12 +11,12 @@
 #include <set>
 #include <string>
 
-#include "plan/internal/box_grid.h"
-#include "plan/internal/noding.h"
-#include "plan/internal/ogr.h"
-#include "plan/internal/outlines.h"
-#include "plan/map/facades.h"
-#include "plan/polygons.h"
+#include "plan/map/internal/noding.h"
+#include "plan/map/internal/ogr.h"
+#include "plan/map/internal/outlines.h"
+#include "site/box_grid.h"
+#include "site/facades.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 namespace {
@@ -38,7 +38,7 @@ std::vector<Footprint> FootprintsOf(const MapFeature& feature, RepairLog& repair
   return footprints;
 }
 
-internal::BoxGrid GridOf(const std::vector<Footprint>& footprints) {
+BoxGrid GridOf(const std::vector<Footprint>& footprints) {
   std::vector<Eigen::AlignedBox2d> boxes;
   boxes.reserve(footprints.size());
   for (const Footprint& footprint : footprints) {
@@ -100,7 +100,7 @@ class PartAssigner {
 
   std::vector<Footprint>& footprints_;
   const std::vector<bool>& is_loose_part_;
-  internal::BoxGrid grid_;
+  BoxGrid grid_;
   std::vector<Footprint> rest_;
 };
 
@@ -118,7 +118,7 @@ class OverlapCutter {
     dropped_.assign(footprints_.size(), false);
     cuts_.clear();
     lifts_.clear();
-    const internal::BoxGrid grid = GridOf(footprints_);
+    const BoxGrid grid = GridOf(footprints_);
     const std::vector<bool> known_apart = KnownApart();
     for (size_t i = 0; i < footprints_.size(); ++i) {
       const auto box = BoundsOf(footprints_[i].outline);
@@ -320,7 +320,7 @@ void DropIdleCorners(std::vector<Footprint>& footprints) {
         constexpr double kStraight = 0.999;  // a bend that snapping makes, not one of a round wall
         const double ahead = (ring[i] - last).normalized().dot((next - ring[i]).normalized());
         const bool idle = uses.at(ring[i]) == 1 && ahead > kStraight &&
-                          DistanceToSegment(ring[i], last, next) <= kSnap_m;
+                          Distance(Segment2d{last, next}, ring[i]) <= kSnap_m;
         if (!idle) kept.push_back(ring[i]);
       }
       if (kept.size() >= 3) ring = std::move(kept);

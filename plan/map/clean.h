@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "plan/map/read_map.h"
-#include "plan/site.h"
+#include "plan/map/raw_map.h"
+#include "site/site.h"
 
 namespace stucco::plan {
 

@@ -10,7 +10,7 @@
 #include <limits>
 #include <memory>
 
-#include "plan/internal/ogr.h"
+#include "plan/map/internal/ogr.h"
 #include "survey/error.h"
 
 namespace stucco::plan {

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "plan/map/read_map.h"
+#include "plan/map/raw_map.h"
+#include "survey/plan.h"
 #include "survey/plan_frame.h"
 
 namespace stucco::plan {

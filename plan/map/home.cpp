@@ -9,9 +9,9 @@
 #include <numbers>
 #include <regex>
 
-#include "plan/internal/box_grid.h"
-#include "plan/polygons.h"
+#include "site/box_grid.h"
 #include "survey/error.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 namespace {
@@ -52,7 +52,7 @@ class Hazards {
   }
 
   const Site& site_;
-  internal::BoxGrid grid_;
+  BoxGrid grid_;
 };
 
 Eigen::AlignedBox2d Captured(const Site& site) {

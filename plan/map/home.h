@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "plan/site.h"
+#include "site/site.h"
 #include "survey/plan_frame.h"
 
 namespace stucco::plan {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/internal/read_cityjson.h"
+#include "plan/map/internal/read_cityjson.h"
 
 #include <fmt/format.h>
 
@@ -11,11 +11,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "plan/internal/attributes.h"
-#include "plan/internal/ogr.h"
-#include "plan/polygons.h"
+#include "plan/map/internal/attributes.h"
+#include "plan/map/internal/ogr.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan::internal {
 namespace {

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <limits>
 
-#include "plan/internal/ogr.h"
 #include "plan/map/crs.h"
+#include "plan/map/internal/ogr.h"
 #include "survey/error.h"
 
 namespace stucco::plan {
@@ -81,7 +81,7 @@ Raster Describe(GDALDataset& dataset, const std::filesystem::path& path) {
 }
 
 // The grid of samples over the bounds.
-Terrain GridOver(const Eigen::AlignedBox2d& bounds, double pixel_m) {
+TerrainGrid GridOver(const Eigen::AlignedBox2d& bounds, double pixel_m) {
   const double area = bounds.sizes().prod();
   const double step = std::max({pixel_m, kLeastStep_m, std::sqrt(area / kMostSamples)});
   return {.corner = bounds.min(),
@@ -180,7 +180,7 @@ void ReadWindow(GDALDataset& dataset, const std::vector<Eigen::Vector2d>& pixels
 }
 
 // Mean of the known neighbours of a sample, NaN where there are none.
-float MeanAround(const Terrain& terrain, int sample) {
+float MeanAround(const TerrainGrid& terrain, int sample) {
   const int column = sample % terrain.columns;
   const int row = sample / terrain.columns;
   double sum = 0;
@@ -199,7 +199,7 @@ float MeanAround(const Terrain& terrain, int sample) {
 
 // Gaps are filled from their rims inwards and then smoothed, towards a membrane that hangs in the
 // rim. Returns how many samples that were.
-size_t FillGaps(Terrain& terrain) {
+size_t FillGaps(TerrainGrid& terrain) {
   std::vector<int> gaps;
   for (size_t i = 0; i < terrain.z_m.size(); ++i) {
     if (std::isnan(terrain.z_m[i])) gaps.push_back(static_cast<int>(i));
@@ -231,7 +231,8 @@ float RoundedUp(double value) {
 // cell: a level one or the one along the slope, whichever is lower on average.
 class CellCover {
  public:
-  CellCover(const Raster& raster, const std::vector<Eigen::Vector2d>& pixels, const Terrain& ground)
+  CellCover(const Raster& raster, const std::vector<Eigen::Vector2d>& pixels,
+            const TerrainGrid& ground)
       : raster_(raster), pixels_(pixels), ground_(ground) {}
 
   void Raise(const std::array<size_t, 4>& corners, std::vector<float>& z_m) const {
@@ -282,7 +283,7 @@ class CellCover {
 
   const Raster& raster_;
   const std::vector<Eigen::Vector2d>& pixels_;
-  const Terrain& ground_;
+  const TerrainGrid& ground_;
 };
 
 // A grid whose bilinear surface is nowhere below the raster's, so that nothing flies through a
@@ -293,9 +294,9 @@ class CellCover {
 // L nothing in between is. Each cell has such an L; a corner takes the highest of its four cells'.
 // (That L is affine in both coordinates leaves out how the map projections bend within a cell: less
 // than 0.1 mm in the plane.) Slopes stay as they are, as L follows them.
-Terrain Covering(const Raster& raster, const std::vector<Eigen::Vector2d>& pixels,
-                 const Terrain& ground) {
-  Terrain result = ground;
+TerrainGrid Covering(const Raster& raster, const std::vector<Eigen::Vector2d>& pixels,
+                     const TerrainGrid& ground) {
+  TerrainGrid result = ground;
   const CellCover cover(raster, pixels, ground);
   for (int row = 0; row + 1 < ground.rows; ++row) {
     for (int column = 0; column + 1 < ground.columns; ++column) {
@@ -315,7 +316,7 @@ ReadTerrain ReadDem(const std::filesystem::path& path, const PlanOrigin& origin,
   Raster raster = Describe(*dataset, path);
   const double pixel_m = PixelSize(raster, origin, path);
   ReadTerrain result;
-  Terrain& ground = result.ground;
+  TerrainGrid& ground = result.ground;
   ground = GridOver(bounds, pixel_m);
   std::vector<Eigen::Vector2d> positions;
   positions.reserve(static_cast<size_t>(ground.rows) * ground.columns);

@@ -6,14 +6,14 @@
 #include <filesystem>
 
 #include "plan/map/repairs.h"
-#include "plan/map/terrain.h"
+#include "site/terrain_grid.h"
 #include "survey/plan.h"
 
 namespace stucco::plan {
 
 struct ReadTerrain {
-  Terrain terrain;             // nowhere below the raster; z relative to `origin_height_m`
-  Terrain ground;              // the raster interpolated, which cuts peaks between samples
+  TerrainGrid terrain;         // nowhere below the raster; z relative to `origin_height_m`
+  TerrainGrid ground;          // the raster interpolated, which cuts peaks between samples
   double origin_height_m = 0;  // of the ground at the origin, in the height system of the file
   RepairLog repairs;
 };

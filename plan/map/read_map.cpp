@@ -11,9 +11,9 @@
 #include <array>
 #include <map>
 
-#include "plan/internal/attributes.h"
-#include "plan/internal/ogr.h"
-#include "plan/internal/read_cityjson.h"
+#include "plan/map/internal/attributes.h"
+#include "plan/map/internal/ogr.h"
+#include "plan/map/internal/read_cityjson.h"
 #include "survey/error.h"
 
 namespace stucco::plan {

@@ -3,32 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
-#include "plan/map/repairs.h"
-#include "plan/options.h"
-#include "plan/site.h"
+#include "plan/map/raw_map.h"
+#include "plan/options/plan_options.h"
 
 namespace stucco::plan {
-
-// A building of a map, or a part of one, before cleaning.
-struct MapFeature {
-  std::string building;  // B0012; empty for a part that does not say of which building
-  bool is_part = false;
-  std::vector<Polygon> polygons;  // rings as the map has them; x east, y north
-  bool has_open_ring = false;
-  std::optional<double> height_m;  // of the top above the ground
-  double min_height_m = 0;         // of the underside above the ground
-};
-
-struct RawMap {
-  std::filesystem::path path;
-  std::string crs;  // anything that PROJ reads; empty: the map names none
-  std::vector<MapFeature> features;
-  RepairLog repairs;
-};
 
 // Buildings of a map: GeoJSON, Shapefile, GeoPackage, OSM XML or PBF (`building` and
 // `building:part`), CityJSON 1.0 to 2.0, and whatever else GDAL reads polygons from.

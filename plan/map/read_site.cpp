@@ -10,17 +10,17 @@
 #include <map>
 #include <set>
 
-#include "plan/internal/ogr.h"
-#include "plan/internal/outlines.h"
 #include "plan/map/clean.h"
 #include "plan/map/crs.h"
-#include "plan/map/facades.h"
-#include "plan/map/ground.h"
 #include "plan/map/home.h"
+#include "plan/map/internal/ogr.h"
+#include "plan/map/internal/outlines.h"
 #include "plan/map/read_dem.h"
 #include "plan/map/read_map.h"
-#include "plan/polygons.h"
+#include "site/facades.h"
+#include "site/ground.h"
 #include "survey/error.h"
+#include "survey/geometry2d.h"
 #include "survey/median.h"
 #include "survey/plan_frame.h"
 
@@ -271,7 +271,7 @@ Polygon AreaAround(const Site& site, double margin_m) {
 }
 
 // Returns the ground as it is, where `site.terrain` is the one to keep clear of.
-Terrain AddTerrain(const std::filesystem::path& dem, Site& site, RepairLog& repairs) {
+TerrainGrid AddTerrain(const std::filesystem::path& dem, Site& site, RepairLog& repairs) {
   Eigen::AlignedBox2d bounds = BoundsOf(site.area);
   for (const Footprint& footprint : site.footprints) {
     if (footprint.in_area) bounds.extend(BoundsOf(footprint.outline));
@@ -312,7 +312,7 @@ Site ReadSite(const SiteInputs& inputs, const PlanOptions& options) {
   const double margin = options.margin_m > 0 ? options.margin_m : site.safe_altitude_m;
   site.area = AreaAround(site, margin);
   if (inputs.no_fly) AddNoFly(*inputs.no_fly, options, site);
-  Terrain ground;
+  TerrainGrid ground;
   if (inputs.dem) ground = AddTerrain(*inputs.dem, site, repairs);
   PlaceOnGround(site);
   site.facades = MakeFacades(site.footprints);

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "plan/options.h"
-#include "plan/site.h"
+#include "plan/options/plan_options.h"
+#include "site/site.h"
 
 namespace stucco::plan {
 

@@ -6,14 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace stucco::plan {
+#include "plan/mission/lint_finding.h"
 
-// What a DJI drone or its controller would stumble over in a mission file.
-struct LintFinding {
-  std::string element;  // wpmz/waylines.wpml: Folder/Placemark[3]/wpml:executeHeight
-  std::string rule;     // short and stable: "required", "range", "action-group-id" ...
-  std::string text;     // for people
-};
+namespace stucco::plan {
 
 // Checks a mission (KMZ) or one of the documents in it, also of other programs, against DJI's
 // WPML documentation. Nothing found means that none of the rules is broken, not that the mission is

@@ -26,8 +26,7 @@ constexpr double kRounding_m = 1e-6;
 struct Task {
   const Site& site;
   const SafeSpace& space;
-  double battery_scale;
-  double battery_percent;
+  Battery battery;
   int threads;
   Progress& progress;
 
@@ -105,14 +104,14 @@ void CheckBattery(const Task& task, const std::vector<Hover>& hovers,
                   const std::vector<double>& distances) {
   for (size_t k = 0; k < hovers.size(); ++k) {
     const double length = 2 * (distances[k] + task.Climb());
-    const double percent = EstimateEffort(length, 1, task.battery_scale).battery_percent;
-    if (percent <= task.battery_percent) continue;
+    const double percent = EstimateEffort(length, 1, task.battery.scale).battery_percent;
+    if (percent <= task.battery.use_percent) continue;
     const Vector3d& p = hovers[k].position;
     throw Error(
         ErrorKind::kBadInput,
         fmt::format("a photo at ({:.0f}, {:.0f}, {:.0f}) m is {:.0f} m from home: there and "
                     "back takes {:.0f} % of a battery, and a flight may use {:.0f} %",
-                    p.x(), p.y(), p.z(), distances[k], percent, task.battery_percent),
+                    p.x(), p.y(), p.z(), distances[k], percent, task.battery.use_percent),
         "give a home point nearer to the buildings, split the area, or allow more with "
         "--battery-percent");
   }
@@ -137,9 +136,9 @@ std::vector<Stretch> Split(const Task& task, const std::vector<double>& home_m,
   SplitProblem problem;
   problem.home_m = home_m;
   for (const Route& leg : legs) problem.next_m.push_back(leg.length_m);
-  const double per_metre = EstimateEffort(1, 0, task.battery_scale).battery_percent;
-  const double per_stop = EstimateEffort(0, 1, task.battery_scale).battery_percent;
-  problem.length_budget_m = task.battery_percent / per_metre - 2 * task.Climb() + kRounding_m;
+  const double per_metre = EstimateEffort(1, 0, task.battery.scale).battery_percent;
+  const double per_stop = EstimateEffort(0, 1, task.battery.scale).battery_percent;
+  problem.length_budget_m = task.battery.use_percent / per_metre - 2 * task.Climb() + kRounding_m;
   problem.stop_length_m = per_stop / per_metre;
   return SplitTour(problem);
 }
@@ -169,7 +168,7 @@ PlannedFlight MakeFlight(const Task& task, const std::vector<Hover>& tour,
     flight.length_m += leg.length_m;
   }
   Append(*back, flight.waypoints);
-  const Effort effort = EstimateEffort(flight.length_m, stretch.count, task.battery_scale);
+  const Effort effort = EstimateEffort(flight.length_m, stretch.count, task.battery.scale);
   flight.time_min = effort.time_min;
   flight.battery_percent = effort.battery_percent;
   return flight;
@@ -219,11 +218,11 @@ double MedianFacadeSpan(const FlightPlan& plan, size_t facades) {
 
 }  // namespace
 
-FlightPlan PlanFlights(const Site& site, const CameraPreset& camera, double battery_percent,
-                       std::vector<Hover> hovers, int threads, Progress& progress) {
+FlightPlan PlanFlights(const Site& site, const Battery& battery, std::vector<Hover> hovers,
+                       int threads, Progress& progress) {
   const Obstacles obstacles(site);
   const SafeSpace space(obstacles);
-  const Task task{site, space, camera.battery_scale, battery_percent, threads, progress};
+  const Task task{site, space, battery, threads, progress};
   CheckHome(task);
   CheckFree(task, hovers);
   const std::vector<double> given_home_m = KeepReachable(task, hovers);

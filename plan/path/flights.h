@@ -4,10 +4,9 @@
 
 #include <vector>
 
-#include "plan/camera/preset.h"
-#include "plan/hover.h"
+#include "plan/camera/hover.h"
 #include "plan/path/tour.h"
-#include "plan/site.h"
+#include "site/site.h"
 #include "survey/plan.h"
 #include "survey/stage.h"
 
@@ -27,11 +26,16 @@ struct FlightPlan {
   double median_facade_span_min = 0;
 };
 
+struct Battery {
+  double scale = 1;         // batteries of a Mavic 3E that it is worth
+  double use_percent = 80;  // that one flight may use
+};
+
 // The order of the hovers and the flights that visit them: a nearly cheapest tour, cut into flights
-// that use at most `battery_percent` of a battery each, along the shortest safe paths. Hovers that
-// no-fly polygons cut off from home are left out with a warning. Throws Error: kBadInput where home
-// is not free or a hover too far for one battery, kStageFailed where a hover is not free.
-FlightPlan PlanFlights(const Site& site, const CameraPreset& camera, double battery_percent,
-                       std::vector<Hover> hovers, int threads, Progress& progress);
+// that use at most `battery.use_percent` of a battery each, along the shortest safe paths. Hovers
+// that no-fly polygons cut off from home are left out with a warning. Throws Error: kBadInput where
+// home is not free or a hover too far for one battery, kStageFailed where a hover is not free.
+FlightPlan PlanFlights(const Site& site, const Battery& battery, std::vector<Hover> hovers,
+                       int threads, Progress& progress);
 
 }  // namespace stucco::plan

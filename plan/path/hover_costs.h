@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "plan/hover.h"
+#include "plan/camera/hover.h"
 #include "plan/space/safe_space.h"
 
 namespace stucco::plan {

@@ -88,12 +88,6 @@ std::vector<int> GoodOrder(const Angles& angles) {
 
 }  // namespace
 
-double TurningAngle(const std::vector<Shot>& shots) {
-  double sum = 0;
-  for (size_t k = 1; k < shots.size(); ++k) sum += Angle(shots[k - 1], shots[k]);
-  return sum;
-}
-
 void OrderShots(std::vector<Shot>& shots) {
   const size_t n = shots.size();
   if (n < 3) return;

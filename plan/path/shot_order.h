@@ -4,12 +4,9 @@
 
 #include <vector>
 
-#include "plan/hover.h"
+#include "plan/camera/hover.h"
 
 namespace stucco::plan {
-
-// The sum of angles between consecutive photos, in radians.
-double TurningAngle(const std::vector<Shot>& shots);
 
 // Orders the photos of one hover so that the camera turns as little as possible from the first to
 // the last: the best order up to nine photos, a good one beyond. Deterministic; which end comes

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "plan/hover.h"
+#include "plan/camera/hover.h"
 #include "plan/space/safe_space.h"
 #include "survey/stage.h"
 

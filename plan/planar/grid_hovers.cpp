@@ -9,10 +9,10 @@
 #include <limits>
 #include <numbers>
 
-#include "plan/model/cells.h"
-#include "plan/polygons.h"
 #include "plan/space/obstacles.h"
+#include "site/grid_cells.h"
 #include "survey/error.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 namespace {

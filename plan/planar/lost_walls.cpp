@@ -32,7 +32,7 @@ std::vector<Seers> SeersOf(const FacadeSight& sight, int facade, std::span<const
   for (const SeenView& view : sight.ViewsOf(facade, cells)) {
     for (const uint32_t cell : view.cells) {
       Seers& seers = out[std::ranges::lower_bound(cells, cell) - cells.begin()];
-      const auto hover = static_cast<uint32_t>(view.hover);
+      const auto hover = static_cast<uint32_t>(view.place);
       if (seers.empty() || seers.back() != hover) seers.push_back(hover);
     }
   }

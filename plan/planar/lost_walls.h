@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "plan/evaluate/facade_views.h"
+#include "plan/evaluate/facade_sight.h"
 
 namespace stucco::plan {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "plan/hover.h"
+#include "plan/camera/hover.h"
 #include "plan/planar/thin_out.h"
 #include "plan/space/obstacles.h"
 #include "survey/stage.h"

@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/model/cells.h"
-#include "plan/model/sightings.h"
 #include "plan/planar/lost_walls.h"
 #include "plan/planar/move_hovers.h"
 #include "plan/planar/reconstructability.h"
 #include "plan/planar/thin_out.h"
 #include "plan/planar/view_graph.h"
 #include "plan/space/obstacles.h"
+#include "site/grid_cells.h"
+#include "site/sightings.h"
 
 namespace stucco::plan {
 namespace {
@@ -84,16 +84,16 @@ std::vector<Hover> Joined(std::vector<Hover> a, std::span<const Hover> b) {
 
 std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
                                const PlanarOptions& options, std::span<const Hover> dipping,
-                               int threads, Progress& progress) {
+                               Progress& progress) {
   const std::vector<Hover> full = GridHovers(site, camera, options.grid);
   if (full.empty()) return full;
   const GridStep step = StepOf(site, camera, options.grid);
-  const SurfaceView view(site, camera,
+  const SurfaceView view(site, camera.Field(),
                          SampleSurface(site, {.spacing_m = SpacingOf(options, step),
                                               .ground_reach_m = kGroundReach * site.d_min_m}),
                          std::max(options.d_max_m, kReachOfAltitude * site.safe_altitude_m));
   progress.Begin("planar views: what they see", 1);
-  ViewGraph graph(view, options.d_max_m, threads);
+  ViewGraph graph(view, options.d_max_m, options.threads);
   graph.AddAll(Joined(full, dipping));
   progress.Advance();
 
@@ -107,12 +107,13 @@ std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
            .step_m = kMoveOfGrid * MeanStep(step),
            .axis = MainAxis(site.area),
            .tau_r = tau,
-           .threads = threads},
+           .threads = options.threads},
           grid, progress);
   std::vector<Hover> out = Kept(grid, graph);
   const std::vector<Hover> kept = Joined(out, dipping);
-  const auto lost = HoversForLostWalls(FacadeSight(site, camera, options.d_max_m, full),
-                                       FacadeSight(site, camera, options.d_max_m, kept), threads);
+  const auto lost =
+      HoversForLostWalls(FacadeSight(site, camera, options.d_max_m, full),
+                         FacadeSight(site, camera, options.d_max_m, kept), options.threads);
   for (const uint32_t hover : lost) out.push_back(full[hover]);
   return out;
 }

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "plan/camera/hover.h"
 #include "plan/camera/preset.h"
-#include "plan/hover.h"
 #include "plan/planar/grid_hovers.h"
-#include "plan/site.h"
+#include "site/site.h"
 #include "survey/stage.h"
 
 namespace stucco::plan {
@@ -20,6 +20,7 @@ struct PlanarOptions {
   // target of Zhou et al. (2020).
   double tau_r = 0;
   double sample_spacing_m = 0;  // 0: three quarters of the grid, from 3.5 to 8 m
+  int threads = 1;
 };
 
 // Views from above, for geometry, roofs and ground (section 5 of the paper): the grid of five-view
@@ -29,6 +30,6 @@ struct PlanarOptions {
 // Same result at any number of threads. Throws Error (kBadInput, kInterrupted).
 std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
                                const PlanarOptions& options, std::span<const Hover> dipping,
-                               int threads, Progress& progress);
+                               Progress& progress);
 
 }  // namespace stucco::plan

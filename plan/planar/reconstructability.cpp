@@ -44,17 +44,6 @@ double PairReconstructability(const Eigen::Vector3d& point, const Eigen::Vector3
          MatchWeight(angle) * cosine;
 }
 
-double Reconstructability(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
-                          std::span<const Eigen::Vector3d> cameras, double d_max_m) {
-  double sum = 0;
-  for (size_t i = 0; i < cameras.size(); ++i) {
-    for (size_t j = i + 1; j < cameras.size(); ++j) {
-      sum += PairReconstructability(point, normal, cameras[i], cameras[j], d_max_m);
-    }
-  }
-  return sum;
-}
-
 double GoodPair(double distance_m, double d_max_m) {
   return ParallaxWeight(2 * kGoodIncidence) * ResolutionWeight(distance_m, d_max_m) *
          MatchWeight(2 * kGoodIncidence) * std::cos(kGoodIncidence);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
 
 namespace stucco::plan {
 
@@ -20,10 +19,6 @@ double MatchWeight(double angle_rad);
 // w1 w2 w3 cos(t) of one pair of cameras at c and d; 0 where one of them is behind the surface.
 double PairReconstructability(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
                               const Eigen::Vector3d& c, const Eigen::Vector3d& d, double d_max_m);
-
-// h(s, V): the sum over all pairs of the cameras that see the point.
-double Reconstructability(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
-                          std::span<const Eigen::Vector3d> cameras, double d_max_m);
 
 // One good pair at this distance: rays 17.3 degrees apart, the normal between them. Thresholds are
 // multiples of it (Zhou et al., "Offsite Aerial Path Planning for Efficient Urban Scene

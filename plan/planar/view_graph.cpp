@@ -42,7 +42,7 @@ float AngleWeight(float cosine) {
 }
 
 int Counted(const Sighting& sighting) {
-  return std::min<int>(sighting.shots, kMostShots);
+  return std::min<int>(sighting.pictures, kMostShots);
 }
 
 }  // namespace
@@ -53,6 +53,10 @@ ViewGraph::ViewGraph(const SurfaceView& view, double d_max_m, int threads)
       threads_(threads),
       rays_(view.samples.size()),
       states_(view.samples.size()) {}
+
+std::vector<Sighting> SightingsOf(const SurfaceView& view, const Hover& hover) {
+  return SightingsFrom(ViewpointOf(view.field, hover, view.reach_m), view);
+}
 
 void ViewGraph::AddAll(std::span<const Hover> hovers) {
   sightings_.resize(hovers.size());

@@ -7,9 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "plan/model/sightings.h"
+#include "plan/camera/hover.h"
+#include "site/sightings.h"
 
 namespace stucco::plan {
+
+// What a hover sees, `pictures` being its shots.
+std::vector<Sighting> SightingsOf(const SurfaceView& view, const Hover& hover);
 
 // What one sample has from all hovers of a graph.
 struct SampleState {

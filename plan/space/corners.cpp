@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "plan/space/plane.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 
@@ -21,17 +21,19 @@ Vector2d Rotated(const Vector2d& v, double angle_rad) {
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 
-void AddArc(const Vector2d& centre, const Vector2d& in, double turn, double radius, double step_rad,
-            std::vector<Corner>& corners) {
+std::vector<Corner> Arc(const Vector2d& centre, const Vector2d& in, double turn, double radius,
+                        double step_rad) {
   const int sides = std::max(1, static_cast<int>(std::ceil(turn / step_rad - 1e-9)));
   const double step = turn / sides;
   const double reach = radius / std::cos(0.5 * step);
+  std::vector<Corner> corners;
   for (int k = 0; k < sides; ++k) {
     const Vector2d before = Rotated(in, step * k);
     const Vector2d middle = Rotated(in, step * (k + 0.5));
     const Vector2d outward(middle.y(), -middle.x());
     corners.push_back({centre + reach * outward, before, Rotated(in, step * (k + 1))});
   }
+  return corners;
 }
 
 // Without repeated points.
@@ -58,7 +60,9 @@ std::vector<Corner> DilatedCorners(const Polygon& outline, double radius, double
       double turn = std::atan2(Cross(in, out), in.dot(out));
       // A spike turns back; which way is lost to rounding, and only outwards is safe.
       if (in.dot(out) < 0 && std::abs(Cross(in, out)) < 1e-12) turn = std::abs(turn);
-      if (turn > kLeastTurn_rad) AddArc(points[k], in, turn, radius, step_rad, corners);
+      if (!(turn > kLeastTurn_rad)) continue;
+      const std::vector<Corner> arc = Arc(points[k], in, turn, radius, step_rad);
+      corners.insert(corners.end(), arc.begin(), arc.end());
     }
   }
   return corners;

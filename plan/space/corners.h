@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "plan/site.h"
-#include "plan/space/plane.h"
+#include "site/site.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 

@@ -32,7 +32,7 @@ std::string Position(const Georef& georef, const Vector2d& corner) {
   return fmt::format("[{:.9f},{:.9f}]", geodetic.y(), geodetic.x());
 }
 
-std::string Ring(const Georef& georef, const plan::Ring& ring) {
+std::string RingText(const Georef& georef, const Ring& ring) {
   std::string text = "[";
   for (const Vector2d& corner : ring) text += Position(georef, corner) + ",";
   return text + Position(georef, ring[0]) + "]";
@@ -58,8 +58,8 @@ const char* NameOf(RoofShape roof) {
 
 std::string Feature(const House& house, const Georef& georef) {
   std::string rings;
-  for (const plan::Ring& ring : house.outline.rings) {
-    rings += (rings.empty() ? "" : ",") + Ring(georef, ring);
+  for (const Ring& ring : house.outline.rings) {
+    rings += (rings.empty() ? "" : ",") + RingText(georef, ring);
   }
   const int number = std::stoi(house.id.substr(1));
   return fmt::format(
@@ -147,11 +147,11 @@ void WriteTerrain(const Town& town, const Georef& georef, const std::filesystem:
 FacadeIds FindFacades(const Town& town, const Georef& georef, const std::filesystem::path& map,
                       const std::optional<std::filesystem::path>& terrain) {
   constexpr double kSame_m = 0.05;  // the planner joins corners within that
-  const plan::Site site = plan::ReadSite({.map = map, .dem = terrain}, plan::PlanOptions{});
+  const Site site = plan::ReadSite({.map = map, .dem = terrain}, plan::PlanOptions{});
   FacadeIds ids;
   for (const House& house : town.houses) ids.emplace_back(house.party.size());
   const std::vector<Wall> walls = FreeWalls(town);
-  for (const plan::Facade& facade : site.facades) {
+  for (const Facade& facade : site.facades) {
     const Vector2d a = ToScene(georef, site.origin, facade.a);
     const Vector2d b = ToScene(georef, site.origin, facade.b);
     const auto wall = std::find_if(walls.begin(), walls.end(), [&](const Wall& w) {

@@ -21,9 +21,12 @@ STAGES = {"plan", "capture_ingest", "calib", "dense", "proxy", "texture", "repor
 # What the sources of a module may include besides their own module.
 ARROWS = {stage: {"survey"} for stage in STAGES}
 ARROWS["survey"] = set()
-ARROWS["pipeline"] = STAGES | {"survey"}
-ARROWS["simulate"] = {"survey", "plan"}
-ARROWS["evaluate"] = {"survey", "plan", "simulate"}
+ARROWS["site"] = {"survey"}
+for stage in ("plan", "calib", "proxy", "texture"):
+    ARROWS[stage] = {"survey", "site"}
+ARROWS["pipeline"] = STAGES | {"survey", "site"}
+ARROWS["simulate"] = {"survey", "site", "plan"}
+ARROWS["evaluate"] = {"survey", "site", "simulate"}
 ARROWS["cli"] = {"pipeline", "survey", "simulate", "evaluate"}
 MODULES = set(ARROWS)
 

@@ -59,7 +59,10 @@ class CheckArchitectureTest(unittest.TestCase):
         self.include("cli/main.cpp", '"pipeline/engine/engine.h"', '"pipeline/verbs/init.h"',
                      '"pipeline/default_stages.h"', '"survey/error.h"', '"simulate/fly.h"')
         self.include("simulate/fly.cpp", '"survey/pose.h"', '"plan/views.h"')
-        self.include("evaluate/poses.cpp", '"survey/pose.h"', '"plan/views.h"')
+        self.include("evaluate/poses.cpp", '"survey/pose.h"', '"site/site.h"')
+        self.include("site/site.cpp", '"site/site.h"', '"survey/plan.h"')
+        for stage in ("plan", "calib", "proxy", "texture"):
+            self.include(f"{stage}/walls.cpp", '"site/site.h"', '"survey/plan.h"')
         self.include("tests/calib/adjust_test.cpp", '"calib/internal/costs.h"',
                      '"tests/calib/scene.h"', '"simulate/fly.h"', "<gtest/gtest.h>")
         self.include("tests/end_to_end/run_test.cpp", '"calib/adjust.h"', '"pipeline/run.h"')
@@ -72,6 +75,10 @@ class CheckArchitectureTest(unittest.TestCase):
         may_not = "may not include"
         self.assert_refused("survey/pose.cpp", '"calib/adjust.h"', may_not)
         self.assert_refused("survey/pose.h", '"pipeline/run.h"', may_not)
+        self.assert_refused("site/site.cpp", '"plan/make_plan.h"', may_not)
+        self.assert_refused("survey/pose.h", '"site/site.h"', may_not)
+        self.assert_refused("dense/densify.cpp", '"site/site.h"', may_not)
+        self.assert_refused("evaluate/poses.cpp", '"plan/make_plan.h"', may_not)
         self.assert_refused("calib/adjust.cpp", '"dense/densify.h"', may_not)
         self.assert_refused("calib/adjust.cpp", "<dense/densify.h>", may_not)
         self.assert_refused("calib/internal/a.h", '"texture/texture.h"', may_not)

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "plan/baseline/dronescan.h"
-#include "plan/model/sightings.h"
 #include "plan/planar/view_graph.h"
 #include "plan/space/obstacles.h"
+#include "site/sightings.h"
 #include "survey/error.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {
@@ -58,7 +58,7 @@ TEST(DroneScanViews, FaceTheSurface) {
 
 TEST(DroneScanViews, LeaveEverySurfaceThatCanBeSeenReconstructable) {
   const Site site = Town();
-  const SurfaceView view(site, FindCamera("mavic-3e"),
+  const SurfaceView view(site, FindCamera("mavic-3e").Field(),
                          SampleSurface(site, {.spacing_m = 5, .ground_reach_m = 15}), kDMax);
   ViewGraph graph(view, kDMax, 1);
   graph.AddAll(Views(site));

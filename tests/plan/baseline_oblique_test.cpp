@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "plan/baseline/oblique.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {

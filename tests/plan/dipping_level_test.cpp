@@ -8,10 +8,10 @@
 #include "plan/dipping/level.h"
 #include "plan/dipping/lift.h"
 #include "plan/dipping/wall_view.h"
-#include "plan/map/facades.h"
-#include "plan/map/ground.h"
+#include "site/facades.h"
+#include "site/ground.h"
 #include "tests/plan/made_hovers.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {
@@ -73,7 +73,7 @@ TEST(DippingViews, UpperWallsAreCapturedFromAboveTheLowerRoof) {
 
 TEST(DippingViews, FollowTheGroundDownASlope) {
   // The ground falls by 30 m from west to east; two houses of 9 m at its ends.
-  Terrain slope{.corner = {-100, -100}, .step_m = 10, .columns = 41, .rows = 21, .z_m = {}};
+  TerrainGrid slope{.corner = {-100, -100}, .step_m = 10, .columns = 41, .rows = 21, .z_m = {}};
   for (int row = 0; row < 21; ++row) {
     for (int column = 0; column < 41; ++column) {
       slope.z_m.push_back(static_cast<float>(30 - 30.0 * column / 40));

@@ -13,7 +13,7 @@
 #include "plan/dipping/optimise.h"
 #include "plan/dipping/select.h"
 #include "tests/plan/made_hovers.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "plan/planar/grid_hovers.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {

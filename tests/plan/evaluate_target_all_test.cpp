@@ -5,7 +5,7 @@
 #include "plan/baseline/oblique.h"
 #include "plan/evaluate/evaluate_facades.h"
 #include "plan/evaluate/target_all.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {

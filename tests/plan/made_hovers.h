@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "plan/hover.h"
-#include "plan/quality/intervals.h"
-#include "plan/site.h"
+#include "plan/camera/hover.h"
 #include "plan/space/obstacles.h"
+#include "site/site.h"
+#include "survey/intervals.h"
 
 namespace stucco::plan {
 

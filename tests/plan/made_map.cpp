@@ -12,11 +12,11 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "plan/internal/ogr.h"
 #include "plan/map/crs.h"
-#include "plan/polygons.h"
+#include "plan/map/internal/ogr.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 namespace {

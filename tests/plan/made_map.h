@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "plan/site.h"
+#include "site/site.h"
 #include "survey/plan_frame.h"
 
 namespace stucco::plan {

@@ -6,13 +6,13 @@
 
 #include <cmath>
 
-#include "plan/internal/attributes.h"
+#include "plan/map/internal/attributes.h"
 #include "plan/map/read_map.h"
 #include "plan/map/read_site.h"
 #include "plan/map/repairs.h"
 #include "survey/files.h"
 #include "tests/plan/made_map.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {

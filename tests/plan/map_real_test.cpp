@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-#include "plan/internal/ogr.h"
+#include "plan/map/internal/ogr.h"
 #include "plan/map/read_site.h"
 #include "survey/error.h"
 #include "survey/plan_frame.h"

@@ -14,7 +14,7 @@
 #include "plan/path/nearest.h"
 #include "plan/path/shot_order.h"
 #include "tests/plan/made_hovers.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {
@@ -82,6 +82,16 @@ TEST_F(HoverCostsTest, NoCostIsBelowTheLeast) {
       EXPECT_GE(HoverCosts::Cost(1, length, costs.LeastTurn(0, 1)), costs.LeastCost(0, 1) - 1e-12);
     }
   }
+}
+
+// The sum of angles between consecutive photos.
+double TurningAngle(const std::vector<Shot>& shots) {
+  double sum = 0;
+  for (size_t k = 1; k < shots.size(); ++k) {
+    const double cosine = shots[k - 1].Direction().dot(shots[k].Direction());
+    sum += std::acos(std::clamp(cosine, -1.0, 1.0));
+  }
+  return sum;
 }
 
 TEST(ShotOrder, TurnsLeastOfAllOrders) {

@@ -10,7 +10,7 @@
 #include "plan/path/flights.h"
 #include "survey/error.h"
 #include "tests/plan/made_hovers.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 #include "tests/survey/stage_support.h"
 
 namespace stucco::plan {
@@ -19,10 +19,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-const CameraPreset kCamera{};
-
-FlightPlan Fly(const Site& site, std::vector<Hover> hovers, double battery, int threads = 2) {
-  return PlanFlights(site, kCamera, battery, std::move(hovers), threads, SilentProgress());
+FlightPlan Fly(const Site& site, std::vector<Hover> hovers, double percent, int threads = 2) {
+  return PlanFlights(site, {.use_percent = percent}, std::move(hovers), threads, SilentProgress());
 }
 
 TEST(Flights, VisitEveryHoverOnceAlongSafePaths) {
@@ -130,9 +128,9 @@ TEST(Flights, LeaveOutWhatNoFlyPolygonsCutOff) {
   const Polygon ring{{Rectangle(50, 50, 150, 150), Reversed(Rectangle(70, 70, 130, 130))}};
   const Site site = MadeSite({Rectangle(0, 0, 20, 20)}, {.no_fly = {ring}});
   stucco::test::Listener listener;
-  const FlightPlan plan = PlanFlights(
-      site, kCamera, 80, {{Vector3d(100, 100, 70), {Shot{}}}, {Vector3d(-30, 0, 20), {Shot{}}}}, 1,
-      listener);
+  const FlightPlan plan =
+      PlanFlights(site, {}, {{Vector3d(100, 100, 70), {Shot{}}}, {Vector3d(-30, 0, 20), {Shot{}}}},
+                  1, listener);
   EXPECT_EQ(plan.hovers.size(), 1U);
   EXPECT_EQ(listener.warnings.size(), 1U);
 }

@@ -17,7 +17,7 @@
 #include "plan/path/tour_bound.h"
 #include "survey/error.h"
 #include "tests/plan/made_hovers.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 #include "tests/survey/stage_support.h"
 
 namespace stucco::plan {

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "plan/planar/grid_hovers.h"
-#include "plan/polygons.h"
 #include "survey/error.h"
-#include "tests/plan/made_site.h"
+#include "survey/geometry2d.h"
+#include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {
@@ -72,7 +72,7 @@ TEST(GridHovers, StayInTheAreaAndOutOfNoFlyPolygons) {
 }
 
 TEST(GridHovers, FollowTheCeiling) {
-  Terrain slope{.corner = {-100, -100}, .step_m = 50, .columns = 8, .rows = 8, .z_m = {}};
+  TerrainGrid slope{.corner = {-100, -100}, .step_m = 50, .columns = 8, .rows = 8, .z_m = {}};
   for (int i = 0; i < 64; ++i) slope.z_m.push_back(static_cast<float>(5 * (i % 8)));
   const Site site = Block({.terrain = slope});
   for (const Hover& hover : GridHovers(site, FindCamera("mavic-3e"), {})) {

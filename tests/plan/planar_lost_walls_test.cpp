@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "plan/planar/lost_walls.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {

@@ -69,16 +69,6 @@ TEST(Reconstructability, IsNothingBehindTheSurfaceTooFarOrAtThePoint) {
   EXPECT_EQ(PairReconstructability(kOrigin, kUp, kOrigin, At(30, 0.3), 100), 0);
 }
 
-TEST(Reconstructability, SumsOverAllPairs) {
-  const std::vector<Eigen::Vector3d> cameras{At(30, -0.3), At(35, 0), At(40, 0.25)};
-  const double expected = PairReconstructability(kOrigin, kUp, cameras[0], cameras[1], 100) +
-                          PairReconstructability(kOrigin, kUp, cameras[0], cameras[2], 100) +
-                          PairReconstructability(kOrigin, kUp, cameras[1], cameras[2], 100);
-  EXPECT_NEAR(Reconstructability(kOrigin, kUp, cameras, 100), expected, 1e-12);
-  EXPECT_EQ(Reconstructability(kOrigin, kUp, {cameras.data(), 1}, 100), 0);
-  EXPECT_EQ(Reconstructability(kOrigin, kUp, {}, 100), 0);
-}
-
 TEST(GoodPair, IsAPairWithTheNormalBetweenItsRays) {
   const double incidence = 8.66 * kPi / 180;
   EXPECT_NEAR(GoodPair(30, 100),

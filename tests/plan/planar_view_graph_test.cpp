@@ -5,19 +5,31 @@
 #include "plan/planar/grid_hovers.h"
 #include "plan/planar/reconstructability.h"
 #include "plan/planar/view_graph.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {
 
 constexpr double kDMax = 90;
 
+// The definition: over all pairs of photos.
+double Reconstructability(const SurfaceSample& s, std::span<const Eigen::Vector3d> cameras) {
+  double sum = 0;
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    for (size_t j = i + 1; j < cameras.size(); ++j) {
+      sum += PairReconstructability(s.position, s.normal, cameras[i], cameras[j], kDMax);
+    }
+  }
+  return sum;
+}
+
 struct Town {
   Town()
       : site(MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 12), Rectangle(35, 0, 50, 25)},
                       {.safe_altitude_m = 30, .margin_m = 20, .heights_m = {8, 15}})),
-        view(site, FindCamera("mavic-3e"), SampleSurface(site, {.spacing_m = 6}), kDMax),
-        hovers(GridHovers(site, view.camera, {.forward_overlap = 0.6, .side_overlap = 0.5})) {}
+        view(site, FindCamera("mavic-3e").Field(), SampleSurface(site, {.spacing_m = 6}), kDMax),
+        hovers(GridHovers(site, FindCamera("mavic-3e"),
+                          {.forward_overlap = 0.6, .side_overlap = 0.5})) {}
 
   // By the definition, photo by photo.
   double Expected(uint32_t sample, const std::vector<uint32_t>& with) const {
@@ -25,11 +37,10 @@ struct Town {
     for (const uint32_t hover : with) {
       for (const Sighting& sighting : SightingsOf(view, hovers[hover])) {
         if (sighting.sample != sample) continue;
-        for (int k = 0; k < sighting.shots; ++k) cameras.push_back(hovers[hover].position);
+        for (int k = 0; k < sighting.pictures; ++k) cameras.push_back(hovers[hover].position);
       }
     }
-    const SurfaceSample& s = view.samples[sample];
-    return Reconstructability(s.position, s.normal, cameras, kDMax);
+    return Reconstructability(view.samples[sample], cameras);
   }
   void ExpectAlike(const ViewGraph& graph) const {
     std::vector<uint32_t> with;
@@ -62,10 +73,10 @@ TEST(ViewGraph, PhotosOfOneHoverHaveNextToNoParallax) {
   graph.AddAll(town.hovers);
   int several = 0;
   for (const Sighting& sighting : graph.sightings(0)) {
-    several += sighting.shots > 1;
+    several += sighting.pictures > 1;
     const double expected = town.Expected(sighting.sample, {0});
     EXPECT_NEAR(graph.state(sighting.sample).reconstructability, expected, 1e-7);
-    EXPECT_EQ(expected > 0, sighting.shots > 1);
+    EXPECT_EQ(expected > 0, sighting.pictures > 1);
   }
   EXPECT_GT(several, 10);
 }

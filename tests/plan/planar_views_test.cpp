@@ -11,10 +11,10 @@
 #include "plan/planar/move_hovers.h"
 #include "plan/planar/reconstructability.h"
 #include "plan/planar/thin_out.h"
-#include "plan/polygons.h"
 #include "plan/space/obstacles.h"
 #include "survey/error.h"
-#include "tests/plan/made_site.h"
+#include "survey/geometry2d.h"
+#include "tests/site/made_site.h"
 #include "tests/survey/stage_support.h"
 
 namespace stucco::plan {
@@ -36,7 +36,7 @@ PlanarOptions Options() {
 }
 
 SurfaceView ViewOf(const Site& site) {
-  return {site, FindCamera("mavic-3e"),
+  return {site, FindCamera("mavic-3e").Field(),
           SampleSurface(site, {.spacing_m = 5, .ground_reach_m = 2 * site.d_min_m}), kDMax};
 }
 
@@ -50,7 +50,7 @@ std::vector<SampleState> StatesWith(const SurfaceView& view, const std::vector<H
 TEST(RemoveRedundant, LeavesWhatIsRequiredAndNothingThatCouldGo) {
   const Site site = Town();
   const SurfaceView view = ViewOf(site);
-  const std::vector<Hover> grid = GridHovers(site, view.camera, Options().grid);
+  const std::vector<Hover> grid = GridHovers(site, FindCamera("mavic-3e"), Options().grid);
   const double tau = 10 * GoodPair(26, kDMax);
   ViewGraph graph(view, kDMax, 1);
   graph.AddAll(grid);
@@ -88,7 +88,7 @@ TEST(Requirements, AreWhatTheFullSetGives) {
   const Site site = Town();
   const SurfaceView view = ViewOf(site);
   ViewGraph graph(view, kDMax, 1);
-  graph.AddAll(GridHovers(site, view.camera, Options().grid));
+  graph.AddAll(GridHovers(site, FindCamera("mavic-3e"), Options().grid));
   const double tau = 100;
   const auto requirements = RequirementsOf(graph, view.samples, tau);
   int below = 0;
@@ -108,9 +108,9 @@ TEST(Requirements, AreWhatTheFullSetGives) {
 TEST(PlanarViews, KeepCoverageWithFarFewerHovers) {
   const Site site = Town();
   const SurfaceView view = ViewOf(site);
-  const std::vector<Hover> grid = GridHovers(site, view.camera, Options().grid);
+  const std::vector<Hover> grid = GridHovers(site, FindCamera("mavic-3e"), Options().grid);
   const std::vector<Hover> views =
-      PlanarViews(site, view.camera, Options(), {}, 1, SilentProgress());
+      PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, SilentProgress());
   EXPECT_LT(views.size(), grid.size() / 2);
   EXPECT_GT(views.size(), 4U);
   const auto before = StatesWith(view, grid);
@@ -131,7 +131,7 @@ TEST(PlanarViews, AreSafeAndInTheArea) {
   const Site site = Town();
   const Obstacles obstacles(site);
   for (const Hover& hover :
-       PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, 1, SilentProgress())) {
+       PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, SilentProgress())) {
     EXPECT_TRUE(obstacles.IsFree(hover.position));
     EXPECT_TRUE(Contains(site.area, hover.position.head<2>()));
     EXPECT_EQ(hover.shots.size(), 5U);
@@ -140,8 +140,10 @@ TEST(PlanarViews, AreSafeAndInTheArea) {
 
 TEST(PlanarViews, AreTheSameAtAnyNumberOfThreads) {
   const Site site = Town();
-  const auto one = PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, 1, SilentProgress());
-  const auto two = PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, 2, SilentProgress());
+  const auto one = PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, SilentProgress());
+  PlanarOptions twice = Options();
+  twice.threads = 2;
+  const auto two = PlanarViews(site, FindCamera("mavic-3e"), twice, {}, SilentProgress());
   ASSERT_EQ(one.size(), two.size());
   for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].position, two[i].position);
 }
@@ -157,19 +159,17 @@ TEST(PlanarViews, NeedFewerWhereDippingViewsSeeTheWalls) {
                          {{.yaw_rad = std::atan2(-normal.x(), -normal.y()), .targets = {}}}});
     }
   }
-  const auto without =
-      PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, 1, SilentProgress());
-  const auto with =
-      PlanarViews(site, FindCamera("mavic-3e"), Options(), dipping, 1, SilentProgress());
+  const auto without = PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, SilentProgress());
+  const auto with = PlanarViews(site, FindCamera("mavic-3e"), Options(), dipping, SilentProgress());
   EXPECT_LT(with.size(), without.size());
 }
 
 TEST(PlanarViews, AHigherThresholdKeepsMore) {
   const Site site = Town();
   PlanarOptions options = Options();
-  const auto some = PlanarViews(site, FindCamera("mavic-3e"), options, {}, 1, SilentProgress());
+  const auto some = PlanarViews(site, FindCamera("mavic-3e"), options, {}, SilentProgress());
   options.tau_r = 60;
-  const auto more = PlanarViews(site, FindCamera("mavic-3e"), options, {}, 1, SilentProgress());
+  const auto more = PlanarViews(site, FindCamera("mavic-3e"), options, {}, SilentProgress());
   EXPECT_GT(more.size(), some.size());
 }
 
@@ -183,7 +183,7 @@ TEST(PlanarViews, SeeEveryWallThatTheFullGridSees) {
   const auto grid = GridHovers(site, camera, Options().grid);
   PlanarOptions options = Options();
   options.sample_spacing_m = 12;  // so coarse that thinning out misses much
-  const auto views = PlanarViews(site, camera, options, {}, 1, SilentProgress());
+  const auto views = PlanarViews(site, camera, options, {}, SilentProgress());
   const auto before = EvaluateFacades(site, camera, kDMax, grid, 1);
   const auto after = EvaluateFacades(site, camera, kDMax, views, 1);
   for (size_t i = 0; i < before.size(); ++i) {
@@ -209,7 +209,7 @@ TEST(PlanarViews, FollowTheTerrain) {
   const Site site = Slope();
   const SurfaceView view = ViewOf(site);
   const Obstacles obstacles(site);
-  const auto views = PlanarViews(site, view.camera, Options(), {}, 1, SilentProgress());
+  const auto views = PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, SilentProgress());
   double lowest = 1e9, highest = 0;
   for (const Hover& hover : views) {
     EXPECT_EQ(hover.position.z(), site.CeilingAt(hover.position.head<2>()));
@@ -234,7 +234,7 @@ TEST(MoveHovers, GainsWithoutLosing) {
   const Site site = Town();
   const SurfaceView view = ViewOf(site);
   const double tau = 10 * GoodPair(26, kDMax);
-  std::vector<Hover> grid = GridHovers(site, view.camera, Options().grid);
+  std::vector<Hover> grid = GridHovers(site, FindCamera("mavic-3e"), Options().grid);
   ViewGraph graph(view, kDMax, 1);
   graph.AddAll(grid);
   const auto requirements = RequirementsOf(graph, view.samples, tau);
@@ -295,7 +295,7 @@ TEST(PlanarViews, FromBeyondTheLargestDistanceStillCover) {
   PlanarOptions options = Options();
   options.d_max_m = 20;  // the ceiling is at 26 m
   stucco::test::Listener listener;
-  const auto views = PlanarViews(site, FindCamera("mavic-3e"), options, {}, 1, listener);
+  const auto views = PlanarViews(site, FindCamera("mavic-3e"), options, {}, listener);
   EXPECT_NE(testing::PrintToString(listener.warnings).find("d_max"), std::string::npos);
   EXPECT_GT(views.size(), 4U);
 }
@@ -303,14 +303,13 @@ TEST(PlanarViews, FromBeyondTheLargestDistanceStillCover) {
 TEST(PlanarViews, StopWhenAsked) {
   stucco::test::Listener listener;
   listener.cancelled = true;
-  EXPECT_THROW(PlanarViews(Town(), FindCamera("mavic-3e"), Options(), {}, 1, listener), Error);
+  EXPECT_THROW(PlanarViews(Town(), FindCamera("mavic-3e"), Options(), {}, listener), Error);
 }
 
 TEST(PlanarViews, OfNothingAreNone) {
   Site site = Town();
   site.area = {};
-  EXPECT_TRUE(
-      PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, 1, SilentProgress()).empty());
+  EXPECT_TRUE(PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, SilentProgress()).empty());
 }
 
 }  // namespace

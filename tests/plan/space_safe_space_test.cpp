@@ -8,7 +8,7 @@
 
 #include "plan/space/lift.h"
 #include "plan/space/safe_space.h"
-#include "tests/plan/made_site.h"
+#include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {

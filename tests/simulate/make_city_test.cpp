@@ -32,7 +32,7 @@ CityOptions Coarse(const std::string& style, uint64_t seed) {
   return options;
 }
 
-plan::Site SiteOf(const fs::path& scene) {
+Site SiteOf(const fs::path& scene) {
   std::optional<fs::path> dem;
   if (fs::exists(scene / kSceneTerrain)) dem = scene / kSceneTerrain;
   return plan::ReadSite({.map = scene / kSceneMap, .dem = dem}, plan::PlanOptions{});
@@ -54,11 +54,11 @@ TEST_P(Cities, EveryFacadeOfThePlannerIsAWallOfTheTruth) {
   const CitySummary summary = MakeCity(Coarse(GetParam(), 5), scene);
   const SceneInfo info = ReadSceneInfo(scene);
   const auto facets = FacetsById(scene);
-  const plan::Site site = SiteOf(scene);
+  const Site site = SiteOf(scene);
   EXPECT_TRUE(site.repairs.empty()) << site.repairs[0];
   EXPECT_EQ(static_cast<int>(site.facades.size()), summary.facades);
   std::set<std::string> matched;
-  for (const plan::Facade& facade : site.facades) {
+  for (const Facade& facade : site.facades) {
     ASSERT_TRUE(facets.contains(facade.id)) << facade.id;
     const Facet& wall = facets.at(facade.id);
     EXPECT_EQ(wall.facade, facade.id);
@@ -272,7 +272,7 @@ TEST_P(Cities, HeightsOfTheMapAreThoseOfTheTruth) {
       }
     }
   }
-  for (const plan::Footprint& footprint : SiteOf(scene).footprints) {
+  for (const Footprint& footprint : SiteOf(scene).footprints) {
     ASSERT_TRUE(reach.contains(footprint.building)) << footprint.building;
     const auto [low, high] = reach.at(footprint.building);
     constexpr double kHighestParapet_m = 1.1;

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "plan/mission/wpml_lint.h"
+#include "plan/mission/lint_finding.h"
 
 namespace stucco::plan::internal {
 

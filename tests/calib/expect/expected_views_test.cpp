@@ -27,7 +27,7 @@ ExpectedViews Expect(const std::vector<std::optional<Pose>>& poses) {
 
 int SeenOfWall(const ExpectedViews& views, int photo, int wall) {
   return static_cast<int>(std::ranges::count_if(
-      views.seen[photo], [&](int point) { return views.points[point].wall == wall; }));
+      views.seen[photo], [&](int point) { return views.points[point].facade == wall; }));
 }
 
 TEST(ExpectViews, SeesWhatIsInThePictureAndNotHidden) {

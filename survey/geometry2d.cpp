@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/geometry2d.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stucco {
+namespace {
+
+// visit(a, b) for every edge.
+template <class Visit>
+void VisitEdges(const Polygon& polygon, const Visit& visit) {
+  for (const Ring& ring : polygon.rings) {
+    for (size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
+  }
+}
+
+bool CrossEachOther(const Segment2d& s, const Segment2d& t) {
+  const Eigen::Vector2d u = s.b - s.a;
+  const Eigen::Vector2d v = t.b - t.a;
+  const double from_t_a = Cross(v, s.a - t.a);
+  const double from_t_b = Cross(v, s.b - t.a);
+  const double from_s_a = Cross(u, t.a - s.a);
+  const double from_s_b = Cross(u, t.b - s.a);
+  return (from_t_a > 0) != (from_t_b > 0) && (from_s_a > 0) != (from_s_b > 0);
+}
+
+}  // namespace
+
+// Relative to the first corner: far from the origin the products would lose digits.
+double SignedArea(const Ring& ring) {
+  double twice = 0;
+  for (size_t i = 2; i < ring.size(); ++i) {
+    twice += Cross(ring[i - 1] - ring[0], ring[i] - ring[0]);
+  }
+  return twice / 2;
+}
+
+double Area(const Polygon& polygon) {
+  double area = 0;
+  for (const Ring& ring : polygon.rings) area += SignedArea(ring);
+  return area;
+}
+
+Eigen::AlignedBox2d BoundsOf(const Polygon& polygon) {
+  Eigen::AlignedBox2d bounds;
+  if (polygon.rings.empty()) return bounds;
+  for (const Eigen::Vector2d& corner : polygon.rings[0]) bounds.extend(corner);
+  return bounds;
+}
+
+bool Contains(const Polygon& polygon, const Eigen::Vector2d& p) {
+  bool inside = false;
+  VisitEdges(polygon, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    if ((a.y() > p.y()) == (b.y() > p.y())) return;
+    const bool left_of_upward_edge = Cross(b - a, p - a) > 0;
+    if (left_of_upward_edge == (b.y() > a.y())) inside = !inside;
+  });
+  return inside;
+}
+
+double SquaredDistance(const Segment2d& segment, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d along = segment.b - segment.a;
+  const double squared = along.squaredNorm();
+  const double t = squared > 0 ? std::clamp((p - segment.a).dot(along) / squared, 0.0, 1.0) : 0;
+  return (p - segment.a - t * along).squaredNorm();
+}
+
+double Distance(const Segment2d& segment, const Eigen::Vector2d& p) {
+  return std::sqrt(SquaredDistance(segment, p));
+}
+
+double SquaredDistance(const Segment2d& s, const Segment2d& t) {
+  if (CrossEachOther(s, t)) return 0;
+  return std::min({SquaredDistance(t, s.a), SquaredDistance(t, s.b), SquaredDistance(s, t.a),
+                   SquaredDistance(s, t.b)});
+}
+
+double Distance(const Polygon& polygon, const Eigen::Vector2d& p) {
+  if (Contains(polygon, p)) return 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  VisitEdges(polygon, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    nearest = std::min(nearest, Distance(Segment2d{a, b}, p));
+  });
+  return nearest;
+}
+
+}  // namespace stucco
