@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "proxy/abstract.h"
+#include "proxy/options.h"
 #include "proxy/samples.h"
 #include "proxy/stations.h"
 

@@ -5,11 +5,13 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "proxy/abstract.h"
+#include "proxy/findings.h"
+#include "proxy/options.h"
 #include "proxy/plane.h"
 #include "proxy/samples.h"
 #include "proxy/scale.h"
 #include "proxy/stations.h"
+#include "survey/georef.h"
 
 namespace stucco {
 

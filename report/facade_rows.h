@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report/report.h"
+#include "report/options.h"
 #include "report/survey_data.h"
 
 namespace stucco {

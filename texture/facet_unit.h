@@ -8,8 +8,8 @@
 
 #include "survey/texture_set.h"
 #include "texture/input.h"
+#include "texture/options.h"
 #include "texture/paint.h"
-#include "texture/texture.h"
 
 namespace stucco {
 

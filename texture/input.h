@@ -9,8 +9,8 @@
 #include "survey/georef.h"
 #include "survey/proxy.h"
 #include "survey/stage.h"
+#include "texture/options.h"
 #include "texture/photo.h"
-#include "texture/texture.h"
 
 namespace stucco {
 

@@ -10,9 +10,9 @@
 #include "texture/candidates.h"
 #include "texture/colour.h"
 #include "texture/grid.h"
+#include "texture/options.h"
 #include "texture/photo.h"
 #include "texture/photo_cache.h"
-#include "texture/texture.h"
 
 namespace stucco {
 
