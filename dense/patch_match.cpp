@@ -64,13 +64,13 @@ class LevelMatcher {
       : input_(input),
         options_(options),
         level_(level),
-        view_(input.reference->views[level]),
+        view_(input.reference->cameras[level]),
         image_(input.reference->images[level]) {
-    for (const auto& source : input.sources) geometry_.emplace_back(view_, source->views[level]);
+    for (const auto& source : input.sources) geometry_.emplace_back(view_, source->cameras[level]);
     planes_.resize(image_.gray.size());
     costs_.assign(image_.gray.size(), kNoMatch);
     for (size_t s = 0; s < input.source_maps.size(); ++s) {
-      back_.emplace_back(input.sources[s]->views[level], view_);
+      back_.emplace_back(input.sources[s]->cameras[level], view_);
     }
   }
 
@@ -81,7 +81,7 @@ class LevelMatcher {
           RandomPlane(random, static_cast<int>(i % view_.width), static_cast<int>(i / view_.width));
     }
     // Every seed colours a disc; later and nearer seeds do not matter, propagation sorts them out.
-    const float scale = static_cast<float>(view_.width) / input_.reference->views[0].width;
+    const float scale = static_cast<float>(view_.width) / input_.reference->cameras[0].width;
     constexpr int kRadius = 6;
     for (const DepthSeed& seed : input_.seeds) {
       const int x0 = static_cast<int>(seed.x * scale);
@@ -210,7 +210,7 @@ class LevelMatcher {
   // Forward-backward reprojection error in pixels against the source's own depth, limited.
   float Disagreement(const Eigen::Vector3f& point, int x, int y, int source) const {
     const SourceGeometry& to_source = geometry_[source];
-    const PinholeView& other = input_.sources[source]->views[level_];
+    const PinholeCamera& other = input_.sources[source]->cameras[level_];
     const Eigen::Vector3f p = to_source.source_from_reference * point + to_source.translation;
     if (p.z() <= 0) return kGeometricLimit;
     const int u = static_cast<int>(std::lround(other.fx * p.x() / p.z() + other.cx));
@@ -323,7 +323,7 @@ class LevelMatcher {
   const PatchMatchInput& input_;
   const PatchMatchOptions& options_;
   int level_;
-  const PinholeView& view_;
+  const PinholeCamera& view_;
   const PackedImage& image_;
   std::vector<SourceGeometry> geometry_;
   std::vector<SourceGeometry> back_;  // reference from source, in the second pass
@@ -340,7 +340,7 @@ DepthMap MatchDepths(const PatchMatchInput& input, const PatchMatchOptions& opti
     matcher.Run(options.iterations, false);
     return matcher.Result();
   }
-  const int levels = static_cast<int>(input.reference->views.size());
+  const int levels = static_cast<int>(input.reference->cameras.size());
   std::unique_ptr<LevelMatcher> matcher;
   for (int level = levels - 1; level >= 0; --level) {
     auto finer = std::make_unique<LevelMatcher>(input, options, level);

@@ -5,11 +5,8 @@
 #include <cstdint>
 
 #include "proxy/findings.h"
+#include "proxy/input.h"
 #include "proxy/options.h"
-#include "proxy/samples.h"
-#include "proxy/stations.h"
-#include "survey/georef.h"
-#include "survey/point_cloud.h"
 #include "survey/proxy.h"
 #include "survey/stage.h"
 
@@ -18,10 +15,8 @@ namespace stucco {
 // The planar model of what the cloud shows: every building closed where its planes close and agree
 // with the points, else its seen facets, open; the ground apart as "G0". Throws Error
 // (kStageFailed) when the cloud shows no plane.
-Proxy AbstractCloud(const PointStream& cloud, const Stations& stations, const Georef& georef,
-                    const ProxyOptions& options, int threads, ProxyFindings& findings);
-Proxy AbstractCloud(const PointCloud& cloud, const Stations& stations, const Georef& georef,
-                    const ProxyOptions& options, int threads, ProxyFindings& findings);
+Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
+                    ProxyFindings& findings);
 
 // `max_points`, or what half of the memory holds, but never under 100000.
 int PointsWithin(uint64_t memory_limit_bytes, int max_points);

@@ -8,7 +8,6 @@
 
 #include "proxy/plane.h"
 #include "proxy/samples.h"
-#include "proxy/stations.h"
 
 namespace stucco {
 
@@ -40,9 +39,8 @@ PlaneRaster RasteriseHits(const Samples& samples, const Plane& plane, const Plan
 
 // Counts the rays from cameras to `witnesses` (samples that lie on some plane) that pass through
 // the plane and end more than `behind` behind it: there the wall has an opening, or ends.
-void CountThroughRays(const Samples& samples, const Stations& stations,
-                      const std::vector<int>& witnesses, const Plane& plane, double behind,
-                      PlaneRaster& raster);
+void CountThroughRays(const Samples& samples, const std::vector<int>& witnesses, const Plane& plane,
+                      double behind, PlaneRaster& raster);
 
 // The states of a raster's cells for outlining.
 enum class Evidence : uint8_t { kUnknown, kSeen, kGap, kOpen, kBetween };

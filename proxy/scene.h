@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "proxy/findings.h"
+#include "proxy/input.h"
 #include "proxy/options.h"
 #include "proxy/plane.h"
 #include "proxy/samples.h"
 #include "proxy/scale.h"
-#include "proxy/stations.h"
-#include "survey/georef.h"
 
 namespace stucco {
 
@@ -26,10 +25,9 @@ struct PlanarScene {
   std::vector<int> witnesses;                 // samples on any plane, ascending
 };
 
-// Steps 1 to 6 of the README: thinning, planes, up, regularisation, ground, buildings. Throws Error
-// (kStageFailed) when there are too few points or no planes.
-PlanarScene UnderstandCloud(const PointStream& cloud, const Stations& stations,
-                            const Georef& georef, const ProxyOptions& options, int threads,
+// Steps 1 to 5 of the README: samples, planes, up, regularisation, ground and buildings. Throws
+// Error (kStageFailed) when there are too few points or no planes.
+PlanarScene UnderstandCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
                             ProxyFindings& findings);
 
 }  // namespace stucco

@@ -19,7 +19,7 @@ constexpr double kUnusedShare = 0.005;
 constexpr double kLeastGain = 0.002;
 
 // Photo pixels per raster texel at a texel's centre, or nothing where the photo does not show it.
-std::optional<Eigen::Matrix2d> PixelsPerTexel(const TexturePhoto& photo, const TexelGrid& raster,
+std::optional<Eigen::Matrix2d> PixelsPerTexel(const SurveyPhoto& photo, const TexelGrid& raster,
                                               double x, double y) {
   const auto right = ProjectIntoPhoto(photo, raster.At(x + 0.25, y));
   const auto left = ProjectIntoPhoto(photo, raster.At(x - 0.25, y));
@@ -113,10 +113,10 @@ void Reach(const RasterView& view, const std::vector<float>& costs, std::vector<
 
 }  // namespace
 
-RasterView MeasureView(std::span<const TexturePhoto> photos, int photo_index, const Facet& facet,
+RasterView MeasureView(std::span<const SurveyPhoto> photos, int photo_index, const Facet& facet,
                        const TexelGrid& raster, std::span<const uint16_t> inside,
                        const Obstacles& obstacles, const ViewLimits& limits) {
-  const TexturePhoto& photo = photos[photo_index];
+  const SurveyPhoto& photo = photos[photo_index];
   RasterView out{photo_index, std::vector<TexelView>(raster.size())};
   const Eigen::Vector3d camera = photo.cam_from_world.Center();
   if (facet.normal.dot(camera) - facet.offset <= limits.tolerance) return out;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "survey/proxy.h"
+#include "survey/survey_photo.h"
 #include "texture/grid.h"
-#include "texture/photo.h"
 #include "texture/visibility.h"
 
 namespace stucco {
@@ -55,7 +55,7 @@ struct ViewLimits {
 // Measures a photo over the raster texels whose `inside` is not zero. Where a third of the 3 x 3
 // texels around one are behind points of the cloud, it counts as behind them too: borders of trees
 // and of noisy clouds are never exact.
-RasterView MeasureView(std::span<const TexturePhoto> photos, int photo, const Facet& facet,
+RasterView MeasureView(std::span<const SurveyPhoto> photos, int photo, const Facet& facet,
                        const TexelGrid& raster, std::span<const uint16_t> inside,
                        const Obstacles& obstacles, const ViewLimits& limits);
 

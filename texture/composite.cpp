@@ -44,7 +44,7 @@ std::vector<uint8_t> FindPresent(const std::vector<int>& owners, size_t count) {
   return present;
 }
 
-Layer MakeLayer(const ChosenPhoto& chosen, int index, const TexelGrid& grid, const Tile& tile,
+Layer MakeLayer(const PhotoLayer& chosen, int index, const TexelGrid& grid, const Tile& tile,
                 const Ownership& ownership) {
   SampledTile sampled = SamplePhoto(*chosen.photo, *chosen.open(), grid, tile, chosen.shift);
   for (size_t i = 0; i < tile.size(); ++i) {
@@ -79,7 +79,7 @@ void StoreTile(const Tile& core, const Tile& padded, const std::vector<float>& r
 }
 
 void PaintTile(const Tile& core, const TexelGrid& grid, const std::vector<uint8_t>& mask,
-               const std::vector<ChosenPhoto>& chosen, const Ownership& ownership, bool blend,
+               const std::vector<PhotoLayer>& chosen, const Ownership& ownership, bool blend,
                Composite& out) {
   Tile tile = Grown(core, kBlendMargin, grid);
   std::vector<int> owners = OwnersOf(tile, grid, mask, ownership);
@@ -107,7 +107,7 @@ void PaintTile(const Tile& core, const TexelGrid& grid, const std::vector<uint8_
 }  // namespace
 
 Composite ComposePicture(const TexelGrid& grid, const std::vector<uint8_t>& mask,
-                         const std::vector<ChosenPhoto>& chosen, const Ownership& ownership,
+                         const std::vector<PhotoLayer>& chosen, const Ownership& ownership,
                          bool blend) {
   Composite out;
   out.picture.width_px = grid.width;

@@ -30,7 +30,7 @@ struct FacetFiles {
 };
 
 FacetFiles MakeFacetFiles(const Facet& facet, const PaintedFacet& painted,
-                          std::span<const TexturePhoto> photos,
+                          std::span<const SurveyPhoto> photos,
                           std::span<const Eigen::Vector3d> gains, bool orthophoto);
 
 std::string PackFiles(const FacetFiles& files);

@@ -35,11 +35,11 @@ Sphere SphereAround(const Facet& facet) {
   return sphere;
 }
 
-double HeightAbove(const Facet& facet, const TexturePhoto& photo) {
+double HeightAbove(const Facet& facet, const SurveyPhoto& photo) {
   return facet.normal.dot(photo.cam_from_world.Center()) - facet.offset;
 }
 
-bool ConeReaches(const TexturePhoto& photo, const Sphere& sphere) {
+bool ConeReaches(const SurveyPhoto& photo, const Sphere& sphere) {
   if (!(photo.safe_radius_squared > 0)) return true;  // the cone is not known
   const Eigen::Vector3d center_in_cam = photo.cam_from_world * sphere.center;
   const double distance = center_in_cam.norm();
@@ -51,7 +51,7 @@ bool ConeReaches(const TexturePhoto& photo, const Sphere& sphere) {
 
 std::vector<float> CostsOver(const RasterView& view, const TexelGrid& raster, double texel,
                              const PaintScene& scene) {
-  return ViewCosts(view, raster.texel, texel, scene.photos[view.photo].sharpness);
+  return ViewCosts(view, raster.texel, texel, scene.photos[view.photo].relative_sharpness);
 }
 
 // How much brighter each candidate is than each other.
@@ -84,12 +84,12 @@ std::vector<ColourRatio> MeasureRatios(std::span<const Candidate> candidates,
 
 }  // namespace
 
-ViewLimits LimitsFor(const Facet& facet, std::span<const TexturePhoto> photos,
+ViewLimits LimitsFor(const Facet& facet, std::span<const SurveyPhoto> photos,
                      double max_angle_deg) {
   const Eigen::Vector3d center = SphereAround(facet).center;
   std::vector<double> facing;
   std::vector<double> all;
-  for (const TexturePhoto& photo : photos) {
+  for (const SurveyPhoto& photo : photos) {
     const double distance = (photo.cam_from_world.Center() - center).norm();
     all.push_back(distance);
     if (ProjectIntoPhoto(photo, center)) facing.push_back(distance);
@@ -104,7 +104,7 @@ ViewLimits LimitsFor(const Facet& facet, std::span<const TexturePhoto> photos,
   return limits;
 }
 
-std::vector<int> PhotosThatMaySee(const Facet& facet, std::span<const TexturePhoto> photos,
+std::vector<int> PhotosThatMaySee(const Facet& facet, std::span<const SurveyPhoto> photos,
                                   double max_angle_deg) {
   const Sphere sphere = SphereAround(facet);
   const double least_cos = std::cos(max_angle_deg * std::numbers::pi / 180);
@@ -139,9 +139,9 @@ TexelGrid LookRaster(const Facet& facet, const PaintScene& scene, std::span<cons
   return MakeGrid(facet, scene.up, std::clamp(footprint / kTexelsAcrossPhoto, finest, usual), most);
 }
 
-std::vector<float> SampleRaster(const TexturePhoto& photo, const TexelGrid& raster,
+std::vector<float> SampleRaster(const SurveyPhoto& photo, const TexelGrid& raster,
                                 PhotoCache& cache) {
-  return SamplePhoto(photo, *cache.Get(photo.name, kLookPhotoSide), raster,
+  return SamplePhoto(photo, *cache.Get(photo.path(), kLookPhotoSide), raster,
                      {0, 0, raster.width, raster.height})
       .rgb;
 }

@@ -51,11 +51,11 @@ void ApplyGain(const Eigen::Vector3d& gain, std::vector<float>& rgb) {
 
 RasterPicture MakeRasterPicture(const RasterView& view, const TexelGrid& raster, double texel,
                                 const Eigen::Vector3d& gain, const PaintScene& scene) {
-  const TexturePhoto& photo = scene.photos[view.photo];
+  const SurveyPhoto& photo = scene.photos[view.photo];
   RasterPicture picture;
   picture.sight.reserve(view.texels.size());
   for (const TexelView& seen : view.texels) picture.sight.push_back(seen.sight);
-  picture.cost = ViewCosts(view, raster.texel, texel, photo.sharpness);
+  picture.cost = ViewCosts(view, raster.texel, texel, photo.relative_sharpness);
   picture.rgb = SampleRaster(photo, raster, *scene.cache);
   SkyClues clues;
   for (const TexelView& seen : view.texels) clues.no_points.push_back(seen.no_points);
@@ -127,12 +127,11 @@ Selected SelectPhotos(const Facet& facet, const FacetLook& look, const PaintedFa
   return out;
 }
 
-std::vector<ChosenPhoto> OpenChosen(const Selected& selected,
-                                    std::span<const Eigen::Vector3d> gains,
-                                    const PaintScene& scene) {
-  std::vector<ChosenPhoto> chosen;
+std::vector<PhotoLayer> OpenChosen(const Selected& selected, std::span<const Eigen::Vector3d> gains,
+                                   const PaintScene& scene) {
+  std::vector<PhotoLayer> chosen;
   for (const RasterView& view : selected.views) {
-    ChosenPhoto photo;
+    PhotoLayer photo;
     photo.photo = &scene.photos[view.photo];
     photo.open = [cache = scene.cache, name = photo.photo->name] { return cache->Get(name, 0); };
     photo.gain = gains[view.photo];
@@ -144,7 +143,7 @@ std::vector<ChosenPhoto> OpenChosen(const Selected& selected,
 
 // The part of the raster that a chosen photo shows freely; a texel of the selection's raster is
 // `scale` of this one's.
-Tile FreeArea(const ChosenPhoto& chosen, const Ownership& ownership, const TexelGrid& raster,
+Tile FreeArea(const PhotoLayer& chosen, const Ownership& ownership, const TexelGrid& raster,
               double scale) {
   int left = raster.width;
   int top = raster.height;
@@ -164,7 +163,7 @@ Tile FreeArea(const ChosenPhoto& chosen, const Ownership& ownership, const Texel
   return {left, top, std::max(0, right - left), std::max(0, bottom - top)};
 }
 
-GreyPicture MakeGreyPicture(const ChosenPhoto& chosen, const TexelGrid& raster, int step,
+GreyPicture MakeGreyPicture(const PhotoLayer& chosen, const TexelGrid& raster, int step,
                             const PaintedFacet& canvas, const Ownership& ownership) {
   const Tile area = FreeArea(chosen, ownership, raster, static_cast<double>(ownership.step) / step);
   if (area.size() == 0) return {};
@@ -185,13 +184,13 @@ GreyPicture MakeGreyPicture(const ChosenPhoto& chosen, const TexelGrid& raster, 
 }
 
 void AlignChosen(const Selected& selected, const TextureOptions& options,
-                 std::vector<ChosenPhoto>& chosen, PaintedFacet& painted) {
+                 std::vector<PhotoLayer>& chosen, PaintedFacet& painted) {
   if (chosen.size() < 2) return;
   const int longest = std::max(painted.grid.width, painted.grid.height);
   const int step = (longest + kAlignSide - 1) / kAlignSide;
   const TexelGrid raster = Coarsened(painted.grid, step);
   std::vector<GreyPicture> pictures;
-  for (const ChosenPhoto& photo : chosen) {
+  for (const PhotoLayer& photo : chosen) {
     pictures.push_back(MakeGreyPicture(photo, raster, step, painted, selected.ownership));
   }
   Alignment alignment = AlignPictures(pictures, Eigen::Vector2d(raster.width, raster.height),
@@ -285,7 +284,7 @@ PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
   for (const RasterView& view : selected.views) painted.photos.push_back(view.photo);
 
   // 2. Bring the chosen photos together on the facet's plane.
-  std::vector<ChosenPhoto> chosen = OpenChosen(selected, gains, scene);
+  std::vector<PhotoLayer> chosen = OpenChosen(selected, gains, scene);
   AlignChosen(selected, options, chosen, painted);
 
   // 3. Paint, and fill what nobody shows.

@@ -32,7 +32,7 @@ double WeightedMedian(std::vector<std::pair<float, double>>& values) {
 }  // namespace
 
 AchievedQuality MeasureQuality(std::span<const RasterView> views,
-                               std::span<const TexturePhoto> photos, const TexelGrid& raster,
+                               std::span<const SurveyPhoto> photos, const TexelGrid& raster,
                                std::span<const uint16_t> inside, std::span<const int> owner,
                                double texel) {
   AchievedQuality out;

@@ -43,7 +43,7 @@ bool OcclusionScene::Blocked(const Eigen::Vector3d& from, const Eigen::Vector3d&
   return occluders_.Block(from, to - from, 1);
 }
 
-NearestPoints SplatNearest(const TexturePhoto& photo, std::span<const Eigen::Vector3d> points,
+NearestPoints SplatNearest(const SurveyPhoto& photo, std::span<const Eigen::Vector3d> points,
                            int most_px) {
   struct Splat {
     Eigen::Vector2d pixel;
@@ -81,7 +81,7 @@ NearestPoints SplatNearest(const TexturePhoto& photo, std::span<const Eigen::Vec
 }
 
 CloudView AskCloud(const NearestPoints& nearest, std::span<const Eigen::Vector3d> points,
-                   const TexturePhoto& photo, const Eigen::Vector2d& pixel, const Facet& facet,
+                   const SurveyPhoto& photo, const Eigen::Vector2d& pixel, const Facet& facet,
                    double clearance) {
   const double camera_height = facet.normal.dot(photo.cam_from_world.Center()) - facet.offset;
   const int x = static_cast<int>(pixel.x() * nearest.width / photo.camera.width_px);

@@ -9,7 +9,7 @@
 
 #include "survey/occluders.h"
 #include "survey/proxy.h"
-#include "texture/photo.h"
+#include "survey/survey_photo.h"
 
 namespace stucco {
 
@@ -34,7 +34,7 @@ struct NearestPoints {
 };
 
 // The raster gets as fine as the points are dense, between 100 and `most_px` cells wide.
-NearestPoints SplatNearest(const TexturePhoto& photo, std::span<const Eigen::Vector3d> points,
+NearestPoints SplatNearest(const SurveyPhoto& photo, std::span<const Eigen::Vector3d> points,
                            int most_px);
 
 // What the cloud says about a place on a facet as one photo sees it.
@@ -50,7 +50,7 @@ enum class CloudView {
 // front; it takes two of the nine nearest splats, as one may be noise. Beyond means that of the
 // twenty-five nearest at least three hold points, all farther than `clearance` behind the plane.
 CloudView AskCloud(const NearestPoints& nearest, std::span<const Eigen::Vector3d> points,
-                   const TexturePhoto& photo, const Eigen::Vector2d& pixel, const Facet& facet,
+                   const SurveyPhoto& photo, const Eigen::Vector2d& pixel, const Facet& facet,
                    double clearance);
 
 }  // namespace stucco

@@ -22,6 +22,7 @@ using Eigen::Vector3d;
 using testing::Capture;
 using testing::Captured;
 using testing::CaptureOptions;
+using testing::InputOf;
 
 Georef Metric() {
   Georef georef;
@@ -34,8 +35,7 @@ Georef Metric() {
 Proxy Abstract(const Captured& captured, const Georef& georef = Metric(),
                const ProxyOptions& options = {}, int threads = 1) {
   ProxyFindings findings;
-  const Proxy proxy =
-      AbstractCloud(captured.cloud, captured.stations, georef, options, threads, findings);
+  const Proxy proxy = AbstractCloud(InputOf(captured, georef), options, threads, findings);
   EXPECT_EQ(FindProblem(proxy), std::nullopt);
   return proxy;
 }
@@ -286,8 +286,7 @@ TEST(AbstractCloud, AFewPointsMakeACoarserModelAndSaySo) {
   const Captured captured =
       Capture({testing::BoxHouse(14, 12, 9)}, {testing::GroundSquare(24)}, {.noise = 0.02});
   ProxyFindings findings;
-  const Proxy proxy =
-      AbstractCloud(captured.cloud, captured.stations, Metric(), {.max_points = 6000}, 1, findings);
+  const Proxy proxy = AbstractCloud(InputOf(captured, Metric()), {.max_points = 6000}, 1, findings);
   EXPECT_EQ(FindProblem(proxy), std::nullopt);
   ASSERT_EQ(proxy.buildings.size(), 2u);
   EXPECT_TRUE(proxy.buildings[0].watertight);
@@ -296,7 +295,7 @@ TEST(AbstractCloud, AFewPointsMakeACoarserModelAndSaySo) {
               ::testing::ElementsAre(::testing::AllOf(::testing::HasSubstr("instead of 0.3"),
                                                       ::testing::HasSubstr("proxy.max_points"))));
   ProxyFindings dense;
-  AbstractCloud(captured.cloud, captured.stations, Metric(), {}, 1, dense);
+  AbstractCloud(InputOf(captured, Metric()), {}, 1, dense);
   EXPECT_THAT(dense.warnings, ::testing::IsEmpty());
 }
 
@@ -319,7 +318,7 @@ TEST(AbstractCloud, IsTheSameOnAnyNumberOfThreads) {
 void ExpectRefusal(const PointCloud& cloud, const std::string& word) {
   ProxyFindings findings;
   try {
-    AbstractCloud(cloud, {}, Metric(), {}, 1, findings);
+    AbstractCloud({StreamOf(cloud), {}, Metric()}, {}, 1, findings);
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kStageFailed);
@@ -367,7 +366,7 @@ TEST(AbstractCloud, ASphereIsAtMostOpenFacets) {
   }
   ProxyFindings findings;
   try {
-    const Proxy proxy = AbstractCloud(cloud, {}, Metric(), {}, 1, findings);
+    const Proxy proxy = AbstractCloud({StreamOf(cloud), {}, Metric()}, {}, 1, findings);
     EXPECT_EQ(FindProblem(proxy), std::nullopt);
     for (const Building& building : proxy.buildings) {
       if (building.watertight) {
@@ -383,9 +382,15 @@ TEST(AbstractCloud, RefusesABadUp) {
   ProxyFindings findings;
   const Captured captured = Capture({testing::BoxHouse(8, 6, 5)}, {}, {.spacing = 0.2});
   for (const std::vector<double>& up : {std::vector<double>{0, 0, 0}, {1, 2}}) {
-    EXPECT_THROW(
-        AbstractCloud(captured.cloud, captured.stations, Metric(), {.up = up}, 1, findings), Error);
+    EXPECT_THROW(AbstractCloud(InputOf(captured, Metric()), {.up = up}, 1, findings), Error);
   }
+}
+
+TEST(PointsWithin, HoldToTheMemoryLimit) {
+  EXPECT_EQ(PointsWithin(uint64_t{4} << 30, 2000000), 2000000);
+  EXPECT_EQ(PointsWithin(uint64_t{1} << 30, 2000000), 1342177);
+  EXPECT_EQ(PointsWithin(1, 2000000), 100000);
+  EXPECT_EQ(PointsWithin(uint64_t{1} << 40, 5000), 5000);
 }
 
 }  // namespace

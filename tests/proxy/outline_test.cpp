@@ -20,46 +20,43 @@ constexpr double kStep = 0.1;
 
 // A wall in the plane y = 0 facing south, seen where `seen` says so, 12 x 8 m.
 struct Wall {
-  Samples samples;
+  PlanarScene scene;
   Plane plane;
   std::vector<PlaneView> views;
-  Tolerances tolerances{.level_of_detail = 0.3,
+
+  explicit Wall(const std::function<bool(double, double)>& seen,
+                const std::function<bool(double, double)>& behind = nullptr) {
+    scene.samples.camera_centers = {{6, -30, 2}};
+    scene.tolerances = {.level_of_detail = 0.3,
                         .epsilon = 0.15,
                         .min_area = 2.25,
                         .fill_gap = 1.5,
                         .spacing = kStep,
                         .radius = 0.3};
-
-  explicit Wall(const std::function<bool(double, double)>& seen,
-                const std::function<bool(double, double)>& behind = nullptr) {
-    Stations stations;
-    stations.all.push_back({.center = {6, -30, 2}});
-    std::vector<int> witnesses;
     for (double x = kStep / 2; x < 12; x += kStep) {
       for (double z = kStep / 2; z < 8; z += kStep) {
         if (seen(x, z)) {
-          plane.points.push_back(static_cast<int>(samples.size()));
+          plane.points.push_back(static_cast<int>(scene.samples.size()));
           Add({x, 0, z});
         }
         if (behind && behind(x, z)) {
-          witnesses.push_back(static_cast<int>(samples.size()));
+          scene.witnesses.push_back(static_cast<int>(scene.samples.size()));
           Add(Vector3d(6, -30, 2) + 1.2 * (Vector3d(x, 0, z) - Vector3d(6, -30, 2)));
         }
       }
     }
     plane.normal = -Vector3d::UnitY();
     plane.role = PlaneRole::kWall;
-    views = ViewPlanes(samples, stations, {&plane, 1}, witnesses, Vector3d::UnitZ(),
-                       Vector3d::UnitX(), tolerances, 99, 1);
+    views = ViewPlanes(scene, {&plane, 1}, 99, 1);
   }
   void Add(const Vector3d& p) {
-    samples.positions.push_back(p);
-    samples.normals.push_back(-Vector3d::UnitY());
-    samples.weights.push_back(1);
-    samples.stations.push_back(0);
+    scene.samples.positions.push_back(p);
+    scene.samples.normals.push_back(-Vector3d::UnitY());
+    scene.samples.weights.push_back(1);
+    scene.samples.cameras.push_back(0);
   }
   std::vector<Facet> Facets(const std::vector<CutLine>& creases = {}) const {
-    return OutlineFacets(samples, views[0], creases, tolerances, /*ground=*/false);
+    return OutlineFacets(scene.samples, views[0], creases, scene.tolerances, /*ground=*/false);
   }
 };
 
@@ -183,18 +180,19 @@ TEST(OutlineFacets, AFewPointsAreNoFacet) {
 class CreasesTest : public testing::Test {
  protected:
   void Add(Plane& plane, const Vector3d& p) {
-    plane.points.push_back(static_cast<int>(samples_.size()));
-    samples_.positions.push_back(p);
-    samples_.normals.push_back(plane.normal);
-    samples_.weights.push_back(1);
-    samples_.stations.push_back(-1);
+    plane.points.push_back(static_cast<int>(scene_.samples.size()));
+    scene_.samples.positions.push_back(p);
+    scene_.samples.normals.push_back(plane.normal);
+    scene_.samples.weights.push_back(1);
+    scene_.samples.cameras.push_back(-1);
   }
   std::vector<PlaneView> View(size_t first_ground) const {
-    return ViewPlanes(samples_, {}, planes_, {}, Vector3d::UnitZ(), Vector3d::UnitX(), tolerances_,
-                      first_ground, 1);
+    PlanarScene scene = scene_;
+    scene.tolerances = tolerances_;
+    return ViewPlanes(scene, planes_, first_ground, 1);
   }
 
-  Samples samples_;
+  PlanarScene scene_;
   std::vector<Plane> planes_ = std::vector<Plane>(3);
   Tolerances tolerances_{.level_of_detail = 0.3,
                          .epsilon = 0.15,
@@ -246,7 +244,7 @@ TEST_F(CreasesTest, TakeNoSlopeFarAwayForTheFootOfAWall) {
   ASSERT_EQ(creases.size(), 1u);
   EXPECT_TRUE(creases[0].foot);
   EXPECT_NEAR(views[0].raster.frame.ToWorld(creases[0].point).z(), 0, 1e-9);
-  const auto facets = OutlineFacets(samples_, views[0], creases, tolerances_, false);
+  const auto facets = OutlineFacets(scene_.samples, views[0], creases, tolerances_, false);
   ASSERT_EQ(facets.size(), 1u);
   EXPECT_NEAR(facets[0].area, 48, 3);
 }

@@ -148,7 +148,7 @@ void AddCalibration(MadeSurvey& made) {
   for (int i = 0; i < 19; ++i) {
     calibration.photos.push_back(
         {PhotoPath(i), 0.5 + 0.01 * i, 1200 - 20 * i, 0.03 + 0.002 * i, i == 7, 0.9 - 0.01 * i});
-    PosedPhoto posed;
+    RegisteredImage posed;
     posed.id = PhotoId{static_cast<uint32_t>(i + 1)};
     posed.camera = CameraId{1};
     posed.name = PhotoPath(i);

@@ -17,12 +17,12 @@ using testing::MakeWall;
 
 class MeasuredWall : public ::testing::Test {
  protected:
-  RasterView Measure(const TexturePhoto& photo, const Proxy& proxy) const {
+  RasterView Measure(const SurveyPhoto& photo, const Proxy& proxy) const {
     const OcclusionScene scene(proxy);
-    const std::vector<TexturePhoto> photos = {photo};
+    const std::vector<SurveyPhoto> photos = {photo};
     return MeasureView(photos, 0, wall_, raster_, inside_, {&scene, {}, {}}, {78, 0.02, 0.2});
   }
-  RasterView Measure(const TexturePhoto& photo) const { return Measure(photo, MakeProxy({wall_})); }
+  RasterView Measure(const SurveyPhoto& photo) const { return Measure(photo, MakeProxy({wall_})); }
   static double Share(const RasterView& view) {
     return static_cast<double>(
                std::count_if(view.texels.begin(), view.texels.end(),
@@ -70,7 +70,7 @@ TEST_F(MeasuredWall, CountsAsBehindWherePointsStandInFront) {
   for (int i = 0; i < 60; ++i) {
     for (int j = 0; j < 60; ++j) points.push_back({1.7 + 0.01 * i, -1, 1.2 + 0.01 * j});
   }
-  const std::vector<TexturePhoto> photos = {
+  const std::vector<SurveyPhoto> photos = {
       LookFrom("a", {2, -5, 1.5}, {2, 0, 1.5}, 1000, 800, 500)};
   const std::vector<NearestPoints> nearest = {SplatNearest(photos[0], points, 200)};
   const OcclusionScene scene(MakeProxy({wall_}));

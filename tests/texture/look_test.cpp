@@ -15,15 +15,15 @@ namespace {
 using testing::LookFrom;
 using testing::MakeWall;
 
-TexturePhoto KnownLens(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  TexturePhoto photo = LookFrom("a", from, to, 640, 480, 600);
-  KnowLens(photo);
+SurveyPhoto KnownLens(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  SurveyPhoto photo = LookFrom("a", from, to, 640, 480, 600);
+  photo.safe_radius_squared = SafeRadiusSquared(photo.camera);
   return photo;
 }
 
 TEST(PhotosThatMaySee, LeavesOutWhatCannot) {
   const Facet wall = MakeWall(4, 3);
-  std::vector<TexturePhoto> photos = {
+  std::vector<SurveyPhoto> photos = {
       KnownLens({2, -5, 1.5}, {2, 0, 1.5}),                      // in front
       KnownLens({2, 5, 1.5}, {2, 0, 1.5}),                       // behind
       KnownLens({2, -5, 1.5}, {2, -9, 1.5}),                     // looks away
@@ -41,7 +41,7 @@ TEST(PhotosThatMaySee, KeepsEveryPhotoThatSeesSomething) {
   const std::vector<uint16_t> inside(raster.size(), 1);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-12, 12);
-  std::vector<TexturePhoto> photos;
+  std::vector<SurveyPhoto> photos;
   for (int i = 0; i < 400; ++i) {
     const Eigen::Vector3d from(place(random), place(random), place(random));
     const Eigen::Vector3d to(place(random) / 3, place(random) / 6, place(random) / 3);
@@ -62,7 +62,7 @@ TEST(PhotosThatMaySee, KeepsEveryPhotoThatSeesSomething) {
 }
 
 TEST(LookRaster, HasTexelsOnThinAndOnLongFacets) {
-  const std::vector<TexturePhoto> photos = {KnownLens({20, -8, 1}, {20, 0, 1})};
+  const std::vector<SurveyPhoto> photos = {KnownLens({20, -8, 1}, {20, 0, 1})};
   PaintScene scene;
   scene.photos = photos;
   const std::vector<int> all = {0};
@@ -80,7 +80,7 @@ TEST(LookRaster, HasTexelsOnThinAndOnLongFacets) {
 }
 
 TEST(LookRaster, IsBoundedWithManyPhotos) {
-  const std::vector<TexturePhoto> photos(1, KnownLens({20, -1, 1}, {20, 0, 1}));
+  const std::vector<SurveyPhoto> photos(1, KnownLens({20, -1, 1}, {20, 0, 1}));
   PaintScene scene;
   scene.photos = photos;
   const std::vector<int> all(100000, 0);
@@ -89,9 +89,9 @@ TEST(LookRaster, IsBoundedWithManyPhotos) {
 
 TEST(LimitsFor, GrowWithTheTypicalDistance) {
   Facet wall = MakeWall(4, 3);
-  const std::vector<TexturePhoto> photos = {KnownLens({2, -10, 1.5}, {2, 0, 1.5}),
-                                            KnownLens({2, -10, 1.5}, {2, -50, 1.5}),
-                                            KnownLens({2, -90, 1.5}, {2, -99, 1.5})};
+  const std::vector<SurveyPhoto> photos = {KnownLens({2, -10, 1.5}, {2, 0, 1.5}),
+                                           KnownLens({2, -10, 1.5}, {2, -50, 1.5}),
+                                           KnownLens({2, -90, 1.5}, {2, -99, 1.5})};
   ViewLimits limits = LimitsFor(wall, photos, 70);
   EXPECT_EQ(limits.max_angle_deg, 70);
   EXPECT_NEAR(limits.tolerance, 0.03, 1e-9);  // of the photo that shows it, 10 m away

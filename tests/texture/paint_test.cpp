@@ -12,7 +12,7 @@ namespace {
 constexpr uint64_t kMegabyte = 1'000'000;
 
 uint64_t Bytes(const Facet& facet, int candidates, int photo_side_px) {
-  const std::vector<TexturePhoto> photos = {
+  const std::vector<SurveyPhoto> photos = {
       testing::LookFrom("a", {2, -5, 1}, {2, 0, 1}, photo_side_px, photo_side_px, 500)};
   PaintScene scene;
   scene.photos = photos;

@@ -38,7 +38,7 @@ class Quality : public ::testing::Test {
   TexelGrid raster_;
   std::vector<uint16_t> inside_;
   // Frontal from very far, and from 60 degrees to the left and to the right.
-  std::vector<TexturePhoto> photos_ = {
+  std::vector<SurveyPhoto> photos_ = {
       LookFrom("a", {2, -1000, 1.5}, {2, 0, 1.5}, 100, 100, 100),
       LookFrom("b", {2 - 866, -500, 1.5}, {2, 0, 1.5}, 100, 100, 100),
       LookFrom("c", {2 + 866, -500, 1.5}, {2, 0, 1.5}, 100, 100, 100)};

@@ -56,11 +56,11 @@ Colour WallColour(double x, double z) {
   return colour;
 }
 
-TexturePhoto LookFrom(const std::string& name, const Eigen::Vector3d& position,
-                      const Eigen::Vector3d& target, int width_px, int height_px, double focal_px) {
-  TexturePhoto photo;
-  photo.name = name;
-  photo.hash = name;
+SurveyPhoto LookFrom(const std::string& name, const Eigen::Vector3d& position,
+                     const Eigen::Vector3d& target, int width_px, int height_px, double focal_px) {
+  SurveyPhoto photo;
+  photo.captured.path = name;
+  photo.captured.hash = name;
   photo.camera.id = {1};
   photo.camera.model = CameraModel::kPinhole;
   photo.camera.width_px = width_px;
@@ -97,7 +97,7 @@ Scene DiscScene(const Eigen::Vector3d& center, double radius, const Scene& behin
   };
 }
 
-Image Render(const TexturePhoto& photo, const Scene& scene, double exposure) {
+Image Render(const SurveyPhoto& photo, const Scene& scene, double exposure) {
   Image image;
   image.width_px = photo.camera.width_px;
   image.height_px = photo.camera.height_px;

@@ -55,7 +55,7 @@ class Foreground : public ::testing::Test {
   }
 
   Facet wall_ = MakeWall(4, 3);
-  TexturePhoto photo_ = LookFrom("a.jpg", {2, -6, 1.5}, {2, 0, 1.5}, 400, 300, 400);
+  SurveyPhoto photo_ = LookFrom("a.jpg", {2, -6, 1.5}, {2, 0, 1.5}, 400, 300, 400);
   std::vector<Eigen::Vector3d> points_;
 };
 
@@ -86,7 +86,7 @@ TEST_F(Foreground, IsNotWhatLiesBeyondThePlane) {
 }
 
 TEST(SplatNearest, KeepsTheNearestPoint) {
-  const TexturePhoto photo = LookFrom("a.jpg", {0, -6, 0}, {0, 0, 0}, 400, 300, 400);
+  const SurveyPhoto photo = LookFrom("a.jpg", {0, -6, 0}, {0, 0, 0}, 400, 300, 400);
   const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {0, -2, 0}, {0, -1, 0}, {0, -7, 0}};
   const NearestPoints nearest = SplatNearest(photo, points, 100);
   EXPECT_EQ(nearest.width, 100);
