@@ -26,6 +26,12 @@
 namespace stucco {
 namespace {
 
+// Of a building that the cloud shows and no map names: buildings of maps have ids that begin with
+// B.
+std::string ClusterId(size_t number) {
+  return fmt::format("C{:04}", number + 1);
+}
+
 // All planes of a scene in one row: the buildings' first, then the ground's.
 struct PlaneTable {
   std::vector<Plane> planes;
@@ -70,8 +76,7 @@ std::vector<std::vector<Facet>> OpenFacets(const PlanarScene& scene, const Plane
     facets[p] = OutlineOrWarn(outline, warnings[p]);
   });
   for (size_t p = 0; p < views.size(); ++p) {
-    const std::string owner =
-        table.building[p] < 0 ? "G0" : fmt::format("B{:04}", table.building[p] + 1);
+    const std::string owner = table.building[p] < 0 ? "G0" : ClusterId(table.building[p]);
     for (const auto& warning : warnings[p]) findings.warnings.push_back(owner + ": " + warning);
   }
   return facets;
@@ -133,7 +138,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   Building ground{.id = "G0", .watertight = false, .source = "cloud", .facets = {}};
   for (size_t b = 0; b < scene.buildings.size(); ++b) {
     proxy.buildings.push_back(
-        {.id = fmt::format("B{:04}", b + 1), .watertight = false, .source = "cloud", .facets = {}});
+        {.id = ClusterId(b), .watertight = false, .source = "cloud", .facets = {}});
   }
   for (size_t p = 0; p < facets.size(); ++p) {
     Building& building = table.building[p] < 0 ? ground : proxy.buildings[table.building[p]];

@@ -265,9 +265,8 @@ FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy) {
   std::set<int> found;
   for (size_t w = 0; w < facets.size(); ++w) {
     if (matches[w].empty()) continue;
-    facets[w]->facade = plan.facades[matches[w].front()].id;
-    for (size_t i = 1; i < matches[w].size(); ++i) {
-      facets[w]->other_facades.push_back(plan.facades[matches[w][i]].id);
+    for (const int match : matches[w]) {
+      facets[w]->planned_facades.push_back(plan.facades[match].id);
     }
     found.insert(matches[w].begin(), matches[w].end());
     ++naming.named;

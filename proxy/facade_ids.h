@@ -44,9 +44,8 @@ struct FacadeNaming {
   std::optional<Eigen::Vector2d> shift_m;
 };
 
-// Gives walls of the proxy the plan's facade ids (`facade` and `other_facades`; `id` stays); the
-// other facets, and the walls of a survey that is not where the plan is, keep their own. Requires
-// an "enu" georef.
+// Names the plan's facades that walls of the proxy are parts of (`planned_facades`); the walls of a
+// survey that is not where the plan is get none. Requires facets without any and an "enu" georef.
 FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy);
 
 }  // namespace stucco

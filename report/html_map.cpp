@@ -134,7 +134,7 @@ std::pair<Eigen::Vector2d, Eigen::Vector2d> WallLine(const Facet& facet, const G
 }
 
 std::string WallElement(const PageContent& page, size_t index, const GroundPlan& plan) {
-  const FacadeRow& row = page.rows[index];
+  const FacetRow& row = page.rows[index];
   const auto [a, b] = WallLine(*row.facet, plan, page.data.proxy->up);
   return fmt::format(
       "<g class=\"wall {}\" data-open=\"{}\"><title>{}: {}</title>"

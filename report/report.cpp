@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "report/facade_rows.h"
+#include "report/facet_rows.h"
 #include "report/pictures.h"
 #include "report/report_html.h"
 #include "report/report_json.h"
@@ -18,16 +18,15 @@
 namespace stucco {
 namespace {
 
-std::vector<FacadePictures> MakePictures(const std::vector<FacadeRow>& rows,
-                                         const ReportOptions& options,
-                                         const StageContext& context) {
+std::vector<FacetPictures> MakePictures(const std::vector<FacetRow>& rows,
+                                        const ReportOptions& options, const StageContext& context) {
   const int side_px = PictureSide_px(options.picture_px, rows.size());
-  std::vector<FacadePictures> pictures(rows.size());
+  std::vector<FacetPictures> pictures(rows.size());
   context.progress->Begin("facade pictures", rows.size());
   const int threads = PictureThreads(rows, context.threads, context.memory_limit_bytes);
   ParallelFor(rows.size(), threads, [&](size_t i) {
     context.ThrowIfCancelled();
-    pictures[i] = MakeFacadePictures(rows[i], context.survey / "texture", side_px);
+    pictures[i] = MakeFacetPictures(rows[i], context.survey / "texture", side_px);
     context.progress->Advance();
   });
   return pictures;
@@ -38,9 +37,9 @@ std::vector<FacadePictures> MakePictures(const std::vector<FacadeRow>& rows,
 void RunReport(const ReportOptions& options, StageContext& context) {
   SurveyData data = LoadSurvey(context.survey, context.statuses);
   data.plan = PlanOfSurvey(context);
-  const std::vector<FacadeRow> rows = MakeFacadeRows(data, options);
-  const std::vector<FacadePictures> pictures = MakePictures(rows, options, context);
-  for (const FacadePictures& picture : pictures) {
+  const std::vector<FacetRow> rows = MakeFacetRows(data, options);
+  const std::vector<FacetPictures> pictures = MakePictures(rows, options, context);
+  for (const FacetPictures& picture : pictures) {
     if (!picture.problem.empty()) context.progress->Warn(picture.problem);
   }
   WriteFile(context.out / "report.json", ReportJson(data, rows, options));

@@ -7,11 +7,8 @@
 namespace stucco {
 
 bool IsPlannedFor(const Facet& facet, const SurveyPhoto& photo) {
-  // A wall that is no part of the plan has its own id there.
-  if (facet.facade == facet.id) return false;
   return std::ranges::any_of(photo.planned_facades, [&](const std::string& facade) {
-    return facade == facet.facade ||
-           std::ranges::find(facet.other_facades, facade) != facet.other_facades.end();
+    return std::ranges::find(facet.planned_facades, facade) != facet.planned_facades.end();
   });
 }
 

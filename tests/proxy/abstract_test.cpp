@@ -84,13 +84,13 @@ TEST(AbstractCloud, AGableHouseIsClosedAndExact) {
   const Proxy proxy = Abstract(Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.01}));
   ASSERT_EQ(proxy.buildings.size(), 2u);
   const Building& building = proxy.buildings[0];
-  EXPECT_EQ(building.id, "B0001");
+  EXPECT_EQ(building.id, "C0001");
   EXPECT_TRUE(building.watertight);
   ASSERT_EQ(building.facets.size(), 7u);
   EXPECT_EQ(Count(building, FacetClass::kWall), 4);
   EXPECT_EQ(Count(building, FacetClass::kRoof), 2);
   EXPECT_EQ(Count(building, FacetClass::kGround), 1);
-  EXPECT_EQ(building.facets[0].id, "B0001/W00");
+  EXPECT_EQ(building.facets[0].id, "C0001/W00");
   EXPECT_EQ(FindOpening(building.facets), std::nullopt);
   ExpectTruth(house, building, 0.2, 0.01, 0.01);
   const Building& ground = proxy.buildings[1];
@@ -131,7 +131,7 @@ TEST(AbstractCloud, BearsNoiseStraysAndTrees) {
         Capture({house}, {testing::GroundSquare(20)}, {.noise = noise, .outliers = 0.1});
     testing::AddTree({11, -6, 3}, 2, 6000, 4, captured);
     const Proxy proxy = Abstract(captured);
-    const Building* building = Find(proxy, "B0001");
+    const Building* building = Find(proxy, "C0001");
     ASSERT_NE(building, nullptr);
     EXPECT_TRUE(building->watertight) << noise;
     EXPECT_EQ(building->facets.size(), 7u) << noise;
@@ -159,7 +159,7 @@ TEST(AbstractCloud, AFrontAloneStaysOpenFacets) {
   const auto house = testing::GableHouse();
   CaptureOptions options{.noise = 0.02, .front_only = true, .hide = {"east", "west"}};
   const Proxy proxy = Abstract(Capture({house}, {testing::GroundSquare(20)}, options));
-  const Building* building = Find(proxy, "B0001");
+  const Building* building = Find(proxy, "C0001");
   ASSERT_NE(building, nullptr);
   EXPECT_FALSE(building->watertight);
   ASSERT_EQ(building->facets.size(), 2u);
@@ -182,7 +182,7 @@ TEST(AbstractCloud, FindsUpAndScaleInAnArbitraryFrame) {
   const Proxy proxy = Abstract(captured, Georef{});
   EXPECT_LT(AngleDeg(proxy.up, rotation.col(2)), 0.5);
   EXPECT_FALSE(proxy.metric);
-  const Building* building = Find(proxy, "B0001");
+  const Building* building = Find(proxy, "C0001");
   ASSERT_NE(building, nullptr);
   EXPECT_LE(building->facets.size(), 7u);
   EXPECT_NE(Find(proxy, "G0"), nullptr);
@@ -217,7 +217,7 @@ TEST(AbstractCloud, WallsStandUprightInAFrameThatGpsTilted) {
   georef.source = "gps";
   const Proxy proxy = Abstract(captured, georef);
   EXPECT_LT(AngleDeg(proxy.up, tilt.col(2)), 0.1);
-  const Building* building = Find(proxy, "B0001");
+  const Building* building = Find(proxy, "C0001");
   ASSERT_NE(building, nullptr);
   EXPECT_TRUE(building->watertight);
   for (const Facet& facet : building->facets) {
@@ -234,7 +234,7 @@ TEST(AbstractCloud, TwoHousesAreTwoBuildings) {
       Capture({testing::BoxHouse(8, 6, 5, {-9, 0, 0}), testing::BoxHouse(6, 6, 7, {9, 0, 0})},
               {testing::GroundSquare(20)}, {.noise = 0.02}));
   ASSERT_EQ(proxy.buildings.size(), 3u);
-  for (const char* id : {"B0001", "B0002"}) {
+  for (const char* id : {"C0001", "C0002"}) {
     EXPECT_TRUE(Find(proxy, id)->watertight);
     EXPECT_EQ(Find(proxy, id)->facets.size(), 6u);
   }

@@ -213,10 +213,10 @@ Proxy MadeProxy(const std::vector<WallLine>& lines) {
   Proxy proxy;
   proxy.metric = true;
   Building building;
-  building.id = "B0001";
+  building.id = "C0001";
   for (size_t i = 0; i < lines.size(); ++i) {
     Facet wall;
-    wall.id = wall.facade = "B0001/W0" + std::to_string(i);
+    wall.id = "C0001/W0" + std::to_string(i);
     const Vector2d along = (lines[i].b - lines[i].a).normalized();
     wall.normal = {along.y(), -along.x(), 0};
     const auto at = [](const Vector2d& p, double z) { return Eigen::Vector3d(p.x(), p.y(), z); };
@@ -225,7 +225,7 @@ Proxy MadeProxy(const std::vector<WallLine>& lines) {
     building.facets.push_back(wall);
   }
   Facet roof;
-  roof.id = roof.facade = "B0001/R0";
+  roof.id = "C0001/R0";
   roof.facet_class = FacetClass::kRoof;
   building.facets.push_back(roof);
   proxy.buildings.push_back(building);
@@ -233,6 +233,7 @@ Proxy MadeProxy(const std::vector<WallLine>& lines) {
 }
 
 TEST(FacadeIds, NamesTheWallsOfAProxy) {
+  using Ids = std::vector<std::string>;
   const std::vector<WallLine> lines = Walls({{-6, -4}, {6, -4}, {6, 4}, {-6, 4}});
   Georef georef;
   georef.frame = "enu";
@@ -259,10 +260,10 @@ TEST(FacadeIds, NamesTheWallsOfAProxy) {
   EXPECT_NEAR((*naming.shift_m - Vector2d(1.5, -2.5)).norm(), 0, 0.01);
   const std::vector<Facet>& facets = proxy.buildings[0].facets;
   for (size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(facets[i].id, "B0001/W0" + std::to_string(i));
-    EXPECT_EQ(facets[i].facade, "B0012/F0" + std::to_string(3 - i));
+    EXPECT_EQ(facets[i].id, "C0001/W0" + std::to_string(i));
+    EXPECT_EQ(facets[i].planned_facades, Ids{"B0012/F0" + std::to_string(3 - i)});
   }
-  EXPECT_EQ(facets[4].facade, "B0001/R0");
+  EXPECT_EQ(facets[4].planned_facades, Ids());
 
   // The front is of two houses.
   PlannedFacade half = plan.facades[0];
@@ -272,14 +273,13 @@ TEST(FacadeIds, NamesTheWallsOfAProxy) {
   plan.facades.push_back(half);
   Proxy terrace = MadeProxy(lines);
   EXPECT_EQ(NameFacades(plan, georef, terrace).facades, 5u);
-  EXPECT_EQ(terrace.buildings[0].facets[0].facade, "B0012/F03");
-  EXPECT_EQ(terrace.buildings[0].facets[0].other_facades, std::vector<std::string>{"B0013/F00"});
-  EXPECT_TRUE(terrace.buildings[0].facets[1].other_facades.empty());
+  EXPECT_EQ(terrace.buildings[0].facets[0].planned_facades, (Ids{"B0012/F03", "B0013/F00"}));
+  EXPECT_EQ(terrace.buildings[0].facets[1].planned_facades.size(), 1u);
 
   plan.origin.latitude_deg += 10;
   Proxy elsewhere = MadeProxy(lines);
   EXPECT_FALSE(NameFacades(plan, georef, elsewhere).shift_m);
-  EXPECT_EQ(elsewhere.buildings[0].facets[0].facade, "B0001/W00");
+  EXPECT_EQ(elsewhere.buildings[0].facets[0].planned_facades, Ids());
 }
 
 TEST(FacadeIds, LinesHaveTheBuildingOnTheirLeft) {

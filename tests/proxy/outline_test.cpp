@@ -266,7 +266,7 @@ TEST(AssignIds, GivesEachClassItsLetterByFallingArea) {
   std::vector<std::string> ids;
   for (const Facet& facet : building.facets) {
     ids.push_back(facet.id);
-    EXPECT_EQ(facet.facade, facet.id);
+    EXPECT_EQ(FacadeName(facet), facet.id);
   }
   // F is left to the facades of the map.
   EXPECT_EQ(ids, (std::vector<std::string>{"B0012/W00", "B0012/W01", "B0012/R0", "B0012/G0",

@@ -66,8 +66,8 @@ TEST_F(RunProxyTest, WritesTheModelInThreeFormats) {
   EXPECT_TRUE(proxy.buildings[0].watertight);
   EXPECT_EQ(proxy.buildings[0].facets.size(), 7u);
   const auto city = nlohmann::json::parse(ReadFile(root_ / "out/proxy.city.json"));
-  EXPECT_EQ(city["CityObjects"]["B0001-1"]["geometry"][0]["type"], "Solid");
-  EXPECT_NE(ReadFile(root_ / "out/proxy.obj").find("g B0001_W00"), std::string::npos);
+  EXPECT_EQ(city["CityObjects"]["C0001-1"]["geometry"][0]["type"], "Solid");
+  EXPECT_NE(ReadFile(root_ / "out/proxy.obj").find("g C0001_W00"), std::string::npos);
 }
 
 TEST_F(RunProxyTest, WritesTheSameBytesAgain) {

@@ -28,7 +28,6 @@ std::string PhotoPath(int i) {
 Facet MakeFacet(const std::string& id, FacetClass facet_class, std::vector<Eigen::Vector3d> outer) {
   Facet facet;
   facet.id = id;
-  facet.facade = id;
   facet.facet_class = facet_class;
   facet.normal = (outer[1] - outer[0]).cross(outer[2] - outer[0]).normalized();
   facet.offset = facet.normal.dot(outer[0]);

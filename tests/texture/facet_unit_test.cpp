@@ -99,7 +99,7 @@ TEST(FilesKey, ChangesWithWhatTheFacetDependsOnOnly) {
 TEST(FilesKey, ChangesWithThePlannedPhotosOfTheFacade) {
   TextureInput input;
   Facet wall = testing::MakeWall(4, 3);
-  wall.facade = "B0009/F01";
+  wall.planned_facades = {"B0009/F01"};
   input.photos = {testing::LookFrom("a", {2, -5, 1}, {2, 0, 1}, 100, 100, 100)};
   FacetLook look;
   look.candidates = {{0, 1, 1}};

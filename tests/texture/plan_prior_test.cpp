@@ -22,7 +22,7 @@ TEST(PlanPrior, PrefersThePhotosThatAreMeantForTheFacade) {
   photos[0].planned_facades = {"B0007/F02"};
   photos[1].planned_facades = {"B0007/F02", "B0007/F03"};
   Facet wall = testing::MakeWall(4, 3);
-  wall.facade = "B0007/F03";
+  wall.planned_facades = {"B0007/F03"};
   EXPECT_FALSE(IsPlannedFor(wall, photos[0]));
   EXPECT_TRUE(IsPlannedFor(wall, photos[1]));
   for (size_t i = 2; i < photos.size(); ++i) EXPECT_FALSE(IsPlannedFor(wall, photos[i]));
@@ -41,9 +41,9 @@ TEST(PlanPrior, PhotosOfEveryFacadeThatAWallSpansAreMeantForIt) {
   photos[0].planned_facades = {"B0007/F02"};
   photos[1].planned_facades = {"B0008/F00"};
   Facet wall = testing::MakeWall(4, 3);
-  wall.facade = "B0007/F02";
+  wall.planned_facades = {"B0007/F02"};
   EXPECT_FALSE(IsPlannedFor(wall, photos[1]));
-  wall.other_facades = {"B0008/F00"};
+  wall.planned_facades.push_back("B0008/F00");
   EXPECT_TRUE(IsPlannedFor(wall, photos[0]));
   EXPECT_TRUE(IsPlannedFor(wall, photos[1]));
 }
@@ -51,7 +51,6 @@ TEST(PlanPrior, PhotosOfEveryFacadeThatAWallSpansAreMeantForIt) {
 TEST(PlanPrior, AWallThatIsNotInThePlanHasNoPlannedPhotos) {
   std::vector<SurveyPhoto> photos = Photos({"a.jpg"});
   Facet wall = testing::MakeWall(4, 3);
-  wall.facade = wall.id;
   photos[0].planned_facades = {wall.id};  // a plan whose ids look like ours
   EXPECT_FALSE(IsPlannedFor(wall, photos[0]));
 }

@@ -27,7 +27,6 @@ double Hash(int a, int b, int c) {
 Facet MakeWall(double width, double height) {
   Facet facet;
   facet.id = "B0001/W01";
-  facet.facade = facet.id;
   facet.normal = -Eigen::Vector3d::UnitY();
   facet.outer = {{0, 0, 0}, {width, 0, 0}, {width, 0, height}, {0, 0, height}};
   facet.area = width * height;

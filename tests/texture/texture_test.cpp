@@ -81,7 +81,7 @@ class Survey {
   // A plan whose only facade is the wall, with one view for the photo of this name, if any.
   void Plan(const std::string& planned_photo) {
     Proxy proxy = MakeProxy({MakeWall(4, 3)});
-    proxy.buildings[0].facets[0].facade = "B0012/F03";
+    proxy.buildings[0].facets[0].planned_facades = {"B0012/F03"};
     SetProxy(proxy);
     PlannedFacade facade;
     facade.id = "B0012/F03";
