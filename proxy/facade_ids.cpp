@@ -29,6 +29,10 @@ constexpr double kLeastOverlap = 0.5;   // of the shorter of wall and facade
 constexpr double kLeastFound = 0.5;     // of all walls, or of all facades, by length and nearness
 constexpr double kShortest_m = 0.1;     // as the planner's shortest facade
 
+double LengthOf_m(const Segment2d& line) {
+  return (line.b - line.a).norm();
+}
+
 // A wall beside a facade, in the facade's own directions.
 struct Candidate {
   int wall = 0;
@@ -58,15 +62,15 @@ struct Candidate {
 };
 
 // The pairs that some shift may bring together, by wall, then facade.
-std::vector<Candidate> FindCandidates(const std::vector<WallLine>& walls,
-                                      const std::vector<WallLine>& facades) {
+std::vector<Candidate> FindCandidates(const std::vector<Segment2d>& walls,
+                                      const std::vector<Segment2d>& facades) {
   std::vector<Candidate> candidates;
   for (size_t w = 0; w < walls.size(); ++w) {
     const Eigen::Vector2d middle = (walls[w].a + walls[w].b) / 2;
     const Eigen::Vector2d wall_along = (walls[w].b - walls[w].a).normalized();
     for (size_t f = 0; f < facades.size(); ++f) {
-      const double length = facades[f].length_m();
-      if (!(length >= kShortest_m) || !(walls[w].length_m() >= kShortest_m)) continue;
+      const double length = LengthOf_m(facades[f]);
+      if (!(length >= kShortest_m) || !(LengthOf_m(walls[w]) >= kShortest_m)) continue;
       Candidate pair{.wall = static_cast<int>(w), .facade = static_cast<int>(f)};
       pair.along = (facades[f].b - facades[f].a) / length;
       pair.length_m = length;
@@ -173,17 +177,17 @@ Eigen::Vector2d Refined(const std::vector<Candidate>& candidates, size_t walls,
   return shift;
 }
 
-double TotalLength(const std::vector<WallLine>& lines) {
+double TotalLength(const std::vector<Segment2d>& lines) {
   double sum = 0;
-  for (const WallLine& line : lines) sum += line.length_m();
+  for (const Segment2d& line : lines) sum += LengthOf_m(line);
   return sum;
 }
 
 // Whether enough walls find a facade, or enough facades a wall, to believe that the plan is of
 // this place. The nearer they lie, the more they count: where the plan is of another part of a town
 // with straight streets, some shift brings half of its facades within reach, at any distance.
-bool IsOfThisPlace(const std::vector<Matches>& matches, const std::vector<WallLine>& walls,
-                   const std::vector<WallLine>& facades, const Eigen::Vector2d& shift) {
+bool IsOfThisPlace(const std::vector<Matches>& matches, const std::vector<Segment2d>& walls,
+                   const std::vector<Segment2d>& facades, const Eigen::Vector2d& shift) {
   double walls_found = 0;
   std::vector<double> found(facades.size(), 0);
   for (size_t w = 0; w < walls.size(); ++w) {
@@ -192,11 +196,11 @@ bool IsOfThisPlace(const std::vector<Matches>& matches, const std::vector<WallLi
       of_wall += match->Fit(shift);
       found[match->facade] += match->Fit(shift);
     }
-    walls_found += std::min(of_wall, walls[w].length_m());
+    walls_found += std::min(of_wall, LengthOf_m(walls[w]));
   }
   double facades_found = 0;
   for (size_t f = 0; f < facades.size(); ++f) {
-    facades_found += std::min(found[f], facades[f].length_m());
+    facades_found += std::min(found[f], LengthOf_m(facades[f]));
   }
   return walls_found > 0 && (walls_found >= kLeastFound * TotalLength(walls) ||
                              facades_found >= kLeastFound * TotalLength(facades));
@@ -204,7 +208,7 @@ bool IsOfThisPlace(const std::vector<Matches>& matches, const std::vector<WallLi
 
 }  // namespace
 
-WallLine LineOf(const Facet& wall) {
+Segment2d LineOf(const Facet& wall) {
   const Eigen::Vector2d outwards = wall.normal.head<2>().normalized();
   const Eigen::Vector2d along(-outwards.y(), outwards.x());
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
@@ -220,8 +224,8 @@ WallLine LineOf(const Facet& wall) {
   return {middle + from * along, middle + to * along};
 }
 
-std::optional<Eigen::Vector2d> FindShift(const std::vector<WallLine>& walls,
-                                         const std::vector<WallLine>& facades) {
+std::optional<Eigen::Vector2d> FindShift(const std::vector<Segment2d>& walls,
+                                         const std::vector<Segment2d>& facades) {
   const std::vector<Candidate> candidates = FindCandidates(walls, facades);
   if (candidates.empty()) return std::nullopt;
   const Eigen::Vector2d shift =
@@ -231,8 +235,8 @@ std::optional<Eigen::Vector2d> FindShift(const std::vector<WallLine>& walls,
   return shift;
 }
 
-std::vector<std::vector<int>> MatchWalls(const std::vector<WallLine>& walls,
-                                         const std::vector<WallLine>& facades,
+std::vector<std::vector<int>> MatchWalls(const std::vector<Segment2d>& walls,
+                                         const std::vector<Segment2d>& facades,
                                          const Eigen::Vector2d& shift) {
   const std::vector<Candidate> candidates = FindCandidates(walls, facades);
   std::vector<std::vector<int>> facades_of_walls;
@@ -245,7 +249,7 @@ std::vector<std::vector<int>> MatchWalls(const std::vector<WallLine>& walls,
 
 FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy) {
   std::vector<Facet*> facets;
-  std::vector<WallLine> walls;
+  std::vector<Segment2d> walls;
   for (Building& building : proxy.buildings) {
     for (Facet& facet : building.facets) {
       if (facet.facet_class != FacetClass::kWall) continue;
@@ -253,7 +257,7 @@ FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy) {
       walls.push_back(LineOf(facet));
     }
   }
-  std::vector<WallLine> facades;
+  std::vector<Segment2d> facades;
   for (const PlannedFacade& facade : plan.facades) {
     facades.push_back({EnuFromPlan(plan.origin, georef, facade.a_m),
                        EnuFromPlan(plan.origin, georef, facade.b_m)});

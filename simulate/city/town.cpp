@@ -9,12 +9,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "plan/polygons.h"
 #include "simulate/city/design_wall.h"
 #include "simulate/city/footprints.h"
 #include "simulate/city/internal/layouts.h"
 #include "simulate/city/make_city.h"
 #include "survey/error.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::simulate {
 namespace internal {
@@ -47,7 +47,7 @@ void MarkPartyWalls(std::vector<House>& houses) {
   }
 }
 
-bool KeepsApart(const plan::Polygon& outline, const std::vector<House>& houses, double least_m) {
+bool KeepsApart(const Polygon& outline, const std::vector<House>& houses, double least_m) {
   return std::all_of(houses.begin(), houses.end(),
                      [&](const House& house) { return Gap(outline, house.outline) >= least_m; });
 }
@@ -72,7 +72,7 @@ void PlantTrees(const Eigen::Vector2d& low, const Eigen::Vector2d& high, int cou
     const bool free =
         std::all_of(town.houses.begin(), town.houses.end(),
                     [&](const House& house) {
-                      return !plan::Contains(house.outline, tree.position) &&
+                      return !Contains(house.outline, tree.position) &&
                              DistanceToOutline(house.outline, tree.position) > RoomFor(tree);
                     }) &&
         std::all_of(town.trees.begin(), town.trees.end(), [&](const Tree& other) {
@@ -131,7 +131,7 @@ void Turn(Town& town) {
 void Settle(const Relief& relief, House& house) {
   double low = relief.HeightAt(house.outline.rings[0][0]);
   double high = low;
-  for (const plan::Ring& ring : house.outline.rings) {
+  for (const Ring& ring : house.outline.rings) {
     for (size_t i = 0; i < ring.size(); ++i) {
       constexpr int kSteps = 8;
       for (int k = 0; k < kSteps; ++k) {

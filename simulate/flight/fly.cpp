@@ -13,6 +13,7 @@
 #include "simulate/flight/take_photos.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/plan_io.h"
 #include "survey/survey_folder.h"
 
 namespace stucco::simulate {
