@@ -58,6 +58,11 @@ struct Plane {
   Eigen::Vector3f normal = -Eigen::Vector3f::UnitZ();
 };
 
+struct Pixel {
+  int x = 0;
+  int y = 0;
+};
+
 class LevelMatcher {
  public:
   LevelMatcher(const PatchMatchInput& input, const PatchMatchOptions& options, int level)
@@ -252,12 +257,12 @@ class LevelMatcher {
     return selection;
   }
 
-  float Cost(const ReferencePatch& patch, const Plane& plane, int x, int y,
+  float Cost(const ReferencePatch& patch, const Plane& plane, Pixel pixel,
              const Selection& selection, float limit) const {
     float sum = 0;
     const float stop = limit * static_cast<float>(selection.count);
     for (int i = 0; i < selection.count && sum < stop; ++i) {
-      sum += std::min(ViewCost(patch, plane, x, y, selection.sources[i]), kNoMatch);
+      sum += std::min(ViewCost(patch, plane, pixel.x, pixel.y, selection.sources[i]), kNoMatch);
     }
     return sum / static_cast<float>(selection.count);
   }
@@ -269,7 +274,7 @@ class LevelMatcher {
     const Selection selection = SelectViews(patch, best, x, y);
     float best_cost = selection.cost;
     const auto offer = [&](const Plane& plane) {
-      const float cost = Cost(patch, plane, x, y, selection, best_cost);
+      const float cost = Cost(patch, plane, {x, y}, selection, best_cost);
       if (cost >= best_cost) return;
       best_cost = cost;
       best = plane;
@@ -278,7 +283,7 @@ class LevelMatcher {
     for (const auto& arm : kFar) {
       if (far) OfferBestOf(arm, x, y, offer);
     }
-    Refine(x, y, iteration, far, best, offer);
+    Refine({x, y}, iteration, far, best, offer);
     planes_[index] = best;
     costs_[index] = best_cost;
   }
@@ -304,20 +309,20 @@ class LevelMatcher {
   // Small random changes of depth and normal, halving from one iteration to the next; at the coarse
   // levels also a new plane altogether. `best` is the plane as improved so far.
   template <typename Offer>
-  void Refine(int x, int y, int iteration, bool anew, const Plane& best, const Offer& offer) const {
-    Random random(options_.seed, static_cast<uint32_t>(Index(x, y)),
+  void Refine(Pixel at, int iteration, bool anew, const Plane& best, const Offer& offer) const {
+    Random random(options_.seed, static_cast<uint32_t>(Index(at.x, at.y)),
                   static_cast<uint32_t>(1 + iteration + 100 * level_ + (input_.start ? 1000 : 0)));
     const float size = std::ldexp(1.0f, -iteration) * (anew ? 1.0f : 0.25f);
     const float depth = best.depth * (1 + random.Uniform(-0.02f, 0.02f) * size);
     const Eigen::Vector3f turn(random.Uniform(-0.5f, 0.5f), random.Uniform(-0.5f, 0.5f),
                                random.Uniform(-0.5f, 0.5f));
-    const Eigen::Vector3f normal = Facing(best.normal + turn * size, x, y);
+    const Eigen::Vector3f normal = Facing(best.normal + turn * size, at.x, at.y);
     const float moved = std::clamp(depth, options_.min_depth, options_.max_depth);
     offer(Plane{moved, best.normal});
     offer(Plane{best.depth, normal});
     if (!anew) return;
     offer(Plane{moved, normal});
-    offer(RandomPlane(random, x, y));
+    offer(RandomPlane(random, at.x, at.y));
   }
 
   const PatchMatchInput& input_;

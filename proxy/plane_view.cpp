@@ -100,7 +100,7 @@ std::vector<PlaneView> ViewPlanes(const PlanarScene& scene, std::span<const Plan
     const PlaneFrame frame =
         FrameOf(plane, scene.up, scene.main_direction, samples.positions[plane.points.front()]);
     view.raster = RasteriseHits(samples, plane, frame, cell, margin);
-    CountThroughRays(samples, scene.witnesses, plane, kRecess * tolerances.level_of_detail,
+    CountThroughRays(samples, scene.support, plane, kRecess * tolerances.level_of_detail,
                      view.raster);
     view.evidence = Classify(view.raster, tolerances.fill_gap, tolerances.min_area);
     if (plane.role == PlaneRole::kWall || plane.role == PlaneRole::kSlope) {

@@ -23,7 +23,7 @@ struct PlaneView {
 };
 
 // Views `planes` of the scene, whose own lists of planes play no part. From index `first_ground` on
-// they are the ground. The rays of the scene's witnesses may show openings. The views point into
+// they are the ground. The rays to the scene's support may show openings. The views point into
 // `planes`, which must outlive them.
 std::vector<PlaneView> ViewPlanes(const PlanarScene& scene, std::span<const Plane> planes,
                                   size_t first_ground, int threads);

@@ -90,9 +90,9 @@ PlaneRaster RasteriseHits(const Samples& samples, const Plane& plane, const Plan
   return raster;
 }
 
-void CountThroughRays(const Samples& samples, const std::vector<int>& witnesses, const Plane& plane,
+void CountThroughRays(const Samples& samples, const std::vector<int>& support, const Plane& plane,
                       double behind, PlaneRaster& raster) {
-  for (const int i : witnesses) {
+  for (const int i : support) {
     const Eigen::Vector3d* eye = samples.EyeOf(i);
     if (eye == nullptr) continue;
     const double end = plane.DistanceTo(samples.positions[i]);

@@ -173,9 +173,9 @@ PlanarScene UnderstandCloud(const ProxyInput& input, const ProxyOptions& options
                                      .align_tolerance_deg = options.align_tolerance_deg},
                                     planes);
   for (const Plane& plane : planes) {
-    scene.witnesses.insert(scene.witnesses.end(), plane.points.begin(), plane.points.end());
+    scene.support.insert(scene.support.end(), plane.points.begin(), plane.points.end());
   }
-  std::sort(scene.witnesses.begin(), scene.witnesses.end());
+  std::sort(scene.support.begin(), scene.support.end());
   std::vector<bool> is_ground(planes.size(), false);
   for (const int g : FindGround(scene.samples, scene.tolerances, scene.up, planes)) {
     scene.ground.push_back(planes[g]);

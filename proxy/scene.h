@@ -22,7 +22,7 @@ struct PlanarScene {
   Eigen::Vector3d main_direction = Eigen::Vector3d::UnitX();
   std::vector<Plane> ground;                  // the main one first
   std::vector<std::vector<Plane>> buildings;  // largest first
-  std::vector<int> witnesses;                 // samples on any plane, ascending
+  std::vector<int> support;                   // samples on any plane, ascending
 };
 
 // Steps 1 to 5 of the README: samples, planes, up, regularisation, ground and buildings. Throws

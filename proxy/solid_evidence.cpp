@@ -38,13 +38,13 @@ bool Clip(const Eigen::AlignedBox3d& box, Eigen::Vector3d& a, Eigen::Vector3d& b
 void CastRays(const Partition& partition, const Eigen::AlignedBox3d& box, const SolidInput& input,
               CellEvidence& evidence) {
   const Samples& samples = input.scene->samples;
-  const std::vector<int>& witnesses = input.scene->witnesses;
-  const size_t stride = std::max<size_t>(1, witnesses.size() / kMostRays);
+  const std::vector<int>& support = input.scene->support;
+  const size_t stride = std::max<size_t>(1, support.size() / kMostRays);
   const double spacing = input.scene->tolerances.spacing;
   const double weight = static_cast<double>(stride) * spacing * spacing;
   const double detail = input.scene->tolerances.level_of_detail;
-  for (size_t k = 0; k < witnesses.size(); k += stride) {
-    const int i = witnesses[k];
+  for (size_t k = 0; k < support.size(); k += stride) {
+    const int i = support[k];
     const Eigen::Vector3d* seen_from = samples.EyeOf(i);
     if (seen_from == nullptr) continue;
     Eigen::Vector3d eye = input.local_from_world * *seen_from;

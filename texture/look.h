@@ -18,8 +18,7 @@ namespace stucco {
 
 // What painting facets needs to know of the survey.
 struct PaintScene {
-  std::span<const SurveyPhoto> photos;
-  Obstacles obstacles;
+  SightScene sights;
   PhotoCache* cache = nullptr;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
 };

@@ -40,7 +40,7 @@ struct Wall {
           Add({x, 0, z});
         }
         if (behind && behind(x, z)) {
-          scene.witnesses.push_back(static_cast<int>(scene.samples.size()));
+          scene.support.push_back(static_cast<int>(scene.samples.size()));
           Add(Vector3d(6, -30, 2) + 1.2 * (Vector3d(x, 0, z) - Vector3d(6, -30, 2)));
         }
       }
@@ -60,12 +60,16 @@ struct Wall {
   }
 };
 
-bool InBox(double x, double z, double x0, double x1, double z0, double z1) {
-  return x > x0 && x < x1 && z > z0 && z < z1;
+struct Box {
+  double x0, x1, z0, z1;
+};
+
+bool InBox(double x, double z, const Box& box) {
+  return x > box.x0 && x < box.x1 && z > box.z0 && z < box.z1;
 }
 
 TEST(OutlineFacets, ARectangleIsARectangle) {
-  const auto facets = Wall([](double x, double z) { return InBox(x, z, 2, 10, 1, 6); }).Facets();
+  const auto facets = Wall([](double x, double z) { return InBox(x, z, {2, 10, 1, 6}); }).Facets();
   ASSERT_EQ(facets.size(), 1u);
   EXPECT_EQ(facets[0].outer.size(), 4u);
   EXPECT_TRUE(facets[0].holes.empty());
@@ -83,7 +87,7 @@ TEST(OutlineFacets, ClosesWindowsAndRaggedBorders) {
   const auto facets = Wall([](double x, double z) {
                         const bool window = std::fmod(x, 2) < 1 && z > 2.5 && z < 4.3;
                         const bool ragged = z > 5.8 + 0.15 * std::sin(9 * x);
-                        return InBox(x, z, 2, 10, 1, 7) && !window && !ragged;
+                        return InBox(x, z, {2, 10, 1, 7}) && !window && !ragged;
                       }).Facets();
   ASSERT_EQ(facets.size(), 1u);
   EXPECT_EQ(facets[0].outer.size(), 4u);
@@ -94,8 +98,10 @@ TEST(OutlineFacets, ClosesWindowsAndRaggedBorders) {
 }
 
 TEST(OutlineFacets, KeepsAPassageThatRaysGoThrough) {
-  const auto passage = [](double x, double z) { return InBox(x, z, 4, 7, 1, 4); };
-  const auto wall = [&](double x, double z) { return InBox(x, z, 1, 11, 1, 7) && !passage(x, z); };
+  const auto passage = [](double x, double z) { return InBox(x, z, {4, 7, 1, 4}); };
+  const auto wall = [&](double x, double z) {
+    return InBox(x, z, {1, 11, 1, 7}) && !passage(x, z);
+  };
   const auto open = Wall(wall, passage).Facets();
   ASSERT_EQ(open.size(), 1u);
   EXPECT_NEAR(open[0].area, 51, 3);
@@ -105,7 +111,7 @@ TEST(OutlineFacets, EndsAtACreaseEvenAcrossALostStrip) {
   // The roof meets the wall at z = 6; matching lost the last 0.5 m.
   const CutLine crease{
       .point = {0, 6}, .direction = Vector2d::UnitX(), .crease = true, .from = -100, .to = 100};
-  Wall wall([](double x, double z) { return InBox(x, z, 2, 10, 1, 5.5); });
+  Wall wall([](double x, double z) { return InBox(x, z, {2, 10, 1, 5.5}); });
   CutLine in_frame = crease;
   in_frame.point = wall.views[0].raster.frame.ToPlane({0, 0, 6});
   const auto facets = wall.Facets({in_frame});
@@ -117,8 +123,9 @@ TEST(OutlineFacets, EndsAtACreaseEvenAcrossALostStrip) {
 
 TEST(OutlineFacets, AWallEndsAtItsFoot) {
   // A car hides the wall up to 1.5 m; a mirror of the wet street adds points below the ground.
-  Wall wall(
-      [](double x, double z) { return InBox(x, z, 2, 10, 2.5, 7) || InBox(x, z, 2, 4, 0.2, 7); });
+  Wall wall([](double x, double z) {
+    return InBox(x, z, {2, 10, 2.5, 7}) || InBox(x, z, {2, 4, 0.2, 7});
+  });
   CutLine foot{.point = wall.views[0].raster.frame.ToPlane({0, 0, 1}),
                .direction = Vector2d::UnitX(),
                .crease = true,
@@ -137,7 +144,7 @@ TEST(OutlineFacets, ClosesGapsThatCross) {
   // Only window frames have texture: plain stripes between them, both ways.
   const auto facets =
       Wall([](double x, double z) {
-        return InBox(x, z, 1, 11, 1, 7.5) && std::fmod(x, 4.5) < 2.9 && std::fmod(z, 4.5) < 2.9;
+        return InBox(x, z, {1, 11, 1, 7.5}) && std::fmod(x, 4.5) < 2.9 && std::fmod(z, 4.5) < 2.9;
       }).Facets();
   ASSERT_EQ(facets.size(), 1u);
   EXPECT_TRUE(facets[0].holes.empty());
@@ -145,18 +152,18 @@ TEST(OutlineFacets, ClosesGapsThatCross) {
 }
 
 TEST(OutlineFacets, TheSkyBetweenTwoGablesStaysOpen) {
-  const auto facets =
-      Wall([](double x, double z) {
-        return InBox(x, z, 1, 11, 1, 4) || InBox(x, z, 1, 4, 1, 7.5) || InBox(x, z, 8, 11, 1, 7.5);
-      }).Facets();
+  const auto facets = Wall([](double x, double z) {
+                        return InBox(x, z, {1, 11, 1, 4}) || InBox(x, z, {1, 4, 1, 7.5}) ||
+                               InBox(x, z, {8, 11, 1, 7.5});
+                      }).Facets();
   ASSERT_EQ(facets.size(), 1u);
   EXPECT_NEAR(facets[0].area, 51, 3);
 }
 
 TEST(OutlineFacets, DropsIslandsAndSplitsParts) {
   const auto facets = Wall([](double x, double z) {
-                        return InBox(x, z, 0.5, 4, 1, 7) || InBox(x, z, 8, 11.5, 1, 7) ||
-                               InBox(x, z, 5.8, 6.3, 3, 3.5);
+                        return InBox(x, z, {0.5, 4, 1, 7}) || InBox(x, z, {8, 11.5, 1, 7}) ||
+                               InBox(x, z, {5.8, 6.3, 3, 3.5});
                       }).Facets();
   ASSERT_EQ(facets.size(), 2u);
   for (const auto& facet : facets) EXPECT_NEAR(facet.area, 21, 2);
@@ -172,8 +179,11 @@ TEST(OutlineFacets, AGableKeepsItsSlopes) {
 }
 
 TEST(OutlineFacets, AFewPointsAreNoFacet) {
-  EXPECT_TRUE(
-      Wall([](double x, double z) { return InBox(x, z, 3, 3.5, 3, 3.5); }).Facets().empty());
+  EXPECT_TRUE(Wall([](double x, double z) {
+                return InBox(x, z, {3, 3.5, 3, 3.5});
+              })
+                  .Facets()
+                  .empty());
 }
 
 // Three planes with a sample every 10 cm where they are seen.

@@ -69,6 +69,8 @@ TEST(Proxy, ReadsBackWhatItWrote) {
   EXPECT_EQ(wall.id, expected.id);
   EXPECT_EQ(wall.planned_facades, expected.planned_facades);
   EXPECT_TRUE(read.buildings[1].facets[0].planned_facades.empty());
+  EXPECT_EQ(FacadeName(wall), "B0001/F03");
+  EXPECT_EQ(FacadeName(read.buildings[1].facets[0]), "G0");
   EXPECT_EQ(wall.facet_class, FacetClass::kWall);
   EXPECT_EQ(wall.normal, expected.normal);
   EXPECT_EQ(wall.offset, expected.offset);

@@ -12,7 +12,7 @@ namespace {
 std::vector<SurveyPhoto> Photos(const std::vector<std::string>& names) {
   std::vector<SurveyPhoto> photos;
   for (const std::string& name : names) {
-    photos.push_back(testing::LookFrom(name, {2, -5, 1}, {2, 0, 1}, 100, 100, 100));
+    photos.push_back(testing::LookFrom(name, {2, -5, 1}, {2, 0, 1}, {100, 100, 100}));
   }
   return photos;
 }

@@ -46,27 +46,27 @@ double PsnrOf(const SurveyPhoto& photo, double texel) {
 }
 
 TEST(SamplePhoto, RectifiesAFrontalPhoto) {
-  EXPECT_GT(PsnrOf(LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, 900, 680, 800), 0.01), 30);
+  EXPECT_GT(PsnrOf(LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, {900, 680, 800}), 0.01), 30);
 }
 
 TEST(SamplePhoto, RectifiesAnObliquePhoto) {
-  EXPECT_GT(PsnrOf(LookFrom("a", {5, -4, 3.5}, {2, 0, 1.5}, 1200, 900, 800), 0.01), 27);
+  EXPECT_GT(PsnrOf(LookFrom("a", {5, -4, 3.5}, {2, 0, 1.5}, {1200, 900, 800}), 0.01), 27);
 }
 
 TEST(SamplePhoto, UndoesLensDistortion) {
-  SurveyPhoto photo = LookFrom("a", {2.2, -4, 1.6}, {2, 0, 1.5}, 1000, 800, 800);
+  SurveyPhoto photo = LookFrom("a", {2.2, -4, 1.6}, {2, 0, 1.5}, {1000, 800, 800});
   photo.camera.model = CameraModel::kOpenCv;
   photo.camera.params = {800, 805, 498, 403, -0.12, 0.05, 0.002, -0.001};
   EXPECT_GT(PsnrOf(photo, 0.01), 29);
 }
 
 TEST(SamplePhoto, AveragesPhotoPixelsSmallerThanTexels) {
-  EXPECT_GT(PsnrOf(LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, 900, 680, 800), 0.04), 30);
-  EXPECT_GT(PsnrOf(LookFrom("a", {5, -4, 3.5}, {2, 0, 1.5}, 1200, 900, 800), 0.05), 29);
+  EXPECT_GT(PsnrOf(LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, {900, 680, 800}), 0.04), 30);
+  EXPECT_GT(PsnrOf(LookFrom("a", {5, -4, 3.5}, {2, 0, 1.5}, {1200, 900, 800}), 0.05), 29);
 }
 
 TEST(SamplePhoto, AveragesAFineCheckerboardToGrey) {
-  const SurveyPhoto photo = LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, 640, 480, 400);
+  const SurveyPhoto photo = LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, {640, 480, 400});
   Image image;
   image.width_px = 640;
   image.height_px = 480;
@@ -80,7 +80,7 @@ TEST(SamplePhoto, AveragesAFineCheckerboardToGrey) {
 }
 
 TEST(SamplePhoto, LeavesOutWhatThePhotoDoesNotShow) {
-  const SurveyPhoto photo = LookFrom("a", {0, -4, 1.5}, {0, 0, 1.5}, 900, 800, 800);
+  const SurveyPhoto photo = LookFrom("a", {0, -4, 1.5}, {0, 0, 1.5}, {900, 800, 800});
   const TexelGrid grid = MakeGrid(MakeWall(4, 3), kUp, 0.01, 8192);
   const SampledTile tile =
       SamplePhoto(photo, PyramidOf(photo), grid, {0, 0, grid.width, grid.height});
@@ -91,7 +91,7 @@ TEST(SamplePhoto, LeavesOutWhatThePhotoDoesNotShow) {
 }
 
 TEST(SamplePhoto, TilesFitTogether) {
-  const SurveyPhoto photo = LookFrom("a", {5, -4, 3.5}, {2, 0, 1.5}, 600, 450, 400);
+  const SurveyPhoto photo = LookFrom("a", {5, -4, 3.5}, {2, 0, 1.5}, {600, 450, 400});
   const PhotoPyramid pyramid = PyramidOf(photo);
   const TexelGrid grid = MakeGrid(MakeWall(4, 3), kUp, 0.02, 8192);
   const SampledTile whole = SamplePhoto(photo, pyramid, grid, {0, 0, grid.width, grid.height});
@@ -106,7 +106,7 @@ TEST(SamplePhoto, TilesFitTogether) {
 }
 
 TEST(SamplePhoto, FollowsAShift) {
-  const SurveyPhoto photo = LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, 900, 680, 800);
+  const SurveyPhoto photo = LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, {900, 680, 800});
   const PhotoPyramid pyramid = PyramidOf(photo);
   const TexelGrid grid = MakeGrid(MakeWall(4, 3), kUp, 0.01, 8192);
   GridShift shift;

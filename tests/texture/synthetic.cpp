@@ -56,15 +56,16 @@ Colour WallColour(double x, double z) {
 }
 
 SurveyPhoto LookFrom(const std::string& name, const Eigen::Vector3d& position,
-                     const Eigen::Vector3d& target, int width_px, int height_px, double focal_px) {
+                     const Eigen::Vector3d& target, const Pinhole& camera) {
   SurveyPhoto photo;
   photo.captured.path = name;
   photo.captured.hash = name;
   photo.camera.id = {1};
   photo.camera.model = CameraModel::kPinhole;
-  photo.camera.width_px = width_px;
-  photo.camera.height_px = height_px;
-  photo.camera.params = {focal_px, focal_px, width_px / 2.0, height_px / 2.0};
+  photo.camera.width_px = camera.width_px;
+  photo.camera.height_px = camera.height_px;
+  photo.camera.params = {camera.focal_px, camera.focal_px, camera.width_px / 2.0,
+                         camera.height_px / 2.0};
   const Eigen::Vector3d forward = (target - position).normalized();
   const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
   Eigen::Matrix3d cam_from_world;

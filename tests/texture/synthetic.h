@@ -26,8 +26,13 @@ Proxy MakeProxy(const std::vector<Facet>& facets);
 Colour WallColour(double x, double z);
 
 // A pinhole camera of the given size and focal length that looks from `position` to `target`.
+struct Pinhole {
+  int width_px = 0;
+  int height_px = 0;
+  double focal_px = 0;
+};
 SurveyPhoto LookFrom(const std::string& name, const Eigen::Vector3d& position,
-                     const Eigen::Vector3d& target, int width_px, int height_px, double focal_px);
+                     const Eigen::Vector3d& target, const Pinhole& camera);
 
 // What a ray meets first: colour, or nothing for the background.
 using Scene =

@@ -55,7 +55,7 @@ class Survey {
 
   SurveyPhoto Add(const std::string& name, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                   double exposure = 1, const testing::Scene& scene = WallScene(4, 3)) {
-    const SurveyPhoto photo = LookFrom(name, from, to, kPhotoWidth, kPhotoHeight, kFocal);
+    const SurveyPhoto photo = LookFrom(name, from, to, {kPhotoWidth, kPhotoHeight, kFocal});
     WriteImage(Render(photo, scene, exposure), Photos() / name, 97);
     Pose(photo);
     return photo;
