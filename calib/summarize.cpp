@@ -17,7 +17,7 @@ namespace {
 constexpr double kUndetermined = 0.7;
 constexpr int kCoverageCells = 10;
 
-double Coverage(const Camera& camera, const PosedPhoto& photo) {
+double Coverage(const Camera& camera, const RegisteredImage& photo) {
   std::set<int> filled;
   for (const Observation& o : photo.observations) {
     const int column = static_cast<int>(o.pixel.x() / camera.width_px * kCoverageCells);
@@ -28,7 +28,7 @@ double Coverage(const Camera& camera, const PosedPhoto& photo) {
 }
 
 CalibratedPhoto SummarizePhoto(const SummaryInput& input, const Reconstruction& reconstruction,
-                               const PosedPhoto& posed, int index) {
+                               const RegisteredImage& posed, int index) {
   CalibratedPhoto photo;
   photo.path = posed.name;
   const Camera& camera = reconstruction.cameras.at(posed.camera);
@@ -75,7 +75,7 @@ Reconstruction ToReconstruction(const Scene& scene, const std::vector<uint32_t>&
     if (!photo.pose) continue;
     const Camera& camera = scene.CameraOf(static_cast<int>(i));
     result.cameras[camera.id] = camera;
-    PosedPhoto& posed = result.photos[PhotoId{photo_ids[i]}];
+    RegisteredImage& posed = result.photos[PhotoId{photo_ids[i]}];
     posed.id = PhotoId{photo_ids[i]};
     posed.camera = camera.id;
     posed.name = photo.name;
@@ -94,7 +94,7 @@ Reconstruction ToReconstruction(const Scene& scene, const std::vector<uint32_t>&
     for (const SceneElement& element : track.elements) {
       if (!element.used) continue;
       const ScenePhoto& photo = scene.photos[element.photo];
-      PosedPhoto& posed = result.photos.at(PhotoId{photo_ids[element.photo]});
+      RegisteredImage& posed = result.photos.at(PhotoId{photo_ids[element.photo]});
       if (point.track.empty()) point.rgb = photo.colors[element.keypoint];
       point.track.push_back({posed.id, static_cast<uint32_t>(posed.observations.size())});
       posed.observations.push_back({photo.keypoints[element.keypoint], point.id});

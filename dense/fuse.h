@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
 
 #include "dense/depth_map.h"
 #include "dense/view.h"
+#include "survey/ids.h"
 #include "survey/image.h"
 #include "survey/point_cloud.h"
 
@@ -22,15 +22,12 @@ struct FuseOptions {
   float max_cost = 0.6f;
 };
 
-// A photo as fusion sees it. Maps and pictures are asked for when needed, so that only a photo and
+// What is fused, by photo. Maps and pictures are asked for when needed, so that only a photo and
 // its sources have to be in memory.
-struct FusePhoto {
-  uint32_t id = 0;
-  PinholeView view;          // level 0
-  std::vector<int> sources;  // indices of other photos
-};
-
-struct FuseAccess {
+struct FuseInput {
+  std::vector<PhotoId> ids;               // that the cloud names the photos by
+  std::vector<PinholeCamera> cameras;     // level 0
+  std::vector<std::vector<int>> sources;  // indices of other photos
   std::function<std::shared_ptr<const DepthMap>(int)> map;
   std::function<std::shared_ptr<const ViewPyramid>(int)> colors;
 };
@@ -38,7 +35,7 @@ struct FuseAccess {
 // Fuses depth maps into one cloud: a pixel whose depth enough sources confirm (forward-backward
 // reprojection, depth, normal) becomes a point, the mean of all that confirm it; pixels that took
 // part are not used again. Photos in order, so the result is always the same.
-PointCloud Fuse(const std::vector<FusePhoto>& photos, const FuseAccess& access,
-                const FuseOptions& options, const std::function<void()>& after_photo);
+PointCloud Fuse(const FuseInput& input, const FuseOptions& options,
+                const std::function<void()>& after_photo);
 
 }  // namespace stucco

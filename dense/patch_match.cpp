@@ -58,19 +58,24 @@ struct Plane {
   Eigen::Vector3f normal = -Eigen::Vector3f::UnitZ();
 };
 
+struct Pixel {
+  int x = 0;
+  int y = 0;
+};
+
 class LevelMatcher {
  public:
   LevelMatcher(const PatchMatchInput& input, const PatchMatchOptions& options, int level)
       : input_(input),
         options_(options),
         level_(level),
-        view_(input.reference->views[level]),
+        view_(input.reference->cameras[level]),
         image_(input.reference->images[level]) {
-    for (const auto& source : input.sources) geometry_.emplace_back(view_, source->views[level]);
+    for (const auto& source : input.sources) geometry_.emplace_back(view_, source->cameras[level]);
     planes_.resize(image_.gray.size());
     costs_.assign(image_.gray.size(), kNoMatch);
     for (size_t s = 0; s < input.source_maps.size(); ++s) {
-      back_.emplace_back(input.sources[s]->views[level], view_);
+      back_.emplace_back(input.sources[s]->cameras[level], view_);
     }
   }
 
@@ -81,7 +86,7 @@ class LevelMatcher {
           RandomPlane(random, static_cast<int>(i % view_.width), static_cast<int>(i / view_.width));
     }
     // Every seed colours a disc; later and nearer seeds do not matter, propagation sorts them out.
-    const float scale = static_cast<float>(view_.width) / input_.reference->views[0].width;
+    const float scale = static_cast<float>(view_.width) / input_.reference->cameras[0].width;
     constexpr int kRadius = 6;
     for (const DepthSeed& seed : input_.seeds) {
       const int x0 = static_cast<int>(seed.x * scale);
@@ -210,7 +215,7 @@ class LevelMatcher {
   // Forward-backward reprojection error in pixels against the source's own depth, limited.
   float Disagreement(const Eigen::Vector3f& point, int x, int y, int source) const {
     const SourceGeometry& to_source = geometry_[source];
-    const PinholeView& other = input_.sources[source]->views[level_];
+    const PinholeCamera& other = input_.sources[source]->cameras[level_];
     const Eigen::Vector3f p = to_source.source_from_reference * point + to_source.translation;
     if (p.z() <= 0) return kGeometricLimit;
     const int u = static_cast<int>(std::lround(other.fx * p.x() / p.z() + other.cx));
@@ -252,12 +257,12 @@ class LevelMatcher {
     return selection;
   }
 
-  float Cost(const ReferencePatch& patch, const Plane& plane, int x, int y,
+  float Cost(const ReferencePatch& patch, const Plane& plane, Pixel pixel,
              const Selection& selection, float limit) const {
     float sum = 0;
     const float stop = limit * static_cast<float>(selection.count);
     for (int i = 0; i < selection.count && sum < stop; ++i) {
-      sum += std::min(ViewCost(patch, plane, x, y, selection.sources[i]), kNoMatch);
+      sum += std::min(ViewCost(patch, plane, pixel.x, pixel.y, selection.sources[i]), kNoMatch);
     }
     return sum / static_cast<float>(selection.count);
   }
@@ -269,7 +274,7 @@ class LevelMatcher {
     const Selection selection = SelectViews(patch, best, x, y);
     float best_cost = selection.cost;
     const auto offer = [&](const Plane& plane) {
-      const float cost = Cost(patch, plane, x, y, selection, best_cost);
+      const float cost = Cost(patch, plane, {x, y}, selection, best_cost);
       if (cost >= best_cost) return;
       best_cost = cost;
       best = plane;
@@ -278,7 +283,7 @@ class LevelMatcher {
     for (const auto& arm : kFar) {
       if (far) OfferBestOf(arm, x, y, offer);
     }
-    Refine(x, y, iteration, far, best, offer);
+    Refine({x, y}, iteration, far, best, offer);
     planes_[index] = best;
     costs_[index] = best_cost;
   }
@@ -304,26 +309,26 @@ class LevelMatcher {
   // Small random changes of depth and normal, halving from one iteration to the next; at the coarse
   // levels also a new plane altogether. `best` is the plane as improved so far.
   template <typename Offer>
-  void Refine(int x, int y, int iteration, bool anew, const Plane& best, const Offer& offer) const {
-    Random random(options_.seed, static_cast<uint32_t>(Index(x, y)),
+  void Refine(Pixel at, int iteration, bool anew, const Plane& best, const Offer& offer) const {
+    Random random(options_.seed, static_cast<uint32_t>(Index(at.x, at.y)),
                   static_cast<uint32_t>(1 + iteration + 100 * level_ + (input_.start ? 1000 : 0)));
     const float size = std::ldexp(1.0f, -iteration) * (anew ? 1.0f : 0.25f);
     const float depth = best.depth * (1 + random.Uniform(-0.02f, 0.02f) * size);
     const Eigen::Vector3f turn(random.Uniform(-0.5f, 0.5f), random.Uniform(-0.5f, 0.5f),
                                random.Uniform(-0.5f, 0.5f));
-    const Eigen::Vector3f normal = Facing(best.normal + turn * size, x, y);
+    const Eigen::Vector3f normal = Facing(best.normal + turn * size, at.x, at.y);
     const float moved = std::clamp(depth, options_.min_depth, options_.max_depth);
     offer(Plane{moved, best.normal});
     offer(Plane{best.depth, normal});
     if (!anew) return;
     offer(Plane{moved, normal});
-    offer(RandomPlane(random, x, y));
+    offer(RandomPlane(random, at.x, at.y));
   }
 
   const PatchMatchInput& input_;
   const PatchMatchOptions& options_;
   int level_;
-  const PinholeView& view_;
+  const PinholeCamera& view_;
   const PackedImage& image_;
   std::vector<SourceGeometry> geometry_;
   std::vector<SourceGeometry> back_;  // reference from source, in the second pass
@@ -340,7 +345,7 @@ DepthMap MatchDepths(const PatchMatchInput& input, const PatchMatchOptions& opti
     matcher.Run(options.iterations, false);
     return matcher.Result();
   }
-  const int levels = static_cast<int>(input.reference->views.size());
+  const int levels = static_cast<int>(input.reference->cameras.size());
   std::unique_ptr<LevelMatcher> matcher;
   for (int level = levels - 1; level >= 0; --level) {
     auto finer = std::make_unique<LevelMatcher>(input, options, level);

@@ -46,9 +46,9 @@ std::map<PhotoId, std::map<PhotoId, Shared>> ScorePairs(const Reconstruction& r)
   return scores;
 }
 
-void AddSeeds(const Reconstruction& r, const PosedPhoto& photo, int max_image_px,
+void AddSeeds(const Reconstruction& r, const RegisteredImage& photo, int max_image_px,
               SourceChoice& choice) {
-  const PinholeView view =
+  const PinholeCamera view =
       PinholeLevels(r.cameras.at(photo.camera), photo.cam_from_world, max_image_px, 1)[0];
   std::vector<float> depths;
   for (const Observation& observation : photo.observations) {

@@ -13,7 +13,7 @@ cv::Mat Wrap(const Image& image) {
   return {image.height_px, image.width_px, CV_8UC3, const_cast<uint8_t*>(image.data.data())};
 }
 
-Image Undistort(const Image& source, const Camera& full, const PinholeView& view) {
+Image Undistort(const Image& source, const Camera& full, const PinholeCamera& view) {
   const Camera camera = Resized(full, source.width_px, source.height_px);
   cv::Mat map_x(view.height, view.width, CV_32F);
   cv::Mat map_y(view.height, view.width, CV_32F);
@@ -32,8 +32,8 @@ Image Undistort(const Image& source, const Camera& full, const PinholeView& view
   return result;
 }
 
-PinholeView Halved(const PinholeView& view) {
-  PinholeView half = view;
+PinholeCamera Halved(const PinholeCamera& view) {
+  PinholeCamera half = view;
   half.width = std::max(1, view.width / 2);
   half.height = std::max(1, view.height / 2);
   const float scale_x = static_cast<float>(half.width) / view.width;
@@ -62,11 +62,11 @@ PackedImage Pack(int width, int height, std::vector<uint8_t> gray) {
   return image;
 }
 
-std::vector<PinholeView> PinholeLevels(const Camera& camera, const Pose& cam_from_world,
-                                       int max_image_px, int num_levels) {
+std::vector<PinholeCamera> PinholeLevels(const Camera& camera, const Pose& cam_from_world,
+                                         int max_image_px, int num_levels) {
   const ImageSize size = ScaledSize({camera.width_px, camera.height_px}, max_image_px);
   const Camera scaled = Resized(camera, size.width_px, size.height_px);
-  PinholeView view;
+  PinholeCamera view;
   view.width = size.width_px;
   view.height = size.height_px;
   view.fx = static_cast<float>(scaled.FocalX());
@@ -75,20 +75,21 @@ std::vector<PinholeView> PinholeLevels(const Camera& camera, const Pose& cam_fro
   view.cy = static_cast<float>(scaled.PrincipalPoint().y() - 0.5);
   view.rotation = cam_from_world.rotation.toRotationMatrix().cast<float>();
   view.translation = cam_from_world.translation;
-  std::vector<PinholeView> levels = {view};
+  std::vector<PinholeCamera> levels = {view};
   while (static_cast<int>(levels.size()) < num_levels) levels.push_back(Halved(levels.back()));
   return levels;
 }
 
-std::shared_ptr<const ViewPyramid> LoadView(const std::filesystem::path& path, const Camera& camera,
-                                            const Pose& cam_from_world, int max_image_px,
+std::shared_ptr<const ViewPyramid> LoadView(const std::filesystem::path& photo_folder,
+                                            const SurveyPhoto& photo, int max_image_px,
                                             int num_levels) {
   auto pyramid = std::make_shared<ViewPyramid>();
-  pyramid->views = PinholeLevels(camera, cam_from_world, max_image_px, num_levels);
-  pyramid->color = Undistort(ReadJpeg(path, 3, max_image_px), camera, pyramid->views[0]);
+  pyramid->cameras = PinholeLevels(photo.camera, photo.cam_from_world, max_image_px, num_levels);
+  pyramid->color = Undistort(ReadJpeg(photo_folder / photo.path(), 3, max_image_px), photo.camera,
+                             pyramid->cameras[0]);
   cv::Mat gray;
   cv::cvtColor(Wrap(pyramid->color), gray, cv::COLOR_RGB2GRAY);
-  for (const PinholeView& view : pyramid->views) {
+  for (const PinholeCamera& view : pyramid->cameras) {
     if (gray.cols != view.width || gray.rows != view.height) {
       cv::Mat smaller;
       cv::resize(gray, smaller, cv::Size(view.width, view.height), 0, 0, cv::INTER_AREA);

@@ -12,12 +12,13 @@
 #include "survey/camera.h"
 #include "survey/image.h"
 #include "survey/pose.h"
+#include "survey/survey_photo.h"
 
 namespace stucco {
 
 // Intrinsics of an undistorted image. Unlike survey/camera.h, the centre of the top-left pixel is
 // at (0, 0): pixel coordinates are array indices.
-struct PinholeView {
+struct PinholeCamera {
   int width = 0;
   int height = 0;
   float fx = 0, fy = 0, cx = 0, cy = 0;
@@ -40,18 +41,18 @@ PackedImage Pack(int width, int height, std::vector<uint8_t> gray);
 
 // A photo undistorted and reduced, as a pyramid: level 0 is the finest.
 struct ViewPyramid {
-  std::vector<PinholeView> views;
+  std::vector<PinholeCamera> cameras;
   std::vector<PackedImage> images;
   Image color;  // level 0
 };
 
 // The geometry of a photo's levels without its pixels.
-std::vector<PinholeView> PinholeLevels(const Camera& camera, const Pose& cam_from_world,
-                                       int max_image_px, int num_levels);
+std::vector<PinholeCamera> PinholeLevels(const Camera& camera, const Pose& cam_from_world,
+                                         int max_image_px, int num_levels);
 
 // Decodes, undistorts (bilinear after area reduction) and reduces a photo.
-std::shared_ptr<const ViewPyramid> LoadView(const std::filesystem::path& path, const Camera& camera,
-                                            const Pose& cam_from_world, int max_image_px,
+std::shared_ptr<const ViewPyramid> LoadView(const std::filesystem::path& photo_folder,
+                                            const SurveyPhoto& photo, int max_image_px,
                                             int num_levels);
 
 }  // namespace stucco

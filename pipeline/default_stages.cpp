@@ -63,7 +63,7 @@ Stage ProxyStage() {
   Stage stage;
   stage.name = "proxy";
   stage.title = "the planar model";
-  stage.version = 4;
+  stage.version = 5;
   stage.needs = {"calib", "dense"};
   stage.inputs = {kCloudFile, kSparseFolder, kGeorefFile, kPlanFile};
   stage.cost = {.cpu_s_per_photo = 0.25, .disk_mb_per_photo = 0.02, .memory_mb = 700};
@@ -75,7 +75,7 @@ Stage TextureStage() {
   Stage stage;
   stage.name = "texture";
   stage.title = "facade textures and the textured model";
-  stage.version = 2;
+  stage.version = 3;
   stage.needs = {"ingest", "calib", "dense", "proxy"};
   stage.inputs = {kFacetsFile, kSparseFolder, kGeorefFile, kCloudFile, kCapturesFile, kPlanFile};
   stage.opens_photos = true;
@@ -92,7 +92,7 @@ Stage ReportStage() {
   Stage stage;
   stage.name = "report";
   stage.title = "the quality report";
-  stage.version = 2;
+  stage.version = 3;
   stage.needs = {"ingest", "calib", "dense", "proxy", "texture"};
   stage.inputs = {"ingest", "calib", kCloudFile, "proxy", "texture", kPlanFile};
   stage.reports_failures = true;

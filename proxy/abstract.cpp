@@ -26,6 +26,12 @@
 namespace stucco {
 namespace {
 
+// Of a building that the cloud shows and no map names: buildings of maps have ids that begin with
+// B.
+std::string ClusterId(size_t number) {
+  return fmt::format("C{:04}", number + 1);
+}
+
 // All planes of a scene in one row: the buildings' first, then the ground's.
 struct PlaneTable {
   std::vector<Plane> planes;
@@ -70,23 +76,16 @@ std::vector<std::vector<Facet>> OpenFacets(const PlanarScene& scene, const Plane
     facets[p] = OutlineOrWarn(outline, warnings[p]);
   });
   for (size_t p = 0; p < views.size(); ++p) {
-    const std::string owner =
-        table.building[p] < 0 ? "G0" : fmt::format("B{:04}", table.building[p] + 1);
+    const std::string owner = table.building[p] < 0 ? "G0" : ClusterId(table.building[p]);
     for (const auto& warning : warnings[p]) findings.warnings.push_back(owner + ": " + warning);
   }
   return facets;
 }
 
 // Closes each building where its planes and points allow it; empty solids otherwise.
-std::vector<Solid> CloseBuildings(const PlanarScene& scene, const Stations& stations,
-                                  const PlaneTable& table, const std::vector<PlaneView>& views,
-                                  const ProxyOptions& options, int threads) {
-  const SolidScene solid_scene{.samples = scene.samples,
-                               .stations = stations,
-                               .tolerances = scene.tolerances,
-                               .witnesses = scene.witnesses,
-                               .up = scene.up,
-                               .main_direction = scene.main_direction};
+std::vector<Solid> CloseBuildings(const PlanarScene& scene, const PlaneTable& table,
+                                  const std::vector<PlaneView>& views, const ProxyOptions& options,
+                                  int threads) {
   std::vector<Solid> solids(scene.buildings.size());
   ParallelFor(solids.size(), threads, [&](size_t b) {
     std::vector<const PlaneView*> own;
@@ -96,7 +95,7 @@ std::vector<Solid> CloseBuildings(const PlanarScene& scene, const Stations& stat
     const Plane* ground = GroundBelow(scene.samples, scene.up, scene.ground, scene.buildings[b]);
     solids[b] = CloseOrExplain([&] {
       return CloseBuilding(
-          solid_scene, own, ground,
+          scene, own, ground,
           {.max_planes = options.max_planes, .least_support = options.solid_support});
     });
   });
@@ -126,21 +125,20 @@ void NameAfterPlan(const Georef& georef, const StageContext& context, Proxy& pro
 
 }  // namespace
 
-Proxy AbstractCloud(const PointStream& cloud, const Stations& stations, const Georef& georef,
-                    const ProxyOptions& options, int threads, ProxyFindings& findings) {
-  const PlanarScene scene = UnderstandCloud(cloud, stations, georef, options, threads, findings);
+Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
+                    ProxyFindings& findings) {
+  const PlanarScene scene = UnderstandCloud(input, options, threads, findings);
   const PlaneTable table = TableOf(scene);
-  const auto views = ViewPlanes(scene.samples, stations, table.planes, scene.witnesses, scene.up,
-                                scene.main_direction, scene.tolerances,
-                                table.planes.size() - scene.ground.size(), threads);
+  const auto views =
+      ViewPlanes(scene, table.planes, table.planes.size() - scene.ground.size(), threads);
   auto facets = OpenFacets(scene, table, views, threads, findings);
   Proxy proxy;
   proxy.up = scene.up;
-  proxy.metric = georef.metric;
+  proxy.metric = input.georef.metric;
   Building ground{.id = "G0", .watertight = false, .source = "cloud", .facets = {}};
   for (size_t b = 0; b < scene.buildings.size(); ++b) {
     proxy.buildings.push_back(
-        {.id = fmt::format("B{:04}", b + 1), .watertight = false, .source = "cloud", .facets = {}});
+        {.id = ClusterId(b), .watertight = false, .source = "cloud", .facets = {}});
   }
   for (size_t p = 0; p < facets.size(); ++p) {
     Building& building = table.building[p] < 0 ? ground : proxy.buildings[table.building[p]];
@@ -148,7 +146,7 @@ Proxy AbstractCloud(const PointStream& cloud, const Stations& stations, const Ge
   }
   proxy.buildings.push_back(std::move(ground));
   if (options.solids) {
-    auto solids = CloseBuildings(scene, stations, table, views, options, threads);
+    auto solids = CloseBuildings(scene, table, views, options, threads);
     for (size_t b = 0; b < solids.size(); ++b) {
       Building& building = proxy.buildings[b];
       building.watertight = !solids[b].facets.empty();
@@ -172,11 +170,6 @@ Proxy AbstractCloud(const PointStream& cloud, const Stations& stations, const Ge
   return proxy;
 }
 
-Proxy AbstractCloud(const PointCloud& cloud, const Stations& stations, const Georef& georef,
-                    const ProxyOptions& options, int threads, ProxyFindings& findings) {
-  return AbstractCloud(StreamOf(cloud), stations, georef, options, threads, findings);
-}
-
 int PointsWithin(uint64_t memory_limit_bytes, int max_points) {
   constexpr uint64_t kBytesPerPoint = 400;  // 220 measured on 1.8 million, and some to spare
   constexpr uint64_t kFewest = 100000;
@@ -187,9 +180,10 @@ int PointsWithin(uint64_t memory_limit_bytes, int max_points) {
 void RunProxy(const ProxyOptions& options, StageContext& context) {
   Progress& progress = *context.progress;
   progress.Begin("abstracting the cloud to planes", 3);
-  const PointStream cloud = StreamOf(context.survey / kCloudFile);
-  const Stations stations = StationsOf(ReadColmapModel(context.survey / kSparseFolder));
-  const Georef georef = ReadGeoref(context.survey / kGeorefFile);
+  // Nothing that ingest knows about a photo matters to the model: its captures are no input.
+  const ProxyInput input{StreamOf(context.survey / kCloudFile),
+                         JoinPhotos(ReadColmapModel(context.survey / kSparseFolder), {}),
+                         ReadGeoref(context.survey / kGeorefFile)};
   context.ThrowIfCancelled();
   progress.Advance();
   ProxyFindings findings;
@@ -199,7 +193,7 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
     findings.notes.push_back(fmt::format("run.memory_limit_gb allows {} points of max_points {}",
                                          affordable.max_points, options.max_points));
   }
-  Proxy proxy = AbstractCloud(cloud, stations, georef, affordable, context.threads, findings);
+  Proxy proxy = AbstractCloud(input, affordable, context.threads, findings);
   for (const auto& note : findings.notes) progress.Note(note);
   for (const auto& warning : findings.warnings) progress.Warn(warning);
   context.ThrowIfCancelled();
@@ -208,7 +202,7 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
     throw Error(ErrorKind::kStageFailed, "the planar model is not sound: " + *problem,
                 "Please report this with the survey; proxy.solids = false may avoid it.");
   }
-  NameAfterPlan(georef, context, proxy);
+  NameAfterPlan(input.georef, context, proxy);
   WriteProxy(proxy, context.out / "facets.json");
   WriteFile(context.out / "proxy.obj", ObjText(proxy));
   WriteFile(context.out / "proxy.city.json", CityJsonText(proxy));

@@ -81,8 +81,12 @@ Json SemanticsOf(const Facet& facet, const Eigen::Vector3d& up) {
   const bool ceiling = facet.facet_class == FacetClass::kOuterFloor && facet.normal.dot(up) < 0;
   Json surface = {{"type", ceiling ? "OuterCeilingSurface" : CityGmlName(facet.facet_class)}};
   surface["id"] = facet.id;
-  surface["facade"] = facet.facade;
-  surface["other_facades"] = facet.other_facades;
+  surface["facade"] = FacadeName(facet);
+  Json others = Json::array();
+  for (size_t i = 1; i < facet.planned_facades.size(); ++i) {
+    others.push_back(facet.planned_facades[i]);
+  }
+  surface["other_facades"] = std::move(others);
   surface["area"] = facet.area;
   surface["rms"] = facet.rms;
   surface["seen"] = facet.seen;

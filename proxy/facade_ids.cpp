@@ -29,8 +29,12 @@ constexpr double kLeastOverlap = 0.5;   // of the shorter of wall and facade
 constexpr double kLeastFound = 0.5;     // of all walls, or of all facades, by length and nearness
 constexpr double kShortest_m = 0.1;     // as the planner's shortest facade
 
+double LengthOf_m(const Segment2d& line) {
+  return (line.b - line.a).norm();
+}
+
 // A wall beside a facade, in the facade's own directions.
-struct Candidate {
+struct WallBesideFacade {
   int wall = 0;
   int facade = 0;
   Eigen::Vector2d along = Eigen::Vector2d::UnitX();  // of the facade, unit
@@ -58,16 +62,16 @@ struct Candidate {
 };
 
 // The pairs that some shift may bring together, by wall, then facade.
-std::vector<Candidate> FindCandidates(const std::vector<WallLine>& walls,
-                                      const std::vector<WallLine>& facades) {
-  std::vector<Candidate> candidates;
+std::vector<WallBesideFacade> FindCandidates(const std::vector<Segment2d>& walls,
+                                             const std::vector<Segment2d>& facades) {
+  std::vector<WallBesideFacade> candidates;
   for (size_t w = 0; w < walls.size(); ++w) {
     const Eigen::Vector2d middle = (walls[w].a + walls[w].b) / 2;
     const Eigen::Vector2d wall_along = (walls[w].b - walls[w].a).normalized();
     for (size_t f = 0; f < facades.size(); ++f) {
-      const double length = facades[f].length_m();
-      if (!(length >= kShortest_m) || !(walls[w].length_m() >= kShortest_m)) continue;
-      Candidate pair{.wall = static_cast<int>(w), .facade = static_cast<int>(f)};
+      const double length = LengthOf_m(facades[f]);
+      if (!(length >= kShortest_m) || !(LengthOf_m(walls[w]) >= kShortest_m)) continue;
+      WallBesideFacade pair{.wall = static_cast<int>(w), .facade = static_cast<int>(f)};
       pair.along = (facades[f].b - facades[f].a) / length;
       pair.length_m = length;
       if (!(pair.along.dot(wall_along) >= kLeastCosine)) continue;
@@ -82,13 +86,14 @@ std::vector<Candidate> FindCandidates(const std::vector<WallLine>& walls,
   return candidates;
 }
 
-using Matches = std::vector<const Candidate*>;
+using Matches = std::vector<const WallBesideFacade*>;
 
 // Whether most of the candidate's stretch is beside none of these facades.
-bool IsApart(const Candidate& candidate, const Matches& taken, const Eigen::Vector2d& shift) {
+bool IsApart(const WallBesideFacade& candidate, const Matches& taken,
+             const Eigen::Vector2d& shift) {
   const Interval own = candidate.Stretch(shift);
   double shared = 0;
-  for (const Candidate* other : taken) {
+  for (const WallBesideFacade* other : taken) {
     const Interval theirs = other->Stretch(shift);
     shared += std::max(0.0, std::min(own.to_m, theirs.to_m) - std::max(own.from_m, theirs.from_m));
   }
@@ -97,17 +102,17 @@ bool IsApart(const Candidate& candidate, const Matches& taken, const Eigen::Vect
 
 // For each wall the candidates that it is a part of or spans, the best first: one after the other
 // along it, as of facades that stand behind each other the wall is only one.
-std::vector<Matches> MatchesOf(const std::vector<Candidate>& candidates, size_t walls,
+std::vector<Matches> MatchesOf(const std::vector<WallBesideFacade>& candidates, size_t walls,
                                const Eigen::Vector2d& shift) {
   std::vector<Matches> fitting(walls);
-  for (const Candidate& candidate : candidates) {
+  for (const WallBesideFacade& candidate : candidates) {
     if (candidate.Fit(shift) > 0) fitting[candidate.wall].push_back(&candidate);
   }
   for (Matches& of_wall : fitting) {
     std::ranges::stable_sort(of_wall, std::greater(),
-                             [&](const Candidate* match) { return match->Fit(shift); });
+                             [&](const WallBesideFacade* match) { return match->Fit(shift); });
     Matches taken;
-    for (const Candidate* match : of_wall) {
+    for (const WallBesideFacade* match : of_wall) {
       if (IsApart(*match, taken, shift)) taken.push_back(match);
     }
     of_wall = std::move(taken);
@@ -117,10 +122,10 @@ std::vector<Matches> MatchesOf(const std::vector<Candidate>& candidates, size_t 
 
 // Log-likelihood of a shift: of what walls find there, and of GPS being that far off. A sum, so
 // that in a long row of equal houses one that finds none still outweighs a smaller shift.
-double ScoreOf(const std::vector<Candidate>& candidates, size_t walls,
+double ScoreOf(const std::vector<WallBesideFacade>& candidates, size_t walls,
                const Eigen::Vector2d& shift) {
   std::vector<double> fit(walls, 0);
-  for (const Candidate& candidate : candidates) {
+  for (const WallBesideFacade& candidate : candidates) {
     fit[candidate.wall] = std::max(fit[candidate.wall], candidate.Fit(shift));
   }
   double sum = 0;
@@ -129,7 +134,7 @@ double ScoreOf(const std::vector<Candidate>& candidates, size_t walls,
 }
 
 // Every shift on a grid: the score has many maxima where streets are regular.
-Eigen::Vector2d BestOnGrid(const std::vector<Candidate>& candidates, size_t walls) {
+Eigen::Vector2d BestOnGrid(const std::vector<WallBesideFacade>& candidates, size_t walls) {
   const int steps = static_cast<int>(kMostShift_m / kShiftStep_m);
   Eigen::Vector2d best = Eigen::Vector2d::Zero();
   double best_score = ScoreOf(candidates, walls, best);
@@ -147,7 +152,7 @@ Eigen::Vector2d BestOnGrid(const std::vector<Candidate>& candidates, size_t wall
 
 // Least squares on what the shift matches, in which far walls weigh less (Tukey's biweight). Where
 // all walls are parallel, the shift along them stays as it is.
-Eigen::Vector2d Refined(const std::vector<Candidate>& candidates, size_t walls,
+Eigen::Vector2d Refined(const std::vector<WallBesideFacade>& candidates, size_t walls,
                         Eigen::Vector2d shift) {
   constexpr int kRounds = 10;
   constexpr double kDamping = 1e-3;
@@ -157,7 +162,7 @@ Eigen::Vector2d Refined(const std::vector<Candidate>& candidates, size_t walls,
     double total = 0;
     for (const Matches& matches : MatchesOf(candidates, walls, shift)) {
       if (matches.empty()) continue;
-      const Candidate& best = *matches.front();
+      const WallBesideFacade& best = *matches.front();
       const double distance = best.Distance(shift);
       const double share = distance / kReach_m;
       const double weight = (best.to_m - best.from_m) * std::pow(1 - share * share, 2);
@@ -173,30 +178,30 @@ Eigen::Vector2d Refined(const std::vector<Candidate>& candidates, size_t walls,
   return shift;
 }
 
-double TotalLength(const std::vector<WallLine>& lines) {
+double TotalLength(const std::vector<Segment2d>& lines) {
   double sum = 0;
-  for (const WallLine& line : lines) sum += line.length_m();
+  for (const Segment2d& line : lines) sum += LengthOf_m(line);
   return sum;
 }
 
 // Whether enough walls find a facade, or enough facades a wall, to believe that the plan is of
 // this place. The nearer they lie, the more they count: where the plan is of another part of a town
 // with straight streets, some shift brings half of its facades within reach, at any distance.
-bool IsOfThisPlace(const std::vector<Matches>& matches, const std::vector<WallLine>& walls,
-                   const std::vector<WallLine>& facades, const Eigen::Vector2d& shift) {
+bool IsOfThisPlace(const std::vector<Matches>& matches, const std::vector<Segment2d>& walls,
+                   const std::vector<Segment2d>& facades, const Eigen::Vector2d& shift) {
   double walls_found = 0;
   std::vector<double> found(facades.size(), 0);
   for (size_t w = 0; w < walls.size(); ++w) {
     double of_wall = 0;
-    for (const Candidate* match : matches[w]) {
+    for (const WallBesideFacade* match : matches[w]) {
       of_wall += match->Fit(shift);
       found[match->facade] += match->Fit(shift);
     }
-    walls_found += std::min(of_wall, walls[w].length_m());
+    walls_found += std::min(of_wall, LengthOf_m(walls[w]));
   }
   double facades_found = 0;
   for (size_t f = 0; f < facades.size(); ++f) {
-    facades_found += std::min(found[f], facades[f].length_m());
+    facades_found += std::min(found[f], LengthOf_m(facades[f]));
   }
   return walls_found > 0 && (walls_found >= kLeastFound * TotalLength(walls) ||
                              facades_found >= kLeastFound * TotalLength(facades));
@@ -204,7 +209,7 @@ bool IsOfThisPlace(const std::vector<Matches>& matches, const std::vector<WallLi
 
 }  // namespace
 
-WallLine LineOf(const Facet& wall) {
+Segment2d LineOf(const Facet& wall) {
   const Eigen::Vector2d outwards = wall.normal.head<2>().normalized();
   const Eigen::Vector2d along(-outwards.y(), outwards.x());
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
@@ -220,9 +225,9 @@ WallLine LineOf(const Facet& wall) {
   return {middle + from * along, middle + to * along};
 }
 
-std::optional<Eigen::Vector2d> FindShift(const std::vector<WallLine>& walls,
-                                         const std::vector<WallLine>& facades) {
-  const std::vector<Candidate> candidates = FindCandidates(walls, facades);
+std::optional<Eigen::Vector2d> FindShift(const std::vector<Segment2d>& walls,
+                                         const std::vector<Segment2d>& facades) {
+  const std::vector<WallBesideFacade> candidates = FindCandidates(walls, facades);
   if (candidates.empty()) return std::nullopt;
   const Eigen::Vector2d shift =
       Refined(candidates, walls.size(), BestOnGrid(candidates, walls.size()));
@@ -231,21 +236,21 @@ std::optional<Eigen::Vector2d> FindShift(const std::vector<WallLine>& walls,
   return shift;
 }
 
-std::vector<std::vector<int>> MatchWalls(const std::vector<WallLine>& walls,
-                                         const std::vector<WallLine>& facades,
+std::vector<std::vector<int>> MatchWalls(const std::vector<Segment2d>& walls,
+                                         const std::vector<Segment2d>& facades,
                                          const Eigen::Vector2d& shift) {
-  const std::vector<Candidate> candidates = FindCandidates(walls, facades);
+  const std::vector<WallBesideFacade> candidates = FindCandidates(walls, facades);
   std::vector<std::vector<int>> facades_of_walls;
   for (const Matches& matches : MatchesOf(candidates, walls.size(), shift)) {
     auto& numbers = facades_of_walls.emplace_back();
-    for (const Candidate* match : matches) numbers.push_back(match->facade);
+    for (const WallBesideFacade* match : matches) numbers.push_back(match->facade);
   }
   return facades_of_walls;
 }
 
 FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy) {
   std::vector<Facet*> facets;
-  std::vector<WallLine> walls;
+  std::vector<Segment2d> walls;
   for (Building& building : proxy.buildings) {
     for (Facet& facet : building.facets) {
       if (facet.facet_class != FacetClass::kWall) continue;
@@ -253,7 +258,7 @@ FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy) {
       walls.push_back(LineOf(facet));
     }
   }
-  std::vector<WallLine> facades;
+  std::vector<Segment2d> facades;
   for (const PlannedFacade& facade : plan.facades) {
     facades.push_back({EnuFromPlan(plan.origin, georef, facade.a_m),
                        EnuFromPlan(plan.origin, georef, facade.b_m)});
@@ -265,9 +270,8 @@ FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy) {
   std::set<int> found;
   for (size_t w = 0; w < facets.size(); ++w) {
     if (matches[w].empty()) continue;
-    facets[w]->facade = plan.facades[matches[w].front()].id;
-    for (size_t i = 1; i < matches[w].size(); ++i) {
-      facets[w]->other_facades.push_back(plan.facades[matches[w][i]].id);
+    for (const int match : matches[w]) {
+      facets[w]->planned_facades.push_back(plan.facades[match].id);
     }
     found.insert(matches[w].begin(), matches[w].end());
     ++naming.named;

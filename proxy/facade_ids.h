@@ -7,33 +7,27 @@
 #include <string>
 #include <vector>
 
+#include "survey/geometry2d.h"
 #include "survey/georef.h"
 #include "survey/plan.h"
 #include "survey/proxy.h"
 
 namespace stucco {
 
-// A wall seen from above: from a to b, the building on its left.
-struct WallLine {
-  Eigen::Vector2d a = Eigen::Vector2d::Zero();
-  Eigen::Vector2d b = Eigen::Vector2d::Zero();
-  double length_m() const { return (b - a).norm(); }
-};
-
-// The line of a wall, at the middle of its height where it leans.
-WallLine LineOf(const Facet& wall);
+// A wall seen from above, the building on its left; at the middle of its height where it leans.
+Segment2d LineOf(const Facet& wall);
 
 // How far the facades have to be moved, east and north, to lie on the walls: the shift on which
 // most metres of wall find a facade that is parallel, faces the same way and runs beside them. GPS
 // puts a whole survey some metres off. Nothing where fewer than half of the walls, or of the
 // facades where those are fewer, find one; near ones count more.
-std::optional<Eigen::Vector2d> FindShift(const std::vector<WallLine>& walls,
-                                         const std::vector<WallLine>& facades);
+std::optional<Eigen::Vector2d> FindShift(const std::vector<Segment2d>& walls,
+                                         const std::vector<Segment2d>& facades);
 
 // For every wall the facades that it is a part of or spans once the facades are moved, the one it
 // has most of first.
-std::vector<std::vector<int>> MatchWalls(const std::vector<WallLine>& walls,
-                                         const std::vector<WallLine>& facades,
+std::vector<std::vector<int>> MatchWalls(const std::vector<Segment2d>& walls,
+                                         const std::vector<Segment2d>& facades,
                                          const Eigen::Vector2d& shift);
 
 // What naming came to.
@@ -44,9 +38,8 @@ struct FacadeNaming {
   std::optional<Eigen::Vector2d> shift_m;
 };
 
-// Gives walls of the proxy the plan's facade ids (`facade` and `other_facades`; `id` stays); the
-// other facets, and the walls of a survey that is not where the plan is, keep their own. Requires
-// an "enu" georef.
+// Names the plan's facades that walls of the proxy are parts of (`planned_facades`); the walls of a
+// survey that is not where the plan is get none. Requires facets without any and an "enu" georef.
 FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy);
 
 }  // namespace stucco

@@ -148,7 +148,6 @@ void AssignIds(Building& building) {
     } else {
       facet.id = fmt::format("{}/{}{}", building.id, LetterOf(facet.facet_class), number);
     }
-    facet.facade = facet.id;
   }
 }
 

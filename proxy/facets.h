@@ -21,7 +21,7 @@ std::vector<Facet> OutlineFacets(const Samples& samples, const PlaneView& view,
 // A facet out of a polygon in the plane of `view`, with area, rms, support and seen share measured.
 Facet MakeFacet(const Samples& samples, const PlaneView& view, const Polygon2& polygon);
 
-// Ids by class and falling area: B0001/W00, B0001/W01 ... R0 ... O0 (overhangs). The ground's are
+// Ids by class and falling area: C0001/W00, C0001/W01 ... R0 ... O0 (overhangs). The ground's are
 // G0, G1 ...
 void AssignIds(Building& building);
 

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "proxy/terrain.h"
+#include "proxy/planes_in_plan.h"
 
 namespace stucco {
 namespace {
@@ -71,11 +71,11 @@ int MainGround(const Samples& samples, const Tolerances& tolerances, const Eigen
 std::vector<int> FindGround(const Samples& samples, const Tolerances& tolerances,
                             const Eigen::Vector3d& up, const std::vector<Plane>& planes) {
   constexpr double kHighestYard = 5;  // levels of detail above the ground next to it
-  const Terrain terrain(samples, tolerances, up, planes);
+  const PlanesInPlan in_plan(samples, tolerances, up, planes);
   std::vector<bool> lowest(planes.size());
   for (size_t p = 0; p < planes.size(); ++p) {
     lowest[p] = planes[p].normal.dot(up) > kCosOfTerrain && !planes[p].points.empty() &&
-                terrain.IsLowest(static_cast<int>(p));
+                in_plan.IsLowest(static_cast<int>(p));
   }
   std::vector<int> ground;
   const int main = MainGround(samples, tolerances, up, planes, lowest);
@@ -85,7 +85,7 @@ std::vector<int> FindGround(const Samples& samples, const Tolerances& tolerances
   // From ground to ground, until nothing more joins on.
   for (size_t next = 0; next < ground.size(); ++next) {
     for (size_t p = 0; p < planes.size(); ++p) {
-      if (!lowest[p] || !terrain.Continues(static_cast<int>(p), ground[next])) continue;
+      if (!lowest[p] || !in_plan.Continues(static_cast<int>(p), ground[next])) continue;
       ground.push_back(static_cast<int>(p));
       lowest[p] = false;
     }
@@ -95,7 +95,7 @@ std::vector<int> FindGround(const Samples& samples, const Tolerances& tolerances
   for (size_t p = 0; p < planes.size(); ++p) {
     if (!lowest[p]) continue;
     const std::span<const int> known(ground.data(), joined);
-    const int base = terrain.Nearest(static_cast<int>(p), known);
+    const int base = in_plan.Nearest(static_cast<int>(p), known);
     if (HeightAbove(samples, planes[base], planes[p]) < kHighestYard * tolerances.level_of_detail) {
       ground.push_back(static_cast<int>(p));
     }

@@ -14,9 +14,9 @@
 namespace stucco {
 
 // Indices of the planes that are ground, the main one first: within 20 degrees of level, lowest
-// around themselves (terrain.h), and going on in one another from the main one, which is large and
-// at the foot of the scene; apart from the rest also yards and terraces near the height of the
-// ground next to them. Empty when the cloud shows no ground.
+// around themselves (planes_in_plan.h), and going on in one another from the main one, which is
+// large and at the foot of the scene; apart from the rest also yards and terraces near the height
+// of the ground next to them. Empty when the cloud shows no ground.
 std::vector<int> FindGround(const Samples& samples, const Tolerances& tolerances,
                             const Eigen::Vector3d& up, const std::vector<Plane>& planes);
 

@@ -38,21 +38,20 @@ Eigen::Vector3d PlaneNormal(const Samples& samples, const GridIndex& index, size
   return solver.eigenvectors().col(0);
 }
 
-Eigen::Vector3d MeanCenter(const Stations& stations) {
+Eigen::Vector3d Mean(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Station& station : stations.all) sum += station.center;
-  return stations.all.empty() ? sum : Eigen::Vector3d(sum / double(stations.all.size()));
+  for (const Eigen::Vector3d& point : points) sum += point;
+  return points.empty() ? sum : Eigen::Vector3d(sum / double(points.size()));
 }
 
-void FillMissing(Samples& samples, const GridIndex& index, double radius, const Stations& stations,
-                 int threads) {
-  const Eigen::Vector3d mean_center = MeanCenter(stations);
+void FillMissing(Samples& samples, const GridIndex& index, double radius, int threads) {
+  const Eigen::Vector3d mean_center = Mean(samples.camera_centers);
   ForEachSample(samples.size(), threads, [&](size_t i) {
     if (samples.normals[i].squaredNorm() > 0.5) return;
     Eigen::Vector3d normal = PlaneNormal(samples, index, i, radius);
-    const Eigen::Vector3d eye =
-        samples.stations[i] >= 0 ? stations.all[samples.stations[i]].center : mean_center;
-    if (normal.dot(eye - samples.positions[i]) < 0) normal = -normal;
+    const Eigen::Vector3d* eye = samples.EyeOf(i);
+    if (normal.dot((eye != nullptr ? *eye : mean_center) - samples.positions[i]) < 0)
+      normal = -normal;
     samples.normals[i] = normal;
   });
 }
@@ -60,9 +59,9 @@ void FillMissing(Samples& samples, const GridIndex& index, double radius, const 
 }  // namespace
 
 std::vector<double> SmoothNormals(Samples& samples, const GridIndex& index, double radius,
-                                  const Stations& stations, int threads) {
+                                  int threads) {
   constexpr double kCosOfAlike = 0.707;
-  FillMissing(samples, index, radius, stations, threads);
+  FillMissing(samples, index, radius, threads);
   std::vector<double> agreement(samples.size(), 0);
   for (int round = 0; round < 2; ++round) {
     std::vector<Eigen::Vector3d> smoothed(samples.size());

@@ -6,7 +6,6 @@
 
 #include "proxy/grid_index.h"
 #include "proxy/samples.h"
-#include "proxy/stations.h"
 
 namespace stucco {
 
@@ -15,6 +14,6 @@ namespace stucco {
 // neighbours that point within 45 degrees of it: noise falls, edges stay. Returns how well the
 // neighbours agree, in [0, 1]: the order in which regions are grown from samples.
 std::vector<double> SmoothNormals(Samples& samples, const GridIndex& index, double radius,
-                                  const Stations& stations, int threads);
+                                  int threads);
 
 }  // namespace stucco

@@ -84,10 +84,10 @@ bool Buries(const CutLine& line, const PlaneView& wall) {
 
 }  // namespace
 
-std::vector<PlaneView> ViewPlanes(const Samples& samples, const Stations& stations,
-                                  std::span<const Plane> planes, const std::vector<int>& witnesses,
-                                  const Eigen::Vector3d& up, const Eigen::Vector3d& main_direction,
-                                  const Tolerances& tolerances, size_t first_ground, int threads) {
+std::vector<PlaneView> ViewPlanes(const PlanarScene& scene, std::span<const Plane> planes,
+                                  size_t first_ground, int threads) {
+  const Samples& samples = scene.samples;
+  const Tolerances& tolerances = scene.tolerances;
   const double cell = std::max(2.0 * tolerances.spacing, tolerances.level_of_detail / 3);
   const double margin = kFootReach * tolerances.fill_gap + 4 * cell;
   constexpr double kRecess = 4;  // doors and loggias less deep than this do not open a wall
@@ -98,9 +98,9 @@ std::vector<PlaneView> ViewPlanes(const Samples& samples, const Stations& statio
     view.plane = &plane;
     view.ground = p >= first_ground;
     const PlaneFrame frame =
-        FrameOf(plane, up, main_direction, samples.positions[plane.points.front()]);
+        FrameOf(plane, scene.up, scene.main_direction, samples.positions[plane.points.front()]);
     view.raster = RasteriseHits(samples, plane, frame, cell, margin);
-    CountThroughRays(samples, stations, witnesses, plane, kRecess * tolerances.level_of_detail,
+    CountThroughRays(samples, scene.support, plane, kRecess * tolerances.level_of_detail,
                      view.raster);
     view.evidence = Classify(view.raster, tolerances.fill_gap, tolerances.min_area);
     if (plane.role == PlaneRole::kWall || plane.role == PlaneRole::kSlope) {

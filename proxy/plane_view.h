@@ -9,9 +9,7 @@
 #include "proxy/arrangement.h"
 #include "proxy/plane.h"
 #include "proxy/raster.h"
-#include "proxy/samples.h"
-#include "proxy/scale.h"
-#include "proxy/stations.h"
+#include "proxy/scene.h"
 
 namespace stucco {
 
@@ -24,12 +22,11 @@ struct PlaneView {
   std::vector<float> to_seen;  // distance of each cell to the nearest seen one, world units
 };
 
-// Planes from index `first_ground` on are the ground. `witnesses` are the samples whose rays may
-// show openings (those that lie on planes). The views point into `planes`, which must outlive them.
-std::vector<PlaneView> ViewPlanes(const Samples& samples, const Stations& stations,
-                                  std::span<const Plane> planes, const std::vector<int>& witnesses,
-                                  const Eigen::Vector3d& up, const Eigen::Vector3d& main_direction,
-                                  const Tolerances& tolerances, size_t first_ground, int threads);
+// Views `planes` of the scene, whose own lists of planes play no part. From index `first_ground` on
+// they are the ground. The rays to the scene's support may show openings. The views point into
+// `planes`, which must outlive them.
+std::vector<PlaneView> ViewPlanes(const PlanarScene& scene, std::span<const Plane> planes,
+                                  size_t first_ground, int threads);
 
 // The intersection with each of the `others` that comes within `reach` of the seen parts of both
 // planes along at least `min_length`, as a line in the frame of `view`. The ground counts as seen

@@ -90,17 +90,16 @@ PlaneRaster RasteriseHits(const Samples& samples, const Plane& plane, const Plan
   return raster;
 }
 
-void CountThroughRays(const Samples& samples, const Stations& stations,
-                      const std::vector<int>& witnesses, const Plane& plane, double behind,
-                      PlaneRaster& raster) {
-  for (const int i : witnesses) {
-    if (samples.stations[i] < 0) continue;
+void CountThroughRays(const Samples& samples, const std::vector<int>& support, const Plane& plane,
+                      double behind, PlaneRaster& raster) {
+  for (const int i : support) {
+    const Eigen::Vector3d* eye = samples.EyeOf(i);
+    if (eye == nullptr) continue;
     const double end = plane.DistanceTo(samples.positions[i]);
     if (end > -behind) continue;
-    const Eigen::Vector3d& eye = stations.all[samples.stations[i]].center;
-    const double start = plane.DistanceTo(eye);
+    const double start = plane.DistanceTo(*eye);
     if (start < behind) continue;
-    const Eigen::Vector3d crossing = eye + start / (start - end) * (samples.positions[i] - eye);
+    const Eigen::Vector3d crossing = *eye + start / (start - end) * (samples.positions[i] - *eye);
     const int index = raster.IndexAt(raster.frame.ToPlane(crossing));
     if (index >= 0) CountUp(raster.through[index]);
   }

@@ -8,7 +8,6 @@
 
 #include "proxy/plane.h"
 #include "proxy/samples.h"
-#include "proxy/stations.h"
 
 namespace stucco {
 
@@ -38,11 +37,10 @@ struct PlaneRaster {
 PlaneRaster RasteriseHits(const Samples& samples, const Plane& plane, const PlaneFrame& frame,
                           double cell, double margin);
 
-// Counts the rays from cameras to `witnesses` (samples that lie on some plane) that pass through
+// Counts the rays from cameras to `support` (samples that lie on some plane) that pass through
 // the plane and end more than `behind` behind it: there the wall has an opening, or ends.
-void CountThroughRays(const Samples& samples, const Stations& stations,
-                      const std::vector<int>& witnesses, const Plane& plane, double behind,
-                      PlaneRaster& raster);
+void CountThroughRays(const Samples& samples, const std::vector<int>& support, const Plane& plane,
+                      double behind, PlaneRaster& raster);
 
 // The states of a raster's cells for outlining.
 enum class Evidence : uint8_t { kUnknown, kSeen, kGap, kOpen, kBetween };

@@ -26,6 +26,13 @@ struct Compass {
   }
 };
 
+// What turning a plane depends on besides the plane.
+struct Surroundings {
+  const Samples& samples;
+  const Tolerances& tolerances;
+  Compass compass;
+};
+
 // How far the plane's points lie from the axis through their centre: what turning it around that
 // axis moves. The 95 % quantile, so that a few far samples do not forbid everything.
 double Reach(const Samples& samples, const Plane& plane, const Eigen::Vector3d& axis) {
@@ -45,12 +52,13 @@ double Reach(const Samples& samples, const Plane& plane, const Eigen::Vector3d& 
 // Whether a plane may be turned by the angle around the axis: by up to `tolerance` when no point
 // moves by more than the level of detail, by up to 20 degrees when none moves by half of it (the
 // direction of a narrow plane is uncertain).
-bool MayTurn(const Samples& samples, const Tolerances& tolerances, const Plane& plane,
-             const Eigen::Vector3d& axis, double angle, double tolerance) {
+bool MayTurn(const Surroundings& around, const Plane& plane, const Eigen::Vector3d& axis,
+             double angle, double tolerance) {
   constexpr double kMost = 20 * kDegree;
-  const double move = Reach(samples, plane, axis) * std::abs(std::sin(angle));
-  if (std::abs(angle) <= tolerance) return move <= tolerances.level_of_detail;
-  return tolerance > 0 && std::abs(angle) <= kMost && move <= tolerances.level_of_detail / 2;
+  const double detail = around.tolerances.level_of_detail;
+  const double move = Reach(around.samples, plane, axis) * std::abs(std::sin(angle));
+  if (std::abs(angle) <= tolerance) return move <= detail;
+  return tolerance > 0 && std::abs(angle) <= kMost && move <= detail / 2;
 }
 
 double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -62,18 +70,18 @@ double Elevation(const Plane& plane, const Eigen::Vector3d& up) {
   return std::asin(std::clamp(plane.normal.dot(up), -1.0, 1.0));
 }
 
-bool MayStandUpright(const Samples& samples, const Tolerances& tolerances,
-                     const Eigen::Vector3d& up, double tolerance, const Plane& plane) {
+bool MayStandUpright(const Surroundings& around, double tolerance, const Plane& plane) {
+  const Eigen::Vector3d& up = around.compass.up;
   const Eigen::Vector3d axis = up.cross(plane.normal).normalized();
-  return MayTurn(samples, tolerances, plane, axis, Elevation(plane, up), tolerance);
+  return MayTurn(around, plane, axis, Elevation(plane, up), tolerance);
 }
 
 // A wall stands upright when that moves none of its points too far; one that leans keeps its lean.
-bool MakeWall(const Samples& samples, const Tolerances& tolerances, const Eigen::Vector3d& up,
-              double tolerance, Plane& plane) {
+bool MakeWall(const Surroundings& around, double tolerance, Plane& plane) {
+  const Eigen::Vector3d& up = around.compass.up;
   constexpr double kLeansOut = 25 * kDegree;  // roofs do not lean outwards: fronts of dormers do
   const double elevation = Elevation(plane, up);
-  const bool upright = MayStandUpright(samples, tolerances, up, tolerance, plane);
+  const bool upright = MayStandUpright(around, tolerance, plane);
   const bool leans = elevation > -kLeansOut && elevation < tolerance;
   if (!upright && !leans) return false;
   plane.role = PlaneRole::kWall;
@@ -81,13 +89,14 @@ bool MakeWall(const Samples& samples, const Tolerances& tolerances, const Eigen:
   return true;
 }
 
-void AssignRoles(const Samples& samples, const Tolerances& tolerances, const Eigen::Vector3d& up,
-                 const RegulariseOptions& options, std::vector<Plane>& planes) {
+void AssignRoles(const Surroundings& around, const RegulariseOptions& options,
+                 std::vector<Plane>& planes) {
+  const Eigen::Vector3d& up = around.compass.up;
   const double vertical = options.vertical_tolerance_deg * kDegree;
   const double flat = vertical / 2;
   for (Plane& plane : planes) {
     const double elevation = Elevation(plane, up);
-    if (MakeWall(samples, tolerances, up, vertical, plane)) {
+    if (MakeWall(around, vertical, plane)) {
       // Its role is set.
     } else if (std::abs(elevation) > kPi / 2 - 4 * flat) {
       plane.role = elevation > 0 ? PlaneRole::kHorizontal : PlaneRole::kCeiling;
@@ -95,7 +104,7 @@ void AssignRoles(const Samples& samples, const Tolerances& tolerances, const Eig
       const Eigen::Vector3d axis = level.cross(plane.normal);
       const double tilt = AngleBetween(level, plane.normal);
       const bool small = axis.norm() < 1e-12;
-      if (small || MayTurn(samples, tolerances, plane, axis.normalized(), tilt, flat)) {
+      if (small || MayTurn(around, plane, axis.normalized(), tilt, flat)) {
         plane.normal = level;
       } else if (tilt > flat) {
         plane.role = elevation > 0 ? PlaneRole::kSlope : PlaneRole::kCeiling;
@@ -103,7 +112,7 @@ void AssignRoles(const Samples& samples, const Tolerances& tolerances, const Eig
     } else {
       plane.role = elevation > 0 ? PlaneRole::kSlope : PlaneRole::kCeiling;
     }
-    RefitOffset(samples, tolerances.epsilon, plane);
+    RefitOffset(around.samples, around.tolerances.epsilon, plane);
   }
 }
 
@@ -138,23 +147,23 @@ double MainAzimuth(const std::vector<Plane>& planes, const std::vector<int>& wal
 }
 
 // Turns a plane around up towards an azimuth when that keeps its points in place.
-bool TurnTo(const Samples& samples, const Tolerances& tolerances, const Compass& compass,
-            double azimuth, double tolerance, Plane& plane) {
+bool TurnTo(const Surroundings& around, double azimuth, double tolerance, Plane& plane) {
+  const Compass& compass = around.compass;
   const double turn = std::remainder(azimuth - compass.Azimuth(plane.normal), 2 * kPi);
-  if (!MayTurn(samples, tolerances, plane, compass.up, turn, tolerance)) return false;
+  if (!MayTurn(around, plane, compass.up, turn, tolerance)) return false;
   const double along = plane.normal.dot(compass.up);
   plane.normal =
       along * compass.up + std::sqrt(std::max(0.0, 1 - along * along)) * compass.Direction(azimuth);
   plane.normal.normalize();
-  RefitOffset(samples, tolerances.epsilon, plane);
+  RefitOffset(around.samples, around.tolerances.epsilon, plane);
   return true;
 }
 
 // Aligns walls to grids of perpendicular directions, the one with most area first; returns the
 // grids' base azimuths.
-std::vector<double> AlignWalls(const Samples& samples, const Tolerances& tolerances,
-                               const Compass& compass, double tolerance,
+std::vector<double> AlignWalls(const Surroundings& around, double tolerance,
                                std::vector<Plane>& planes) {
+  const Compass& compass = around.compass;
   std::vector<int> open;
   for (size_t i = 0; i < planes.size(); ++i) {
     if (planes[i].role == PlaneRole::kWall) open.push_back(static_cast<int>(i));
@@ -167,7 +176,7 @@ std::vector<double> AlignWalls(const Samples& samples, const Tolerances& toleran
     std::erase_if(open, [&](int w) {
       const double azimuth = compass.Azimuth(planes[w].normal);
       const double off = ToGrid(azimuth, base);
-      if (TurnTo(samples, tolerances, compass, azimuth - off, tolerance, planes[w])) return true;
+      if (TurnTo(around, azimuth - off, tolerance, planes[w])) return true;
       return std::abs(off) <= tolerance;
     });
     if (open.size() == before) break;
@@ -175,21 +184,21 @@ std::vector<double> AlignWalls(const Samples& samples, const Tolerances& toleran
   return bases;
 }
 
-void AlignSlopes(const Samples& samples, const Tolerances& tolerances, const Compass& compass,
-                 const std::vector<double>& bases, double tolerance, std::vector<Plane>& planes) {
+void AlignSlopes(const Surroundings& around, const std::vector<double>& bases, double tolerance,
+                 std::vector<Plane>& planes) {
   for (Plane& plane : planes) {
     if (plane.role != PlaneRole::kSlope) continue;
-    const double azimuth = compass.Azimuth(plane.normal);
+    const double azimuth = around.compass.Azimuth(plane.normal);
     for (const double base : bases) {
       const double off = ToGrid(azimuth, base);
-      if (TurnTo(samples, tolerances, compass, azimuth - off, 1.5 * tolerance, plane)) break;
+      if (TurnTo(around, azimuth - off, 1.5 * tolerance, plane)) break;
     }
   }
 }
 
 // Slopes of nearly one pitch get the mean of their pitches.
-void EqualisePitches(const Samples& samples, const Tolerances& tolerances, const Compass& compass,
-                     double tolerance, std::vector<Plane>& planes) {
+void EqualisePitches(const Surroundings& around, double tolerance, std::vector<Plane>& planes) {
+  const Compass& compass = around.compass;
   const auto pitch_of = [&](const Plane& plane) {
     return std::asin(std::clamp(plane.normal.dot(compass.up), -1.0, 1.0));
   };
@@ -216,12 +225,12 @@ void EqualisePitches(const Samples& samples, const Tolerances& tolerances, const
     for (const int i : group) {
       done[i] = true;
       const Eigen::Vector3d axis = compass.up.cross(planes[i].normal).normalized();
-      if (!MayTurn(samples, tolerances, planes[i], axis, pitch - pitch_of(planes[i]), tolerance)) {
+      if (!MayTurn(around, planes[i], axis, pitch - pitch_of(planes[i]), tolerance)) {
         continue;
       }
       planes[i].normal = std::sin(pitch) * compass.up +
                          std::cos(pitch) * compass.Direction(compass.Azimuth(planes[i].normal));
-      RefitOffset(samples, tolerances.epsilon, planes[i]);
+      RefitOffset(around.samples, around.tolerances.epsilon, planes[i]);
     }
   }
 }
@@ -272,17 +281,17 @@ void DropFarPoints(const Samples& samples, const Tolerances& tolerances,
 Eigen::Vector3d Regularise(const Samples& samples, const Tolerances& tolerances,
                            const Eigen::Vector3d& up, const RegulariseOptions& options,
                            std::vector<Plane>& planes) {
-  const Compass compass(up);
+  const Surroundings around{samples, tolerances, Compass(up)};
   const double tolerance = options.align_tolerance_deg * kDegree;
-  AssignRoles(samples, tolerances, up, options, planes);
-  const auto bases = AlignWalls(samples, tolerances, compass, tolerance, planes);
+  AssignRoles(around, options, planes);
+  const auto bases = AlignWalls(around, tolerance, planes);
   if (tolerance > 0) {
-    AlignSlopes(samples, tolerances, compass, bases, tolerance, planes);
-    EqualisePitches(samples, tolerances, compass, tolerance, planes);
+    AlignSlopes(around, bases, tolerance, planes);
+    EqualisePitches(around, tolerance, planes);
   }
   JoinParallel(samples, tolerances, planes);
   DropFarPoints(samples, tolerances, planes);
-  return compass.Direction(bases.empty() ? 0 : bases[0]);
+  return around.compass.Direction(bases.empty() ? 0 : bases[0]);
 }
 
 }  // namespace stucco

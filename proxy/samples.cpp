@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -125,17 +126,20 @@ struct CellSum {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   int points = 0;
-  int station = -1;
+  int camera = -1;
 };
 
-void AddPoint(const CloudPoint& point, size_t number, const Stations& stations, CellSum& sum) {
+// Places of photos in their list, by the ids that the cloud has for them.
+using PlaceOfPhoto = std::map<uint32_t, int>;
+
+void AddPoint(const CloudPoint& point, size_t number, const PlaceOfPhoto& places, CellSum& sum) {
   sum.position += point.position;
   if (point.normal.allFinite()) sum.normal += point.normal.cast<double>();
   ++sum.points;
-  if (sum.station >= 0 || point.views.empty()) return;
+  if (sum.camera >= 0 || point.views.empty()) return;
   // Not always the first: the photos with low numbers would see everything.
-  const auto found = stations.index_of_photo.find(point.views[number % point.views.size()]);
-  if (found != stations.index_of_photo.end()) sum.station = found->second;
+  const auto found = places.find(point.views[number % point.views.size()]);
+  if (found != places.end()) sum.camera = found->second;
 }
 
 struct CellSums {
@@ -145,8 +149,8 @@ struct CellSums {
 };
 
 // Cell 0: every point is a cell of its own.
-CellSums SumCells(const PointStream& stream, const Stations& stations, const Box& box, double cell,
-                  size_t most) {
+CellSums SumCells(const PointStream& stream, const PlaceOfPhoto& places, const Box& box,
+                  double cell, size_t most) {
   CellSums result;
   std::unordered_map<uint64_t, size_t, MixedHash> place;
   size_t number = 0;
@@ -164,7 +168,7 @@ CellSums SumCells(const PointStream& stream, const Stations& stations, const Box
       return;
     }
     if (added) result.sums.emplace_back().key = key;
-    AddPoint(point, i, stations, result.sums[entry->second]);
+    AddPoint(point, i, places, result.sums[entry->second]);
   });
   std::ranges::sort(result.sums, {}, &CellSum::key);
   return result;
@@ -189,17 +193,22 @@ PointStream StreamOf(const std::filesystem::path& ply) {
           [ply](const std::function<void(const CloudPoint&)>& visit) { ForEachPoint(ply, visit); }};
 }
 
-Samples ThinCloud(const PointStream& stream, const Stations& stations, int max_points,
+Samples ThinCloud(const PointStream& stream, std::span<const SurveyPhoto> photos, int max_points,
                   double min_cell) {
   constexpr double kLarger = 1.08;  // about 15 % fewer cells
   const Box box = BoxOfScene(stream);
   Samples samples;
+  PlaceOfPhoto places;
+  for (const SurveyPhoto& photo : photos) {
+    places[photo.id.value] = static_cast<int>(samples.camera_centers.size());
+    samples.camera_centers.push_back(photo.cam_from_world.Center());
+  }
   samples.cell = ChooseCell(stream, box, max_points, min_cell);
   const auto most = static_cast<size_t>(max_points);
-  CellSums cells = SumCells(stream, stations, box, samples.cell, most);
+  CellSums cells = SumCells(stream, places, box, samples.cell, most);
   while (cells.too_many) {
     samples.cell *= kLarger;
-    cells = SumCells(stream, stations, box, samples.cell, most);
+    cells = SumCells(stream, places, box, samples.cell, most);
   }
   samples.dropped = cells.dropped;
   for (const CellSum& sum : cells.sums) {
@@ -208,14 +217,9 @@ Samples ThinCloud(const PointStream& stream, const Stations& stations, int max_p
     samples.normals.push_back(length > 1e-6 ? Eigen::Vector3d(sum.normal / length)
                                             : Eigen::Vector3d(Eigen::Vector3d::Zero()));
     samples.weights.push_back(sum.points);
-    samples.stations.push_back(sum.station);
+    samples.cameras.push_back(sum.camera);
   }
   return samples;
-}
-
-Samples ThinCloud(const PointCloud& cloud, const Stations& stations, int max_points,
-                  double min_cell) {
-  return ThinCloud(StreamOf(cloud), stations, max_points, min_cell);
 }
 
 }  // namespace stucco

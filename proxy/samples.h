@@ -6,11 +6,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <vector>
 
-#include "proxy/stations.h"
 #include "survey/ply.h"
 #include "survey/point_cloud.h"
+#include "survey/survey_photo.h"
 
 namespace stucco {
 
@@ -19,11 +20,16 @@ struct Samples {
   std::vector<Eigen::Vector3d> positions;  // mean of the cell's points
   std::vector<Eigen::Vector3d> normals;    // unit, towards the cameras; zero where not known
   std::vector<int> weights;                // cloud points a sample stands for
-  std::vector<int> stations;  // index into Stations::all of a photo that sees it, or -1
-  double cell = 0;            // side of the grid's cells; 0: nothing was thinned
-  size_t dropped = 0;         // points not finite or far away from all others
+  std::vector<int> cameras;                // index into `camera_centers` of one that sees it, or -1
+  std::vector<Eigen::Vector3d> camera_centers;  // of all photos of the survey, in their order
+  double cell = 0;                              // side of the grid's cells; 0: nothing was thinned
+  size_t dropped = 0;                           // points not finite or far away from all others
 
   size_t size() const { return positions.size(); }
+  // Where a camera stood that sees sample i, or nothing.
+  const Eigen::Vector3d* EyeOf(size_t i) const {
+    return cameras[i] < 0 ? nullptr : &camera_centers[cameras[i]];
+  }
 };
 
 // A cloud to go through several times, in the same order, without holding it.
@@ -39,9 +45,7 @@ PointStream StreamOf(const std::filesystem::path& ply);
 // Thins to at most `max_points`, with cells of at least `min_cell`, in memory that grows with
 // `max_points` and not with the cloud. Points that are not finite, or three times the size of the
 // box of the middle 98 % away from it, are dropped.
-Samples ThinCloud(const PointStream& stream, const Stations& stations, int max_points,
-                  double min_cell);
-Samples ThinCloud(const PointCloud& cloud, const Stations& stations, int max_points,
+Samples ThinCloud(const PointStream& stream, std::span<const SurveyPhoto> photos, int max_points,
                   double min_cell);
 
 }  // namespace stucco

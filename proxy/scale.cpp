@@ -61,7 +61,7 @@ double LocalNoise(const Samples& samples, const GridIndex& index, size_t i, doub
 
 }  // namespace
 
-CloudScale MeasureScale(const Samples& samples, const Stations& stations) {
+CloudScale MeasureScale(const Samples& samples) {
   CloudScale scale;
   const Eigen::Vector3d size = SizeOfMiddle(samples);
   scale.extent = size.norm();
@@ -83,8 +83,8 @@ CloudScale MeasureScale(const Samples& samples, const Stations& stations) {
   scale.noise = Median(values).value_or(0);
   values.clear();
   for (size_t i = 0; i < samples.size(); i += stride) {
-    if (samples.stations[i] < 0) continue;
-    values.push_back((stations.all[samples.stations[i]].center - samples.positions[i]).norm());
+    const Eigen::Vector3d* eye = samples.EyeOf(i);
+    if (eye != nullptr) values.push_back((*eye - samples.positions[i]).norm());
   }
   scale.viewing_distance = Median(values).value_or(0);
   return scale;

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "proxy/abstract.h"
+#include "proxy/options.h"
 #include "proxy/samples.h"
-#include "proxy/stations.h"
 
 namespace stucco {
 
@@ -17,7 +16,7 @@ struct CloudScale {
 };
 
 // Requires at least 4 samples. All zero when most of them are at one place.
-CloudScale MeasureScale(const Samples& samples, const Stations& stations);
+CloudScale MeasureScale(const Samples& samples);
 
 // What every step after this works with, in world units.
 struct Tolerances {

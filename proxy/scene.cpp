@@ -28,20 +28,21 @@ constexpr char kCloudRemedy[] =
     "a finer dense quality, give more points.";
 
 // Thins the cloud, measures it, and thins again when the tolerances need fewer points or more.
-CloudScale PrepareSamples(const PointStream& cloud, const Stations& stations, bool metric,
-                          const ProxyOptions& options, PlanarScene& scene) {
+CloudScale PrepareSamples(const ProxyInput& input, const ProxyOptions& options,
+                          PlanarScene& scene) {
+  const bool metric = input.georef.metric;
   constexpr double kSamplesPerDetail = 4;
   constexpr int kFirstLook = 500'000;  // points that tell the scale of any scene
-  scene.samples = ThinCloud(cloud, stations, std::min(options.max_points, kFirstLook), 0);
+  scene.samples = ThinCloud(input.cloud, input.photos, std::min(options.max_points, kFirstLook), 0);
   const auto fewest = static_cast<size_t>(std::max(12, options.min_points));
   if (scene.samples.size() < fewest) {
     throw Error(ErrorKind::kStageFailed,
                 fmt::format("the dense cloud has {} usable points ({} of {} are not finite or far "
                             "away); planes need at least {}",
-                            scene.samples.size(), scene.samples.dropped, cloud.count, fewest),
+                            scene.samples.size(), scene.samples.dropped, input.cloud.count, fewest),
                 kCloudRemedy);
   }
-  CloudScale scale = MeasureScale(scene.samples, stations);
+  CloudScale scale = MeasureScale(scene.samples);
   if (!(scale.spacing > 0)) {
     throw Error(ErrorKind::kStageFailed, "all points of the dense cloud are at one place",
                 kCloudRemedy);
@@ -50,14 +51,14 @@ CloudScale PrepareSamples(const PointStream& cloud, const Stations& stations, bo
   dense.spacing = 0;
   const double fine = DeriveTolerances(dense, metric, options).level_of_detail / kSamplesPerDetail;
   if (options.max_points > kFirstLook && 1.3 * fine < scale.spacing) {
-    scene.samples = ThinCloud(cloud, stations, options.max_points, fine);
-    scale = MeasureScale(scene.samples, stations);
+    scene.samples = ThinCloud(input.cloud, input.photos, options.max_points, fine);
+    scale = MeasureScale(scene.samples);
   }
   scene.tolerances = DeriveTolerances(scale, metric, options);
   const double coarse = scene.tolerances.level_of_detail / kSamplesPerDetail;
   if (coarse > 1.3 * scale.spacing) {
-    scene.samples = ThinCloud(cloud, stations, options.max_points, coarse);
-    const CloudScale thinned = MeasureScale(scene.samples, stations);
+    scene.samples = ThinCloud(input.cloud, input.photos, options.max_points, coarse);
+    const CloudScale thinned = MeasureScale(scene.samples);
     scene.tolerances.spacing = std::max(thinned.spacing, scene.samples.cell * 0.8);
     scene.tolerances.radius = 3 * scene.tolerances.spacing;
   }
@@ -86,12 +87,11 @@ void WarnOfCoarseness(const CloudScale& scale, const Georef& georef, const Proxy
                              : "A finer dense quality gives more points."));
 }
 
-std::vector<Plane> FindPlanes(const Stations& stations, const ProxyOptions& options, int threads,
-                              PlanarScene& scene) {
+std::vector<Plane> FindPlanes(const ProxyOptions& options, int threads, PlanarScene& scene) {
   Samples& samples = scene.samples;
   const Tolerances& tolerances = scene.tolerances;
   const GridIndex index(samples.positions, tolerances.radius);
-  const auto agreement = SmoothNormals(samples, index, tolerances.radius, stations, threads);
+  const auto agreement = SmoothNormals(samples, index, tolerances.radius, threads);
   auto planes = DetectPlanes(
       samples, index, agreement,
       {.radius = tolerances.radius,
@@ -105,8 +105,9 @@ std::vector<Plane> FindPlanes(const Stations& stations, const ProxyOptions& opti
   return planes;
 }
 
-void FindUp(const std::vector<Plane>& planes, const Stations& stations, const Georef& georef,
-            const ProxyOptions& options, PlanarScene& scene, ProxyFindings& findings) {
+void FindUp(const std::vector<Plane>& planes, const ProxyInput& input, const ProxyOptions& options,
+            PlanarScene& scene, ProxyFindings& findings) {
+  const Georef& georef = input.georef;
   if (options.up.size() == 3) {
     const Eigen::Vector3d up(options.up[0], options.up[1], options.up[2]);
     if (!(up.norm() > 0)) {
@@ -134,7 +135,7 @@ void FindUp(const std::vector<Plane>& planes, const Stations& stations, const Ge
         std::acos(std::clamp(scene.up.dot(given), -1.0, 1.0)) * 180 / std::numbers::pi));
     return;
   }
-  const UpEstimate estimate = EstimateUp(planes, stations);
+  const UpEstimate estimate = EstimateUp(planes, input.photos);
   scene.up = estimate.up;
   findings.notes.push_back(fmt::format(
       "up: from {}; {:.0f} % of the planes' area is upright or level, walls moved it by {:.1f} deg",
@@ -149,32 +150,32 @@ void FindUp(const std::vector<Plane>& planes, const Stations& stations, const Ge
 
 }  // namespace
 
-PlanarScene UnderstandCloud(const PointStream& cloud, const Stations& stations,
-                            const Georef& georef, const ProxyOptions& options, int threads,
+PlanarScene UnderstandCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
                             ProxyFindings& findings) {
   PlanarScene scene;
-  const CloudScale scale = PrepareSamples(cloud, stations, georef.metric, options, scene);
+  const Georef& georef = input.georef;
+  const CloudScale scale = PrepareSamples(input, options, scene);
   findings.notes.push_back(
       fmt::format("{} points thinned to {}, {} dropped; noise {:.4g}, level of detail {:.4g} {}",
-                  cloud.count, scene.samples.size(), scene.samples.dropped, scale.noise,
+                  input.cloud.count, scene.samples.size(), scene.samples.dropped, scale.noise,
                   scene.tolerances.level_of_detail, georef.metric ? "m" : "units"));
   WarnOfCoarseness(scale, georef, options, scene, findings);
-  auto planes = FindPlanes(stations, options, threads, scene);
+  auto planes = FindPlanes(options, threads, scene);
   if (planes.empty()) {
     throw Error(ErrorKind::kStageFailed,
                 fmt::format("the dense cloud shows no plane of at least {:.3g} {}",
                             scene.tolerances.min_area, georef.metric ? "m2" : "square units"),
                 kCloudRemedy);
   }
-  FindUp(planes, stations, georef, options, scene, findings);
+  FindUp(planes, input, options, scene, findings);
   scene.main_direction = Regularise(scene.samples, scene.tolerances, scene.up,
                                     {.vertical_tolerance_deg = options.vertical_tolerance_deg,
                                      .align_tolerance_deg = options.align_tolerance_deg},
                                     planes);
   for (const Plane& plane : planes) {
-    scene.witnesses.insert(scene.witnesses.end(), plane.points.begin(), plane.points.end());
+    scene.support.insert(scene.support.end(), plane.points.begin(), plane.points.end());
   }
-  std::sort(scene.witnesses.begin(), scene.witnesses.end());
+  std::sort(scene.support.begin(), scene.support.end());
   std::vector<bool> is_ground(planes.size(), false);
   for (const int g : FindGround(scene.samples, scene.tolerances, scene.up, planes)) {
     scene.ground.push_back(planes[g]);

@@ -5,11 +5,12 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "proxy/abstract.h"
+#include "proxy/findings.h"
+#include "proxy/input.h"
+#include "proxy/options.h"
 #include "proxy/plane.h"
 #include "proxy/samples.h"
 #include "proxy/scale.h"
-#include "proxy/stations.h"
 
 namespace stucco {
 
@@ -21,13 +22,12 @@ struct PlanarScene {
   Eigen::Vector3d main_direction = Eigen::Vector3d::UnitX();
   std::vector<Plane> ground;                  // the main one first
   std::vector<std::vector<Plane>> buildings;  // largest first
-  std::vector<int> witnesses;                 // samples on any plane, ascending
+  std::vector<int> support;                   // samples on any plane, ascending
 };
 
-// Steps 1 to 6 of the README: thinning, planes, up, regularisation, ground, buildings. Throws Error
-// (kStageFailed) when there are too few points or no planes.
-PlanarScene UnderstandCloud(const PointStream& cloud, const Stations& stations,
-                            const Georef& georef, const ProxyOptions& options, int threads,
+// Steps 1 to 5 of the README: samples, planes, up, regularisation, ground and buildings. Throws
+// Error (kStageFailed) when there are too few points or no planes.
+PlanarScene UnderstandCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
                             ProxyFindings& findings);
 
 }  // namespace stucco

@@ -28,7 +28,7 @@ struct Setting {
   Eigen::AlignedBox3d box;  // local
 };
 
-Setting SettingOf(const SolidScene& scene, const std::vector<const PlaneView*>& views,
+Setting SettingOf(const PlanarScene& scene, const std::vector<const PlaneView*>& views,
                   const Plane* ground) {
   Eigen::Matrix3d rotation;
   const Eigen::Vector3d x =
@@ -65,7 +65,7 @@ CutPlane ToLocal(const Setting& setting, const Eigen::Vector3d& normal, double o
 }
 
 // Where the building stands: the ground, or the level of its lowest points.
-CutPlane BaseOf(const SolidScene& scene, const Setting& setting,
+CutPlane BaseOf(const PlanarScene& scene, const Setting& setting,
                 const std::vector<const PlaneView*>& views, const Plane* ground) {
   if (ground != nullptr) return ToLocal(setting, ground->normal, ground->offset);
   std::vector<double> heights;
@@ -172,7 +172,7 @@ PlaneRole RoleOf(double upwards) {
 }
 
 // A facet of the world, with figures from the view of its plane (null: a plane without points).
-Facet ToFacet(const SolidScene& scene, const Setting& setting, const Partition& partition,
+Facet ToFacet(const PlanarScene& scene, const Setting& setting, const Partition& partition,
               const BoundaryFacet& boundary, const PlaneView* view) {
   const Eigen::Isometry3d world_from_local = setting.local_from_world.inverse();
   const auto to_world = [&](const std::vector<int>& ring) {
@@ -214,7 +214,7 @@ Facet ToFacet(const SolidScene& scene, const Setting& setting, const Partition& 
 }
 
 // Share of the planes' points with solid behind and air in front of them.
-double AgreementOf(const SolidScene& scene, const Setting& setting, const Partition& partition,
+double AgreementOf(const PlanarScene& scene, const Setting& setting, const Partition& partition,
                    const std::vector<const PlaneView*>& views, const std::vector<bool>& inside) {
   size_t agree = 0, all = 0;
   for (const PlaneView* view : views) {
@@ -231,7 +231,7 @@ double AgreementOf(const SolidScene& scene, const Setting& setting, const Partit
   return all == 0 ? 0 : static_cast<double>(agree) / static_cast<double>(all);
 }
 
-void MarkBottom(const SolidScene& scene, const CutPlane& base, const Setting& setting,
+void MarkBottom(const PlanarScene& scene, const CutPlane& base, const Setting& setting,
                 std::vector<Facet>& facets) {
   for (Facet& facet : facets) {
     if (facet.normal.dot(scene.up) > -0.5) continue;
@@ -255,7 +255,7 @@ double SupportOf(const std::vector<Facet>& facets) {
 
 }  // namespace
 
-Solid CloseBuilding(const SolidScene& scene, const std::vector<const PlaneView*>& all_views,
+Solid CloseBuilding(const PlanarScene& scene, const std::vector<const PlaneView*>& all_views,
                     const Plane* ground, const SolidOptions& options) {
   Solid solid;
   std::vector<const PlaneView*> views = all_views;
@@ -277,12 +277,8 @@ Solid CloseBuilding(const SolidScene& scene, const std::vector<const PlaneView*>
   const Partition partition = PartitionBox(setting.box, cuts, kMostCells);
   std::vector<const PlaneView*> view_of_cut(views.begin(), views.end());
   view_of_cut.insert(view_of_cut.begin(), nullptr);
-  const SolidInput input{.samples = &scene.samples,
-                         .stations = &scene.stations,
-                         .views = view_of_cut,
-                         .witnesses = &scene.witnesses,
-                         .tolerances = scene.tolerances,
-                         .local_from_world = setting.local_from_world};
+  const SolidInput input{
+      .scene = &scene, .views = view_of_cut, .local_from_world = setting.local_from_world};
   const CellEvidence evidence = GatherEvidence(partition, setting.box, input);
   const auto inside = LabelCells(partition, evidence, Partition::kBoxPlanes);
   for (const BoundaryFacet& boundary : BoundaryOf(partition, inside)) {

@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
 #include "proxy/plane_view.h"
-#include "proxy/samples.h"
-#include "proxy/scale.h"
-#include "proxy/stations.h"
+#include "proxy/scene.h"
 #include "survey/proxy.h"
 
 namespace stucco {
@@ -17,15 +14,6 @@ namespace stucco {
 struct SolidOptions {
   int max_planes = 60;
   double least_support = 0.65;  // share of walls and roofs with points
-};
-
-struct SolidScene {
-  const Samples& samples;
-  const Stations& stations;
-  const Tolerances& tolerances;
-  const std::vector<int>& witnesses;
-  Eigen::Vector3d up;
-  Eigen::Vector3d main_direction;
 };
 
 struct Solid {
@@ -39,7 +27,7 @@ struct Solid {
 // labelled inside or outside, the boundary is merged to facets. Refused when points cover too
 // little of it, when it misses too many points, or when it is not a sound boundary
 // (closed_check.h). `ground` may be null: the lowest points close the bottom then.
-Solid CloseBuilding(const SolidScene& scene, const std::vector<const PlaneView*>& views,
+Solid CloseBuilding(const PlanarScene& scene, const std::vector<const PlaneView*>& views,
                     const Plane* ground, const SolidOptions& options);
 
 }  // namespace stucco

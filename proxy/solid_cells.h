@@ -9,9 +9,7 @@
 
 #include "proxy/partition.h"
 #include "proxy/plane_view.h"
-#include "proxy/samples.h"
-#include "proxy/scale.h"
-#include "proxy/stations.h"
+#include "proxy/scene.h"
 
 namespace stucco {
 
@@ -24,11 +22,8 @@ struct CellEvidence {
 };
 
 struct SolidInput {
-  const Samples* samples = nullptr;
-  const Stations* stations = nullptr;
+  const PlanarScene* scene = nullptr;
   std::vector<const PlaneView*> views;  // of the cutting planes, in order; null: without points
-  const std::vector<int>* witnesses = nullptr;
-  Tolerances tolerances;
   Eigen::Isometry3d local_from_world = Eigen::Isometry3d::Identity();
 };
 

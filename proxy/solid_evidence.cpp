@@ -37,16 +37,18 @@ bool Clip(const Eigen::AlignedBox3d& box, Eigen::Vector3d& a, Eigen::Vector3d& b
 // Free space along the rays to points on any plane.
 void CastRays(const Partition& partition, const Eigen::AlignedBox3d& box, const SolidInput& input,
               CellEvidence& evidence) {
-  const size_t stride = std::max<size_t>(1, input.witnesses->size() / kMostRays);
-  const double spacing = input.tolerances.spacing;
+  const Samples& samples = input.scene->samples;
+  const std::vector<int>& support = input.scene->support;
+  const size_t stride = std::max<size_t>(1, support.size() / kMostRays);
+  const double spacing = input.scene->tolerances.spacing;
   const double weight = static_cast<double>(stride) * spacing * spacing;
-  const double detail = input.tolerances.level_of_detail;
-  for (size_t k = 0; k < input.witnesses->size(); k += stride) {
-    const int i = (*input.witnesses)[k];
-    if (input.samples->stations[i] < 0) continue;
-    Eigen::Vector3d eye =
-        input.local_from_world * input.stations->all[input.samples->stations[i]].center;
-    Eigen::Vector3d end = input.local_from_world * input.samples->positions[i];
+  const double detail = input.scene->tolerances.level_of_detail;
+  for (size_t k = 0; k < support.size(); k += stride) {
+    const int i = support[k];
+    const Eigen::Vector3d* seen_from = samples.EyeOf(i);
+    if (seen_from == nullptr) continue;
+    Eigen::Vector3d eye = input.local_from_world * *seen_from;
+    Eigen::Vector3d end = input.local_from_world * samples.positions[i];
     const Eigen::Vector3d ray = end - eye;
     if (ray.norm() < 2 * detail) continue;
     end -= detail * ray.normalized();
@@ -67,9 +69,10 @@ void VoteBehindPoints(const Partition& partition, const Eigen::AlignedBox3d& box
         plane.area / std::max<double>(1, double(plane.points.size())) * double(stride);
     const Eigen::Vector3d normal = input.local_from_world.linear() * plane.normal;
     for (size_t k = 0; k < plane.points.size(); k += stride) {
-      const Eigen::Vector3d p = input.local_from_world * input.samples->positions[plane.points[k]];
+      const Eigen::Vector3d p =
+          input.local_from_world * input.scene->samples.positions[plane.points[k]];
       for (const double depth : {1.0, 3.0}) {
-        const Eigen::Vector3d step = depth * input.tolerances.level_of_detail * normal;
+        const Eigen::Vector3d step = depth * input.scene->tolerances.level_of_detail * normal;
         if (box.contains(p - step)) evidence.inside[partition.CellAt(p - step)] += weight / 2;
         if (box.contains(p + step)) evidence.outside[partition.CellAt(p + step)] += weight / 2;
       }
@@ -91,7 +94,7 @@ void CoverFaces(const Partition& partition, const Eigen::AlignedBox3d& box, cons
     const int plane = Partition::kBoxPlanes + static_cast<int>(v);
     if (plane >= static_cast<int>(partition.planes.size())) break;
     const Eigen::Vector3d normal = input.local_from_world.linear() * view.plane->normal;
-    const double step = 1e-3 * input.tolerances.level_of_detail;
+    const double step = 1e-3 * input.scene->tolerances.level_of_detail;
     const double area = view.raster.cell * view.raster.cell;
     for (int y = 0; y < view.raster.height; ++y) {
       for (int x = 0; x < view.raster.width; ++x) {

@@ -12,15 +12,29 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
+// How a camera is held: unit vectors in the world.
+struct Attitude {
+  Eigen::Vector3d right;      // x of the camera
+  Eigen::Vector3d upwards;    // -y of the camera
+  Eigen::Vector3d backwards;  // -z of the camera
+};
+
+Attitude AttitudeOf(const SurveyPhoto& photo) {
+  const Eigen::Matrix3d world_from_cam =
+      photo.cam_from_world.rotation.conjugate().toRotationMatrix();
+  return {world_from_cam.col(0), -world_from_cam.col(1), -world_from_cam.col(2)};
+}
+
 // Plausible pitches: the picture's top points up, and on the whole nobody photographs the sky.
-bool IsPlausible(const Stations& stations, const Eigen::Vector3d& up) {
+bool IsPlausible(std::span<const SurveyPhoto> photos, const Eigen::Vector3d& up) {
   double top = 0, back = 0;
-  for (const Station& station : stations.all) {
-    top += station.upwards.dot(up);
-    back += station.backwards.dot(up);
+  for (const SurveyPhoto& photo : photos) {
+    const Attitude attitude = AttitudeOf(photo);
+    top += attitude.upwards.dot(up);
+    back += attitude.backwards.dot(up);
   }
-  const auto count = static_cast<double>(stations.all.size());
-  return stations.all.empty() ||
+  const auto count = static_cast<double>(photos.size());
+  return photos.empty() ||
          (top > -0.15 * count && top + back > 0.2 * count && back > -0.75 * count);
 }
 
@@ -40,18 +54,19 @@ double Explained(const std::vector<Plane>& planes, const Eigen::Vector3d& up) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> UpFromStations(const Stations& stations) {
+std::vector<Eigen::Vector3d> UpFromPhotos(std::span<const SurveyPhoto> photos) {
   std::vector<Eigen::Vector3d> guesses;
-  if (stations.all.empty()) return guesses;
+  if (photos.empty()) return guesses;
   Eigen::Matrix3d level = Eigen::Matrix3d::Zero();
   Eigen::Vector3d top = Eigen::Vector3d::Zero();
   Eigen::Vector3d back = Eigen::Vector3d::Zero();
-  for (const Station& station : stations.all) {
-    level += station.right * station.right.transpose();
-    top += station.upwards;
-    back += station.backwards;
+  for (const SurveyPhoto& photo : photos) {
+    const Attitude attitude = AttitudeOf(photo);
+    level += attitude.right * attitude.right.transpose();
+    top += attitude.upwards;
+    back += attitude.backwards;
   }
-  const auto count = static_cast<double>(stations.all.size());
+  const auto count = static_cast<double>(photos.size());
   // Photos all taken towards one side leave the pitch open: the picture's top decides then.
   constexpr double kPull = 0.02;
   const Eigen::Matrix3d system = level / count + kPull * (Eigen::Matrix3d::Identity() -
@@ -110,7 +125,7 @@ Eigen::Vector3d RefineUp(const std::vector<Plane>& planes, const Eigen::Vector3d
   return up;
 }
 
-UpEstimate EstimateUp(const std::vector<Plane>& planes, const Stations& stations) {
+UpEstimate EstimateUp(const std::vector<Plane>& planes, std::span<const SurveyPhoto> photos) {
   constexpr size_t kLargePlanes = 6;
   constexpr double kTolerance_deg = 20;
   constexpr double kPreferPhotos = 0.05;  // planes must explain this much more than the photos' up
@@ -119,7 +134,7 @@ UpEstimate EstimateUp(const std::vector<Plane>& planes, const Stations& stations
     bool from_photos;
   };
   std::vector<Candidate> candidates;
-  for (const auto& up : UpFromStations(stations)) candidates.push_back({up, true});
+  for (const auto& up : UpFromPhotos(photos)) candidates.push_back({up, true});
   std::vector<const Plane*> largest;
   for (const Plane& plane : planes) largest.push_back(&plane);
   std::stable_sort(largest.begin(), largest.end(),
@@ -132,7 +147,7 @@ UpEstimate EstimateUp(const std::vector<Plane>& planes, const Stations& stations
   for (size_t c = 0; c < candidates.size(); ++c) {
     const auto& [guess, from_photos] = candidates[c];
     const Eigen::Vector3d up = RefineUp(planes, guess, kTolerance_deg);
-    if (!IsPlausible(stations, up)) continue;
+    if (!IsPlausible(photos, up)) continue;
     const double explained = Explained(planes, up);
     // Walls can be taken for floors: the first guess, from level cameras, breaks such ties.
     const double score = explained + (from_photos ? kPreferPhotos : 0) + (c == 0 ? 0.1 : 0);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "proxy/plane.h"
-#include "proxy/stations.h"
+#include "survey/survey_photo.h"
 
 namespace stucco {
 
@@ -21,13 +21,13 @@ struct UpEstimate {
 // Up from how the cameras were held: photos are taken without roll, so their x axes lie level
 // (Szeliski, "Image alignment and stitching", 2006, section 4), the tops of their pictures point up
 // rather than down, and cameras do not look into the sky on average. Nothing without photos.
-std::vector<Eigen::Vector3d> UpFromStations(const Stations& stations);
+std::vector<Eigen::Vector3d> UpFromPhotos(std::span<const SurveyPhoto> photos);
 
 // The best of the cameras' up and the directions of large planes by the area it explains, refined
 // so that walls become vertical: the least squares of the wall normals' components along it, with
 // weights that let go of planes that are none. Requires planes with measured areas; with none of
 // them and no photos the result is z.
-UpEstimate EstimateUp(const std::vector<Plane>& planes, const Stations& stations);
+UpEstimate EstimateUp(const std::vector<Plane>& planes, std::span<const SurveyPhoto> photos);
 
 // Refines a direction that is known to some degrees, by walls (and flat planes) within
 // `tolerance_deg` of it.

@@ -20,7 +20,7 @@ std::string Number(bool known, double value) {
   return known && std::isfinite(value) ? fmt::format("{}", value) : "";
 }
 
-std::string Findings(const FacadeRow& row) {
+std::string Findings(const FacetRow& row) {
   std::string text;
   for (const Finding& finding : row.findings) text += (text.empty() ? "" : "; ") + finding.text;
   return text;
@@ -28,11 +28,11 @@ std::string Findings(const FacadeRow& row) {
 
 }  // namespace
 
-std::string FacadesCsv(const SurveyData& data, const std::vector<FacadeRow>& rows) {
+std::string FacadesCsv(const SurveyData& data, const std::vector<FacetRow>& rows) {
   static const Facet kNoFacet;
   static const TexturedFacet kNoTexture;
   std::string csv = std::string(kHeader) + "\r\n";
-  for (const FacadeRow& row : rows) {
+  for (const FacetRow& row : rows) {
     const bool has_facet = row.facet != nullptr;
     const bool has_texture = row.texture != nullptr;
     const bool painted = row.IsPainted();
@@ -43,7 +43,7 @@ std::string FacadesCsv(const SurveyData& data, const std::vector<FacadeRow>& row
     const std::string fields[] = {
         row.id,
         row.building,
-        has_facet ? facet.facade : row.id,
+        has_facet ? FacadeName(facet) : row.id,
         CityGmlName(row.facet_class),
         row.verdict == Verdict::kUnknown ? "" : Name(row.verdict),
         Findings(row),

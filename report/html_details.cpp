@@ -13,7 +13,7 @@
 namespace stucco::internal {
 namespace {
 
-std::string Picture(const FacadePictures& pictures, const std::string& id) {
+std::string Picture(const FacetPictures& pictures, const std::string& id) {
   if (pictures.texture.uri.empty()) {
     return fmt::format("<p class=\"no-texture\">{}</p>", pictures.problem.empty()
                                                              ? "No photo paints this facade."
@@ -59,7 +59,7 @@ std::string QualityBar(const char* name, const char* help, double value,
       number);
 }
 
-std::string Qualities(const FacadeRow& row) {
+std::string Qualities(const FacetRow& row) {
   const TexturedFacet& achieved = *row.texture;
   const auto planned = [&](double FacadeQuality::*term) {
     return row.planned ? std::optional(row.planned->predicted.*term) : std::nullopt;
@@ -75,7 +75,7 @@ std::string Qualities(const FacadeRow& row) {
                     planned(&FacadeQuality::q_c));
 }
 
-std::string Measures(const PageContent& page, const FacadeRow& row) {
+std::string Measures(const PageContent& page, const FacetRow& row) {
   const bool metric = page.data.metric;
   std::string html = "<dl class=\"measures\">";
   if (row.IsPainted()) {
@@ -101,7 +101,7 @@ std::string Measures(const PageContent& page, const FacadeRow& row) {
   return html + "</dl>";
 }
 
-std::string PhotoList(const FacadeRow& row, const FacadePictures& pictures) {
+std::string PhotoList(const FacetRow& row, const FacetPictures& pictures) {
   if (row.texture == nullptr || row.texture->photos.empty()) return "";
   std::string html = "<h4>Photos used</h4><ul class=\"photo-list\">";
   for (size_t i = 0; i < row.texture->photos.size(); ++i) {
@@ -128,7 +128,7 @@ std::string PhotoList(const FacadeRow& row, const FacadePictures& pictures) {
   return html + "</ul>";
 }
 
-std::string Links(const FacadeRow& row) {
+std::string Links(const FacetRow& row) {
   if (!row.IsPainted()) return "";
   std::string html = fmt::format("<p class=\"links\"><a href=\"../texture/{}\">Full picture</a>",
                                  UrlPath(row.texture->image));
@@ -139,7 +139,7 @@ std::string Links(const FacadeRow& row) {
   return html + "</p>";
 }
 
-std::string Findings(const FacadeRow& row) {
+std::string Findings(const FacetRow& row) {
   if (row.findings.empty()) return "";
   std::string html = "<ul class=\"findings\">";
   for (const Finding& finding : row.findings) {
@@ -150,8 +150,8 @@ std::string Findings(const FacadeRow& row) {
 }
 
 std::string Dialog(const PageContent& page, size_t index) {
-  const FacadeRow& row = page.rows[index];
-  const FacadePictures& pictures = page.pictures[index];
+  const FacetRow& row = page.rows[index];
+  const FacetPictures& pictures = page.pictures[index];
   return fmt::format(
       "<dialog id=\"facade-{0}\" class=\"facade\" aria-labelledby=\"facade-{0}-name\">"
       "<header><h3 id=\"facade-{0}-name\">{1}</h3>{2}<span class=\"quiet\">{3}{10}</span>"

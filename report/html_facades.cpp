@@ -29,7 +29,7 @@ std::string NumberCell(const char* label, bool known, double value, const std::s
                      known ? EscapeHtml(text) : "<span class=\"quiet\">-</span>");
 }
 
-std::string VerdictCell(const FacadeRow& row, size_t rank) {
+std::string VerdictCell(const FacetRow& row, size_t rank) {
   std::string html =
       fmt::format("<td class=\"verdict-cell\" data-label=\"Verdict\" data-sort=\"{}\">{}", rank,
                   VerdictBadge(row.verdict));
@@ -40,13 +40,13 @@ std::string VerdictCell(const FacadeRow& row, size_t rank) {
 }
 
 // "Wall", and which part of the facade it is where the name is the plan's.
-std::string Kind(const FacadeRow& row) {
+std::string Kind(const FacetRow& row) {
   if (row.planned == nullptr) return ClassLabel(row.facet_class);
   return fmt::format("{} {}", ClassLabel(row.facet_class), IsolatedHtml(row.id));
 }
 
 std::string TableRow(const PageContent& page, size_t index, size_t rank) {
-  const FacadeRow& row = page.rows[index];
+  const FacetRow& row = page.rows[index];
   const bool has_facet = row.facet != nullptr;
   const bool painted = row.IsPainted();
   const TexturedFacet nothing;
@@ -102,7 +102,7 @@ std::string Head() {
 
 std::string ClassFilter(const PageContent& page) {
   std::set<FacetClass> classes;
-  for (const FacadeRow& row : page.rows) classes.insert(row.facet_class);
+  for (const FacetRow& row : page.rows) classes.insert(row.facet_class);
   if (classes.size() < 2) return "";
   // The headline counts walls, so the table begins with them.
   const bool has_walls = classes.count(FacetClass::kWall) > 0;

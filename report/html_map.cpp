@@ -31,7 +31,7 @@ class GroundPlan {
     ahead_ = up.cross(right_);
     const Points2 outline = FacetPoints(*data.proxy);
     if (!knows_north) TurnLongerSideAcross(outline);
-    Frame(FacetPoints(*data.proxy), data.camera_centers);
+    Frame(FacetPoints(*data.proxy), data.photos);
   }
 
   bool IsDrawable() const { return std::isfinite(scale_) && scale_ > 0; }
@@ -78,7 +78,7 @@ class GroundPlan {
   }
 
   // The facets, and the cameras that are not far away from them.
-  void Frame(const Points2& points, const std::vector<Eigen::Vector3d>& cameras) {
+  void Frame(const Points2& points, const std::vector<SurveyPhoto>& photos) {
     if (points.empty()) return;
     Eigen::Vector2d low = points.front();
     Eigen::Vector2d high = points.front();
@@ -89,8 +89,8 @@ class GroundPlan {
     const double reach = 1.5 * (high - low).maxCoeff();
     const Eigen::Vector2d facets_low = low;
     const Eigen::Vector2d facets_high = high;
-    for (const Eigen::Vector3d& camera : cameras) {
-      const Eigen::Vector2d at = Flat(camera);
+    for (const SurveyPhoto& photo : photos) {
+      const Eigen::Vector2d at = Flat(photo.cam_from_world.Center());
       const bool near = (at.array() > facets_low.array() - reach).all() &&
                         (at.array() < facets_high.array() + reach).all();
       if (!near) continue;
@@ -134,7 +134,7 @@ std::pair<Eigen::Vector2d, Eigen::Vector2d> WallLine(const Facet& facet, const G
 }
 
 std::string WallElement(const PageContent& page, size_t index, const GroundPlan& plan) {
-  const FacadeRow& row = page.rows[index];
+  const FacetRow& row = page.rows[index];
   const auto [a, b] = WallLine(*row.facet, plan, page.data.proxy->up);
   return fmt::format(
       "<g class=\"wall {}\" data-open=\"{}\"><title>{}: {}</title>"
@@ -177,8 +177,8 @@ std::string SiteMap(const PageContent& page) {
     }
   }
   std::string cameras;
-  for (const Eigen::Vector3d& center : page.data.camera_centers) {
-    const Eigen::Vector2d at = plan(center);
+  for (const SurveyPhoto& photo : page.data.photos) {
+    const Eigen::Vector2d at = plan(photo.cam_from_world.Center());
     if (at.x() < 0 || at.x() > kWidth || at.y() < 0 || at.y() > plan.height()) continue;
     cameras += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\"/>", at.x(), at.y());
   }

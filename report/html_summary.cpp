@@ -105,7 +105,7 @@ std::string WorstList(const PageContent& page) {
   std::string items;
   size_t listed = 0;
   for (const size_t i : WorstFirst(page.rows)) {
-    const FacadeRow& row = page.rows[i];
+    const FacetRow& row = page.rows[i];
     const bool listable = row.facet_class == FacetClass::kWall && !row.findings.empty();
     if (!listable || listed == kMost) continue;
     ++listed;
@@ -144,8 +144,8 @@ std::string Figure(std::string_view name, std::string_view value, std::string_vi
   return html + "</dd></div>";
 }
 
-std::vector<size_t> WorstFirst(const std::vector<FacadeRow>& rows) {
-  const auto badness = [](const FacadeRow& row) {
+std::vector<size_t> WorstFirst(const std::vector<FacetRow>& rows) {
+  const auto badness = [](const FacetRow& row) {
     switch (row.verdict) {
       case Verdict::kRed:
         return 3;
@@ -158,7 +158,7 @@ std::vector<size_t> WorstFirst(const std::vector<FacadeRow>& rows) {
     }
     return 0;
   };
-  const auto area = [](const FacadeRow& row) { return row.facet != nullptr ? row.facet->area : 0; };
+  const auto area = [](const FacetRow& row) { return row.facet != nullptr ? row.facet->area : 0; };
   std::vector<size_t> order(rows.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {

@@ -143,11 +143,11 @@ int PictureSide_px(int wanted_px, size_t count) {
   return std::min(wanted_px, std::max(240, static_cast<int>(shrunk)));
 }
 
-int PictureThreads(const std::vector<FacadeRow>& rows, int threads, uint64_t memory_limit_bytes) {
+int PictureThreads(const std::vector<FacetRow>& rows, int threads, uint64_t memory_limit_bytes) {
   // The picture as read and with its channels turned round, and the label map.
   constexpr uint64_t kBytesPerTexel = 3 + 3 + 1;
   uint64_t largest = 1;
-  for (const FacadeRow& row : rows) {
+  for (const FacetRow& row : rows) {
     if (!row.IsPainted()) continue;
     largest = std::max(largest, kBytesPerTexel * static_cast<uint64_t>(row.texture->width_px) *
                                     static_cast<uint64_t>(row.texture->height_px));
@@ -156,9 +156,9 @@ int PictureThreads(const std::vector<FacadeRow>& rows, int threads, uint64_t mem
   return static_cast<int>(std::min<uint64_t>(fit, static_cast<uint64_t>(std::max(1, threads))));
 }
 
-FacadePictures MakeFacadePictures(const FacadeRow& row, const std::filesystem::path& texture_folder,
-                                  int picture_px) {
-  FacadePictures pictures;
+FacetPictures MakeFacetPictures(const FacetRow& row, const std::filesystem::path& texture_folder,
+                                int picture_px) {
+  FacetPictures pictures;
   if (row.texture == nullptr) return pictures;
   auto labels = Load(texture_folder, row.texture->label_image, pictures.problem);
   if (labels && !IsLabelMap(*labels)) labels.reset();

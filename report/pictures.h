@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "report/facade_rows.h"
+#include "report/facet_rows.h"
 
 namespace stucco {
 
@@ -20,7 +20,7 @@ struct EmbeddedPicture {
 };
 
 // What the page shows of one facade.
-struct FacadePictures {
+struct FacetPictures {
   EmbeddedPicture thumbnail;
   EmbeddedPicture texture;
   EmbeddedPicture labels;            // a colour per photo, see LabelColor
@@ -34,12 +34,12 @@ inline constexpr char kInpaintedColor[] = "#b9b9b9";
 
 // Reads the picture and the label map below `texture_folder`. What is missing or damaged leaves its
 // picture empty and names the problem; never throws for what the files hold.
-FacadePictures MakeFacadePictures(const FacadeRow& row, const std::filesystem::path& texture_folder,
-                                  int picture_px);
+FacetPictures MakeFacetPictures(const FacetRow& row, const std::filesystem::path& texture_folder,
+                                int picture_px);
 
 // How many of `threads` may make pictures at once within the memory limit: textures are read in
 // full size, whose bytes follow from textures.json.
-int PictureThreads(const std::vector<FacadeRow>& rows, int threads, uint64_t memory_limit_bytes);
+int PictureThreads(const std::vector<FacetRow>& rows, int threads, uint64_t memory_limit_bytes);
 
 // Longer side of the pictures so that the page of `count` facades stays of a size that browsers
 // open at once: `wanted_px`, or less when there are many.

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "report/facade_rows.h"
+#include "report/facet_rows.h"
 #include "report/pictures.h"
 #include "report/report_html.h"
 #include "report/report_json.h"
@@ -18,16 +18,15 @@
 namespace stucco {
 namespace {
 
-std::vector<FacadePictures> MakePictures(const std::vector<FacadeRow>& rows,
-                                         const ReportOptions& options,
-                                         const StageContext& context) {
+std::vector<FacetPictures> MakePictures(const std::vector<FacetRow>& rows,
+                                        const ReportOptions& options, const StageContext& context) {
   const int side_px = PictureSide_px(options.picture_px, rows.size());
-  std::vector<FacadePictures> pictures(rows.size());
+  std::vector<FacetPictures> pictures(rows.size());
   context.progress->Begin("facade pictures", rows.size());
   const int threads = PictureThreads(rows, context.threads, context.memory_limit_bytes);
   ParallelFor(rows.size(), threads, [&](size_t i) {
     context.ThrowIfCancelled();
-    pictures[i] = MakeFacadePictures(rows[i], context.survey / "texture", side_px);
+    pictures[i] = MakeFacetPictures(rows[i], context.survey / "texture", side_px);
     context.progress->Advance();
   });
   return pictures;
@@ -35,42 +34,12 @@ std::vector<FacadePictures> MakePictures(const std::vector<FacadeRow>& rows,
 
 }  // namespace
 
-void Describe(OptionTable& table, ReportOptions& options) {
-  table.Add("coverage_amber_below", options.coverage_amber_below, 0, 1,
-            "A facade is amber when a smaller share of its area is painted from photos.");
-  table.Add("coverage_red_below", options.coverage_red_below, 0, 1,
-            "A facade is red when a smaller share of its area is painted from photos.");
-  table.Add("gsd_amber_above", options.gsd_amber_above, 1, 1000,
-            "A facade is amber when a photo pixel on it is larger than this many times the "
-            "survey's median.");
-  table.Add("gsd_red_above", options.gsd_red_above, 1, 1000,
-            "A facade is red when a photo pixel on it is larger than this many times the "
-            "survey's median.");
-  table.Add("inpainted_amber_above", options.inpainted_amber_above, 0, 1,
-            "A facade is amber when a larger share of its area was filled in without a photo.");
-  table.Add("inpainted_red_above", options.inpainted_red_above, 0, 1,
-            "A facade is red when a larger share of its area was filled in without a photo.");
-  table.Add("inferred_amber_above", options.inferred_amber_above, 0, 1,
-            "A facade is amber when a larger share of its area has no measured points.");
-  table.Add("inferred_red_above", options.inferred_red_above, 0, 1,
-            "A facade is red when a larger share of its area has no measured points.");
-  table.Add("misregistration_amber_above", options.misregistration_amber_above, 0, 1000,
-            "A facade is amber when overlapping photos disagree by more texels (median).");
-  table.Add("misregistration_red_above", options.misregistration_red_above, 0, 1000,
-            "A facade is red when overlapping photos disagree by more texels (median).");
-  table.Add("picture_px", options.picture_px, 100, 4000,
-            "Longer side in pixels of the facade pictures in the page.");
-  table.Add("record_times", options.record_times,
-            "Write times and memory of the stages into the report; its bytes then differ between "
-            "runs.");
-}
-
 void RunReport(const ReportOptions& options, StageContext& context) {
   SurveyData data = LoadSurvey(context.survey, context.statuses);
   data.plan = PlanOfSurvey(context);
-  const std::vector<FacadeRow> rows = MakeFacadeRows(data, options);
-  const std::vector<FacadePictures> pictures = MakePictures(rows, options, context);
-  for (const FacadePictures& picture : pictures) {
+  const std::vector<FacetRow> rows = MakeFacetRows(data, options);
+  const std::vector<FacetPictures> pictures = MakePictures(rows, options, context);
+  for (const FacetPictures& picture : pictures) {
     if (!picture.problem.empty()) context.progress->Warn(picture.problem);
   }
   WriteFile(context.out / "report.json", ReportJson(data, rows, options));

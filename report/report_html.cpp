@@ -19,8 +19,8 @@ constexpr char kHead[] =
 
 }  // namespace
 
-std::string ReportHtml(const SurveyData& data, const std::vector<FacadeRow>& rows,
-                       const std::vector<FacadePictures>& pictures, const ReportOptions& options) {
+std::string ReportHtml(const SurveyData& data, const std::vector<FacetRow>& rows,
+                       const std::vector<FacetPictures>& pictures, const ReportOptions& options) {
   const internal::PageContent page{data, rows, pictures, options};
   std::string html = kHead;
   html += internal::PageStyle();

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "report/facade_rows.h"
+#include "report/facet_rows.h"
 #include "report/pictures.h"
 #include "report/survey_data.h"
 
@@ -13,7 +13,7 @@ namespace stucco {
 
 // report.html: one page without a reference to anything outside it except links to the other files
 // of the survey. `pictures` belong to the rows by index.
-std::string ReportHtml(const SurveyData& data, const std::vector<FacadeRow>& rows,
-                       const std::vector<FacadePictures>& pictures, const ReportOptions& options);
+std::string ReportHtml(const SurveyData& data, const std::vector<FacetRow>& rows,
+                       const std::vector<FacetPictures>& pictures, const ReportOptions& options);
 
 }  // namespace stucco

@@ -36,7 +36,7 @@ Json CountsJson(const VerdictCounts& counts) {
           {"unknown", counts.unknown}};
 }
 
-Json FindingsJson(const FacadeRow& row) {
+Json FindingsJson(const FacetRow& row) {
   Json findings = Json::array();
   for (const Finding& finding : row.findings) {
     findings.push_back({{"verdict", Name(finding.verdict)}, {"text", finding.text}});
@@ -55,13 +55,13 @@ Json QualityJson(const Terms& terms) {
   return {{"q_s", terms.q_s}, {"q_d", terms.q_d}, {"q_u", terms.q_u}, {"q_c", terms.q_c}};
 }
 
-Json FacadeJson(const FacadeRow& row) {
+Json FacadeJson(const FacetRow& row) {
   const Facet* facet = row.facet;
   const TexturedFacet* texture = row.texture;
   const bool painted = row.IsPainted();
   Json json = {{"id", CleanUtf8(row.id)},
                {"building", CleanUtf8(row.building)},
-               {"facade", CleanUtf8(facet != nullptr ? facet->facade : row.id)},
+               {"facade", CleanUtf8(facet != nullptr ? FacadeName(*facet) : row.id)},
                {"class", CityGmlName(row.facet_class)},
                {"verdict", VerdictJson(row.verdict)},
                {"findings", FindingsJson(row)},
@@ -116,7 +116,7 @@ Json PhotosJson(const SurveyData& data) {
   return json;
 }
 
-Json PlanJson(const SurveyData& data, const std::vector<FacadeRow>& rows) {
+Json PlanJson(const SurveyData& data, const std::vector<FacetRow>& rows) {
   if (!data.plan) return nullptr;
   return {{"method", CleanUtf8(data.plan->method)},
           {"facades", data.plan->facades.size()},
@@ -194,10 +194,10 @@ Json LimitsJson(const ReportOptions& options) {
 
 }  // namespace
 
-std::string ReportJson(const SurveyData& data, const std::vector<FacadeRow>& rows,
+std::string ReportJson(const SurveyData& data, const std::vector<FacetRow>& rows,
                        const ReportOptions& options) {
   Json facades = Json::array();
-  for (const FacadeRow& row : rows) facades.push_back(FacadeJson(row));
+  for (const FacetRow& row : rows) facades.push_back(FacadeJson(row));
   const auto median = MedianGsd(data);
   const Json report = {{"version", 1},
                        {"unit", Unit(data)},

@@ -36,15 +36,12 @@ std::optional<Value> Load(const fs::path& survey, const char* stage, const char*
   }
 }
 
-std::vector<Eigen::Vector3d> LoadCameraCenters(const fs::path& survey,
-                                               std::vector<DamagedFile>& damaged) {
+std::vector<SurveyPhoto> LoadPhotos(const fs::path& survey, const Captures& captures,
+                                    std::vector<DamagedFile>& damaged) {
   const auto model = Load<Reconstruction>(
       survey, "calib", kSparseFolder, [](const fs::path& path) { return ReadColmapModel(path); },
       damaged);
-  std::vector<Eigen::Vector3d> centers;
-  if (!model) return centers;
-  for (const auto& [id, photo] : model->photos) centers.push_back(photo.cam_from_world.Center());
-  return centers;
+  return model ? JoinPhotos(*model, captures) : std::vector<SurveyPhoto>();
 }
 
 bool IsMetric(const SurveyData& data) {
@@ -83,7 +80,7 @@ SurveyData LoadSurvey(const fs::path& survey, const std::vector<StageStatus>& st
   data.calibration =
       Load<Calibration>(survey, "calib", kCalibrationFile, ReadCalibration, data.damaged);
   data.georef = Load<Georef>(survey, "calib", kGeorefFile, ReadGeoref, data.damaged);
-  data.camera_centers = LoadCameraCenters(survey, data.damaged);
+  data.photos = LoadPhotos(survey, data.captures.value_or(Captures()), data.damaged);
   data.proxy = Load<Proxy>(survey, "proxy", kFacetsFile, ReadProxy, data.damaged);
   data.textures = Load<TextureSet>(survey, "texture", kTexturesFile, ReadTextureSet, data.damaged);
   data.metric = IsMetric(data);

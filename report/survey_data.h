@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,6 +13,7 @@
 #include "survey/plan.h"
 #include "survey/proxy.h"
 #include "survey/stage.h"
+#include "survey/survey_photo.h"
 #include "survey/texture_set.h"
 
 namespace stucco {
@@ -33,7 +33,7 @@ struct SurveyData {
   std::optional<Georef> georef;
   std::optional<Proxy> proxy;
   std::optional<TextureSet> textures;
-  std::vector<Eigen::Vector3d> camera_centers;  // of the posed photos, world
+  std::vector<SurveyPhoto> photos;  // whose poses are known
   std::vector<DamagedFile> damaged;
   std::vector<StageStatus> statuses;  // of the stages before the report, in their order
   bool metric = false;                // lengths are metres

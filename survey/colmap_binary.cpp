@@ -100,7 +100,7 @@ void ReadPhotos(const std::filesystem::path& path, Reconstruction& reconstructio
   ByteReader bytes(path);
   const size_t count = bytes.NextCount(kPhotoBytes);
   for (size_t i = 0; i < count; ++i) {
-    PosedPhoto photo;
+    RegisteredImage photo;
     photo.id.value = bytes.Next<uint32_t>();
     const auto w = bytes.Next<double>();
     const auto x = bytes.Next<double>();

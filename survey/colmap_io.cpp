@@ -37,7 +37,7 @@ void AddCamera(Camera camera, const std::string& where, Reconstruction& reconstr
   }
 }
 
-void AddPhoto(PosedPhoto photo, const std::string& where, Reconstruction& reconstruction) {
+void AddPhoto(RegisteredImage photo, const std::string& where, Reconstruction& reconstruction) {
   if (photo.name.empty()) FailColmap(where, fmt::format("image {} has no name", photo.id.value));
   const PhotoId id = photo.id;
   if (!id.IsValid() || !reconstruction.photos.emplace(id, std::move(photo)).second) {

@@ -83,7 +83,7 @@ void ReadCameras(const std::filesystem::path& path, Reconstruction& reconstructi
   }
 }
 
-void ReadObservations(LineReader& lines, PosedPhoto& photo) {
+void ReadObservations(LineReader& lines, RegisteredImage& photo) {
   while (!lines.AtLineEnd()) {
     Observation observation;
     observation.pixel.x() = lines.Next<double>("x");
@@ -101,7 +101,7 @@ void ReadObservations(LineReader& lines, PosedPhoto& photo) {
 void ReadPhotos(const std::filesystem::path& path, Reconstruction& reconstruction) {
   LineReader lines(path);
   while (lines.NextEntry()) {
-    PosedPhoto photo;
+    RegisteredImage photo;
     photo.id.value = lines.Next<uint32_t>("image id");
     const auto w = lines.Next<double>("qw");
     const auto x = lines.Next<double>("qx");

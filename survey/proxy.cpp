@@ -85,6 +85,10 @@ std::string CityGmlName(FacetClass facet_class) {
   throw std::logic_error("unknown facet class");
 }
 
+const std::string& FacadeName(const Facet& facet) {
+  return facet.planned_facades.empty() ? facet.id : facet.planned_facades.front();
+}
+
 std::optional<std::string> FindProblem(const Proxy& proxy) {
   if (!(std::abs(proxy.up.norm() - 1) <= kUnitTolerance)) return "up is not of unit length";
   std::set<std::string> building_ids;
@@ -107,11 +111,28 @@ std::optional<std::string> FindProblem(const Proxy& proxy) {
   return std::nullopt;
 }
 
+// The list of planned facades is two fields: `facade` is the first, or the facet's own id where
+// there is none.
+template <typename Archive, internal::Is<Facet> T>
+static void PlannedFacadeFields(Archive& archive, T& facet) {
+  std::string first = FacadeName(facet);
+  std::vector<std::string> others;
+  if (!facet.planned_facades.empty()) {
+    others.assign(facet.planned_facades.begin() + 1, facet.planned_facades.end());
+  }
+  archive.Required("facade", first);
+  archive.Optional("other_facades", others);
+  if constexpr (Archive::kReads) {
+    if (first == facet.id) return;
+    facet.planned_facades = {first};
+    facet.planned_facades.insert(facet.planned_facades.end(), others.begin(), others.end());
+  }
+}
+
 template <typename Archive, internal::Is<Facet> T>
 static void Fields(Archive& archive, T& facet) {
   archive.Required("id", facet.id);
-  archive.Required("facade", facet.facade);
-  archive.Optional("other_facades", facet.other_facades);
+  PlannedFacadeFields(archive, facet);
   std::string name = CityGmlName(facet.facet_class);
   archive.Required("class", name);
   if constexpr (Archive::kReads) {

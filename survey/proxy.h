@@ -17,9 +17,10 @@ std::string CityGmlName(FacetClass facet_class);  // "WallSurface", "RoofSurface
 // A planar polygon with holes. The outer ring is counter-clockwise seen from the side `normal`
 // points to, holes clockwise; vertices are in world coordinates and within 1e-6 of the plane.
 struct Facet {
-  std::string id;      // "B0001/W03", "B0001/R0", "G0"
-  std::string facade;  // the plan's id of the facade that it is a part of; without one, the id
-  std::vector<std::string> other_facades;  // of the plan, that it spans besides
+  std::string id;  // "C0001/W03", "C0001/R0", "G0"
+  // Ids of the plan's facades that it is a part of or spans, the one it has most of first; empty:
+  // none, or no plan.
+  std::vector<std::string> planned_facades;
   FacetClass facet_class = FacetClass::kWall;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit, outwards
   double offset = 0;                                  // normal . x = offset
@@ -33,8 +34,12 @@ struct Facet {
   std::string source;   // "planes", "footprint", "extruded"
 };
 
+// The facade that a facet is named after in files for people and programs: the first of the plan's,
+// else the facet itself.
+const std::string& FacadeName(const Facet& facet);
+
 struct Building {
-  std::string id;  // "B0001"
+  std::string id;  // "C0001": a cluster of the cloud; "B0001": a building of the map
   bool watertight = false;
   std::string source;  // "cloud", "map"
   std::vector<Facet> facets;

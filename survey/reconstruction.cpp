@@ -14,7 +14,7 @@ namespace {
 constexpr double kUnitTolerance = 1e-6;
 
 std::optional<std::string> FindPhotoProblem(const Reconstruction& reconstruction,
-                                            const PosedPhoto& photo) {
+                                            const RegisteredImage& photo) {
   if (!reconstruction.cameras.contains(photo.camera)) {
     return fmt::format("uses camera {}, which is missing", photo.camera.value);
   }
@@ -109,7 +109,7 @@ double MeanReprojectionError(const Reconstruction& reconstruction) {
   size_t count = 0;
   for (const auto& [id, point] : reconstruction.points) {
     for (const TrackElement& element : point.track) {
-      const PosedPhoto& photo = reconstruction.photos.at(element.photo);
+      const RegisteredImage& photo = reconstruction.photos.at(element.photo);
       const Camera& camera = reconstruction.cameras.at(photo.camera);
       const auto pixel = camera.Project(photo.cam_from_world * point.position);
       if (!pixel) continue;  // behind the camera there is no distance

@@ -21,8 +21,8 @@ struct Observation {
   PointId point;  // invalid: not triangulated
 };
 
-// A photo with a known pose.
-struct PosedPhoto {
+// A photo with a known pose: what COLMAP calls a registered image.
+struct RegisteredImage {
   PhotoId id;
   CameraId camera;
   std::string name;  // path relative to the photo folder, '/' between folders
@@ -32,7 +32,7 @@ struct PosedPhoto {
 
 struct TrackElement {
   PhotoId photo;
-  uint32_t observation = 0;  // index into PosedPhoto::observations
+  uint32_t observation = 0;  // index into RegisteredImage::observations
   auto operator<=>(const TrackElement&) const = default;
 };
 
@@ -47,7 +47,7 @@ struct TrackPoint {
 // Ordered maps, so that every walk over a reconstruction has the same order everywhere.
 struct Reconstruction {
   std::map<CameraId, Camera> cameras;
-  std::map<PhotoId, PosedPhoto> photos;
+  std::map<PhotoId, RegisteredImage> photos;
   std::map<PointId, TrackPoint> points;
 };
 

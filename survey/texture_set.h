@@ -15,10 +15,10 @@ namespace stucco {
 // v_axis.
 struct TexturedFacet {
   std::string id;
-  std::string image;  // relative to texture/: "textures/B0001_W03.png"; empty: nothing painted
+  std::string image;  // relative to texture/: "textures/C0001_W03.png"; empty: nothing painted
   std::string label_image;  // which photo painted a texel: 1-based index into `photos`, 255 =
                             // inpainted, 0 = outside
-  std::string orthophoto;   // "orthophotos/B0001_W03.png"; empty for none
+  std::string orthophoto;   // "orthophotos/C0001_W03.png"; empty for none
   int width_px = 0;
   int height_px = 0;
   double metres_per_texel = 0;         // in world units when the frame is not metric

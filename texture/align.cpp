@@ -49,12 +49,17 @@ double Peak(double left, double middle, double right) {
   return bend < 0 ? std::clamp(0.5 * (left - right) / bend, -0.5, 0.5) : 0.0;
 }
 
+// What one picture shows of the area that it has in common with another.
+struct Overlap {
+  cv::Mat grey;
+  cv::Mat valid;
+};
+
 // Where the window around `at` of one picture is in another, searched around `around`.
-std::optional<Eigen::Vector2d> FindWindow(const cv::Mat& from, const cv::Mat& to,
-                                          const cv::Mat& to_valid, const cv::Point& at,
-                                          const cv::Point& around, int reach) {
+std::optional<Eigen::Vector2d> FindWindow(const cv::Mat& from, const Overlap& to,
+                                          const cv::Point& at, const cv::Point& around, int reach) {
   const int size = 2 * kPatchRadius + 1;
-  const cv::Rect bounds(0, 0, to.cols, to.rows);
+  const cv::Rect bounds(0, 0, to.grey.cols, to.grey.rows);
   const cv::Rect window(at.x - kPatchRadius, at.y - kPatchRadius, size, size);
   const cv::Rect search(around.x - kPatchRadius - reach, around.y - kPatchRadius - reach,
                         size + 2 * reach, size + 2 * reach);
@@ -63,7 +68,7 @@ std::optional<Eigen::Vector2d> FindWindow(const cv::Mat& from, const cv::Mat& to
     return std::nullopt;
   }
   cv::Mat score;
-  cv::matchTemplate(to(clipped), from(window), score, cv::TM_CCOEFF_NORMED);
+  cv::matchTemplate(to.grey(clipped), from(window), score, cv::TM_CCOEFF_NORMED);
   double best = 0;
   cv::Point place;
   cv::minMaxLoc(score, nullptr, &best, nullptr, &place);
@@ -73,7 +78,7 @@ std::optional<Eigen::Vector2d> FindWindow(const cv::Mat& from, const cv::Mat& to
     return std::nullopt;
   }
   const cv::Rect found(clipped.x + place.x, clipped.y + place.y, size, size);
-  if (cv::countNonZero(to_valid(found)) < size * size) return std::nullopt;
+  if (cv::countNonZero(to.valid(found)) < size * size) return std::nullopt;
   const float* row = score.ptr<float>(place.y) + place.x;
   const double dx = Peak(row[-1], row[0], row[1]);
   const double dy =
@@ -267,17 +272,17 @@ std::vector<GridMatch> MatchPictures(std::span<const GreyPicture> pictures, int 
                                      int reach) {
   const cv::Rect common = AreaOf(pictures[a]) & AreaOf(pictures[b]);
   if (common.empty()) return {};
-  const cv::Mat grey_a = Part(pictures[a].grey, pictures[a], common);
-  const cv::Mat grey_b = Part(pictures[b].grey, pictures[b], common);
-  const cv::Mat valid_a = Part(pictures[a].valid, pictures[a], common);
-  const cv::Mat valid_b = Part(pictures[b].valid, pictures[b], common);
+  const Overlap in_a{Part(pictures[a].grey, pictures[a], common),
+                     Part(pictures[a].valid, pictures[a], common)};
+  const Overlap in_b{Part(pictures[b].grey, pictures[b], common),
+                     Part(pictures[b].valid, pictures[b], common)};
   std::vector<GridMatch> matches;
-  for (const cv::Point& spot : FindSpots(grey_a, valid_a & valid_b)) {
-    const auto there = FindWindow(grey_a, grey_b, valid_b, spot, spot, reach);
+  for (const cv::Point& spot : FindSpots(in_a.grey, in_a.valid & in_b.valid)) {
+    const auto there = FindWindow(in_a.grey, in_b, spot, spot, reach);
     if (!there) continue;
     const cv::Point near(static_cast<int>(std::lround(there->x())),
                          static_cast<int>(std::lround(there->y())));
-    const auto back = FindWindow(grey_b, grey_a, valid_a, near, spot, reach);
+    const auto back = FindWindow(in_b.grey, in_a, near, spot, reach);
     if (!back) continue;
     const Eigen::Vector2d from(spot.x, spot.y);
     const Eigen::Vector2d rounding = *there - Eigen::Vector2d(near.x, near.y);

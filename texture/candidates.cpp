@@ -19,7 +19,7 @@ constexpr double kUnusedShare = 0.005;
 constexpr double kLeastGain = 0.002;
 
 // Photo pixels per raster texel at a texel's centre, or nothing where the photo does not show it.
-std::optional<Eigen::Matrix2d> PixelsPerTexel(const TexturePhoto& photo, const TexelGrid& raster,
+std::optional<Eigen::Matrix2d> PixelsPerTexel(const SurveyPhoto& photo, const TexelGrid& raster,
                                               double x, double y) {
   const auto right = ProjectIntoPhoto(photo, raster.At(x + 0.25, y));
   const auto left = ProjectIntoPhoto(photo, raster.At(x - 0.25, y));
@@ -113,47 +113,46 @@ void Reach(const RasterView& view, const std::vector<float>& costs, std::vector<
 
 }  // namespace
 
-RasterView MeasureView(std::span<const TexturePhoto> photos, int photo_index, const Facet& facet,
-                       const TexelGrid& raster, std::span<const uint16_t> inside,
-                       const Obstacles& obstacles, const ViewLimits& limits) {
-  const TexturePhoto& photo = photos[photo_index];
-  RasterView out{photo_index, std::vector<TexelView>(raster.size())};
+RasterView MeasureView(const SightScene& scene, int photo_index, const Facet& facet,
+                       const FacetRaster& raster, const ViewLimits& limits) {
+  const SurveyPhoto& photo = scene.photos[photo_index];
+  const TexelGrid& grid = raster.grid;
+  RasterView out{photo_index, std::vector<TexelView>(grid.size())};
   const Eigen::Vector3d camera = photo.cam_from_world.Center();
   if (facet.normal.dot(camera) - facet.offset <= limits.tolerance) return out;
   const double least_cos = std::cos(limits.max_angle_deg * std::numbers::pi / 180);
   bool any_hidden = false;
-  for (int row = 0; row < raster.height; ++row) {
-    for (int column = 0; column < raster.width; ++column) {
-      const size_t index = static_cast<size_t>(row) * raster.width + column;
-      if (inside[index] == 0) continue;
-      const Eigen::Vector3d point = raster.Center(column, row);
+  for (int row = 0; row < grid.height; ++row) {
+    for (int column = 0; column < grid.width; ++column) {
+      const size_t index = static_cast<size_t>(row) * grid.width + column;
+      if (raster.inside[index] == 0) continue;
+      const Eigen::Vector3d point = grid.Center(column, row);
       const Eigen::Vector3d to_camera = (camera - point).normalized();
       const double cos_angle = facet.normal.dot(to_camera);
       if (!(cos_angle >= least_cos)) continue;
       const auto pixel = ProjectIntoPhoto(photo, point);
       if (!pixel) continue;
       if (BorderDistance(photo.camera, *pixel) < kUnusedShare * photo.camera.width_px) continue;
-      const auto jacobian = PixelsPerTexel(photo, raster, column + 0.5, row + 0.5);
+      const auto jacobian = PixelsPerTexel(photo, grid, column + 0.5, row + 0.5);
       if (!jacobian) continue;
       const double area = std::abs(jacobian->determinant());
       if (!(area > 0)) continue;
-      if (obstacles.scene->Blocked(point + limits.tolerance * facet.normal, camera)) continue;
+      if (scene.occlusion->Blocked(point + limits.tolerance * facet.normal, camera)) continue;
       TexelView& view = out.texels[index];
       view.sight = Sight::kFree;
       view.resolution = static_cast<float>(SmallerSingularValue(*jacobian));
-      view.footprint = static_cast<float>(raster.texel / std::sqrt(area));
+      view.footprint = static_cast<float>(grid.texel / std::sqrt(area));
       view.cos_angle = static_cast<float>(cos_angle);
       view.border = BorderNearness(photo.camera, *pixel);
-      if (obstacles.nearest.empty()) continue;
-      const CloudView cloud = AskCloud(obstacles.nearest[photo_index], obstacles.points, photo,
-                                       *pixel, facet, limits.clearance);
+      if (scene.nearest.empty()) continue;
+      const CloudView cloud = AskCloud(scene, photo_index, *pixel, facet, limits.clearance);
       view.no_points = cloud == CloudView::kNoPoints;
       if (cloud == CloudView::kBeyond) view.sight = Sight::kBeyond;
       if (cloud == CloudView::kInFront) view.sight = Sight::kBehind;
       any_hidden |= cloud == CloudView::kInFront;
     }
   }
-  if (any_hidden) GrowHidden(raster, out.texels);
+  if (any_hidden) GrowHidden(grid, out.texels);
   return out;
 }
 

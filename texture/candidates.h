@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "survey/proxy.h"
+#include "survey/survey_photo.h"
 #include "texture/grid.h"
-#include "texture/photo.h"
 #include "texture/visibility.h"
 
 namespace stucco {
@@ -37,13 +37,6 @@ struct RasterView {
   std::vector<TexelView> texels;
 };
 
-// What hides surfaces from photos. `nearest` is empty or holds one raster per photo.
-struct Obstacles {
-  const OcclusionScene* scene = nullptr;
-  std::span<const NearestPoints> nearest;
-  std::span<const Eigen::Vector3d> points;  // the cloud that `nearest` points into
-};
-
 struct ViewLimits {
   double max_angle_deg = 78;
   // Things nearer to the facet than this belong to it (cornices, window sills, an imprecise
@@ -52,12 +45,11 @@ struct ViewLimits {
   double clearance = 0;  // points of the cloud farther in front than this hide it
 };
 
-// Measures a photo over the raster texels whose `inside` is not zero. Where a third of the 3 x 3
-// texels around one are behind points of the cloud, it counts as behind them too: borders of trees
-// and of noisy clouds are never exact.
-RasterView MeasureView(std::span<const TexturePhoto> photos, int photo, const Facet& facet,
-                       const TexelGrid& raster, std::span<const uint16_t> inside,
-                       const Obstacles& obstacles, const ViewLimits& limits);
+// Measures a photo over the raster texels that are not wholly outside the facet. Where a third of
+// the 3 x 3 texels around one are behind points of the cloud, it counts as behind them too: borders
+// of trees and of noisy clouds are never exact.
+RasterView MeasureView(const SightScene& scene, int photo, const Facet& facet,
+                       const FacetRaster& raster, const ViewLimits& limits);
 
 // Badness of a photo for a texel in [0, 1] from geometry and the photo alone: 0.4 resolution
 // (against one photo pixel per texel of size `texel`), 0.3 obliqueness, 0.2 sharpness, 0.1 border.

@@ -44,7 +44,7 @@ std::vector<uint8_t> FindPresent(const std::vector<int>& owners, size_t count) {
   return present;
 }
 
-Layer MakeLayer(const ChosenPhoto& chosen, int index, const TexelGrid& grid, const Tile& tile,
+Layer MakeLayer(const PhotoLayer& chosen, int index, const TexelGrid& grid, const Tile& tile,
                 const Ownership& ownership) {
   SampledTile sampled = SamplePhoto(*chosen.photo, *chosen.open(), grid, tile, chosen.shift);
   for (size_t i = 0; i < tile.size(); ++i) {
@@ -78,9 +78,17 @@ void StoreTile(const Tile& core, const Tile& padded, const std::vector<float>& r
   }
 }
 
-void PaintTile(const Tile& core, const TexelGrid& grid, const std::vector<uint8_t>& mask,
-               const std::vector<ChosenPhoto>& chosen, const Ownership& ownership, bool blend,
-               Composite& out) {
+// What a tile is painted from.
+struct Sources {
+  const TexelGrid& grid;
+  const std::vector<uint8_t>& mask;
+  const std::vector<PhotoLayer>& chosen;
+  const Ownership& ownership;
+  bool blend = true;
+};
+
+void PaintTile(const Tile& core, const Sources& sources, Composite& out) {
+  const auto& [grid, mask, chosen, ownership, blend] = sources;
   Tile tile = Grown(core, kBlendMargin, grid);
   std::vector<int> owners = OwnersOf(tile, grid, mask, ownership);
   std::vector<uint8_t> present = FindPresent(owners, chosen.size());
@@ -107,7 +115,7 @@ void PaintTile(const Tile& core, const TexelGrid& grid, const std::vector<uint8_
 }  // namespace
 
 Composite ComposePicture(const TexelGrid& grid, const std::vector<uint8_t>& mask,
-                         const std::vector<ChosenPhoto>& chosen, const Ownership& ownership,
+                         const std::vector<PhotoLayer>& chosen, const Ownership& ownership,
                          bool blend) {
   Composite out;
   out.picture.width_px = grid.width;
@@ -115,11 +123,12 @@ Composite ComposePicture(const TexelGrid& grid, const std::vector<uint8_t>& mask
   out.picture.channels = 3;
   out.picture.data.assign(3 * grid.size(), 0);
   out.labels.assign(grid.size(), 0);
+  const Sources sources{grid, mask, chosen, ownership, blend};
   for (int y = 0; y < grid.height; y += kTileSide) {
     for (int x = 0; x < grid.width; x += kTileSide) {
       const Tile core{x, y, std::min(kTileSide, grid.width - x),
                       std::min(kTileSide, grid.height - y)};
-      PaintTile(core, grid, mask, chosen, ownership, blend, out);
+      PaintTile(core, sources, out);
     }
   }
   return out;

@@ -9,17 +9,17 @@
 #include <vector>
 
 #include "survey/image.h"
+#include "survey/survey_photo.h"
 #include "texture/candidates.h"
 #include "texture/grid.h"
-#include "texture/photo.h"
 #include "texture/photo_cache.h"
 #include "texture/resample.h"
 
 namespace stucco {
 
 // A photo that was chosen for a facet, with everything its texels depend on.
-struct ChosenPhoto {
-  const TexturePhoto* photo = nullptr;
+struct PhotoLayer {
+  const SurveyPhoto* photo = nullptr;
   // Opens the photo in full size. Large facets have more photos than fit into memory at once: what
   // it returns is held only while it is read.
   std::function<std::shared_ptr<const PhotoPyramid>()> open;
@@ -48,7 +48,7 @@ struct Composite {
 // resampled with its shift and gain, joined at the borders of ownership (over several bands where
 // `blend` is set). Texels outside `mask` stay 0 in the labels.
 Composite ComposePicture(const TexelGrid& grid, const std::vector<uint8_t>& mask,
-                         const std::vector<ChosenPhoto>& chosen, const Ownership& ownership,
+                         const std::vector<PhotoLayer>& chosen, const Ownership& ownership,
                          bool blend);
 
 }  // namespace stucco

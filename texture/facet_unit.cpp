@@ -140,10 +140,10 @@ std::string OptionsText(TextureOptions options) {
   return CanonicalText(table);
 }
 
-std::string PhotoText(const TexturePhoto& photo) {
+std::string PhotoText(const SurveyPhoto& photo) {
   std::string text =
-      fmt::format("{} {} {} {}x{} {}", photo.name, photo.hash, Name(photo.camera.model),
-                  photo.camera.width_px, photo.camera.height_px, photo.sharpness);
+      fmt::format("{} {} {} {}x{} {}", photo.path(), photo.captured.hash, Name(photo.camera.model),
+                  photo.camera.width_px, photo.camera.height_px, photo.relative_sharpness);
   for (double value : photo.camera.params) text += fmt::format(" {}", value);
   const Eigen::Quaterniond& q = photo.cam_from_world.rotation;
   const Eigen::Vector3d& t = photo.cam_from_world.translation;
@@ -185,7 +185,7 @@ FacetLook UnpackLook(const std::string& bytes) {
 }
 
 FacetFiles MakeFacetFiles(const Facet& facet, const PaintedFacet& painted,
-                          std::span<const TexturePhoto> photos,
+                          std::span<const SurveyPhoto> photos,
                           std::span<const Eigen::Vector3d> gains, bool orthophoto) {
   FacetFiles files;
   TexturedFacet& textured = files.facet;
@@ -208,9 +208,9 @@ FacetFiles MakeFacetFiles(const Facet& facet, const PaintedFacet& painted,
   textured.q_u = painted.quality.q_u;
   textured.q_c = painted.quality.q_c;
   for (int photo : painted.photos) {
-    textured.photos.push_back(photos[photo].name);
-    if (IsPlannedFor(facet, photos[photo])) textured.planned_photos.push_back(photos[photo].name);
-    textured.gains[photos[photo].name] = gains[photo].mean();
+    textured.photos.push_back(photos[photo].path());
+    if (IsPlannedFor(facet, photos[photo])) textured.planned_photos.push_back(photos[photo].path());
+    textured.gains[photos[photo].path()] = gains[photo].mean();
   }
   files.misregistration_before_px = painted.misregistration_before_px;
   files.texture_png = EncodeTexture(painted);
@@ -244,7 +244,7 @@ FacetFiles UnpackFiles(const std::string& bytes) {
 
 std::string LookKey(const Facet& facet, const TextureInput& input, const TextureOptions& options) {
   std::vector<std::string> parts = {kVersion, facet.id, input.geometry_hash, OptionsText(options)};
-  for (const TexturePhoto& photo : input.photos) {
+  for (const SurveyPhoto& photo : input.photos) {
     parts.push_back(PhotoText(photo) + (IsPlannedFor(facet, photo) ? " planned" : ""));
   }
   return HashParts(parts);
@@ -257,7 +257,7 @@ std::string FilesKey(const Facet& facet, const FacetLook& look, const TextureInp
       fmt::format("{} {} {}", look.texel, look.limits.tolerance, look.limits.clearance)};
   for (const Candidate& candidate : look.candidates) {
     const Eigen::Vector3d& gain = gains[candidate.photo];
-    const TexturePhoto& photo = input.photos[candidate.photo];
+    const SurveyPhoto& photo = input.photos[candidate.photo];
     parts.push_back(PhotoText(photo) + (IsPlannedFor(facet, photo) ? " planned" : ""));
     parts.push_back(fmt::format("{} {} {}", gain.x(), gain.y(), gain.z()));
   }

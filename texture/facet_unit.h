@@ -8,8 +8,8 @@
 
 #include "survey/texture_set.h"
 #include "texture/input.h"
+#include "texture/options.h"
 #include "texture/paint.h"
-#include "texture/texture.h"
 
 namespace stucco {
 
@@ -30,7 +30,7 @@ struct FacetFiles {
 };
 
 FacetFiles MakeFacetFiles(const Facet& facet, const PaintedFacet& painted,
-                          std::span<const TexturePhoto> photos,
+                          std::span<const SurveyPhoto> photos,
                           std::span<const Eigen::Vector3d> gains, bool orthophoto);
 
 std::string PackFiles(const FacetFiles& files);

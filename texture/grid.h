@@ -38,6 +38,13 @@ struct TexelGrid {
 // Requires texel > 0, max_px >= 1 and a facet with at least 3 vertices.
 TexelGrid MakeGrid(const Facet& facet, const Eigen::Vector3d& up, double texel, int max_px);
 
+// A coarser raster over a facet, and how much of it is the facet's.
+struct FacetRaster {
+  TexelGrid grid;
+  std::vector<uint16_t> inside;  // by texel, between 0 and `full`
+  int full = 1;
+};
+
 // The same plane with texels `step` times as large; the last column and row may stick out.
 TexelGrid Coarsened(const TexelGrid& grid, int step);
 

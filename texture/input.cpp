@@ -6,17 +6,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
-#include "survey/captures.h"
-#include "survey/colmap_io.h"
 #include "survey/error.h"
 #include "survey/files.h"
-#include "survey/median.h"
 #include "survey/plan_of_survey.h"
 #include "survey/ply.h"
 #include "survey/survey_folder.h"
-#include "texture/plan_prior.h"
 
 namespace stucco {
 namespace {
@@ -24,51 +19,20 @@ namespace {
 // Enough to cover the small rasters in which foreground is looked up; more only costs time.
 constexpr size_t kMostPoints = 1'000'000;
 
-std::map<std::string, CapturedPhoto> ReadCapturesByPath(const std::filesystem::path& path) {
-  std::map<std::string, CapturedPhoto> out;
-  if (!std::filesystem::exists(path)) return out;
-  for (CapturedPhoto& photo : ReadCaptures(path).photos) out[photo.path] = std::move(photo);
-  return out;
-}
-
-double MedianSharpness(const std::map<std::string, CapturedPhoto>& captures) {
-  std::vector<double> values;
-  for (const auto& [path, photo] : captures) {
-    if (photo.usable && photo.sharpness > 0) values.push_back(photo.sharpness);
-  }
-  return Median(std::move(values)).value_or(0);
-}
-
-std::vector<TexturePhoto> ReadPhotos(const StageContext& context, bool guided) {
-  const Reconstruction model = ReadColmapModel(context.survey / kSparseFolder);
-  const auto captures = ReadCapturesByPath(context.survey / kCapturesFile);
-  const double typical = MedianSharpness(captures);
-  std::vector<TexturePhoto> photos;
-  for (const auto& [id, posed] : model.photos) {
-    const std::filesystem::path path = context.photos / posed.name;
+std::vector<SurveyPhoto> ReadPhotos(const StageContext& context, bool guided) {
+  std::vector<SurveyPhoto> photos = ReadSurveyPhotos(context.survey);
+  for (SurveyPhoto& photo : photos) {
+    const std::filesystem::path path = context.photos / photo.path();
     if (!std::filesystem::exists(path)) {
       throw Error(ErrorKind::kBadInput, fmt::format("{}: this posed photo is gone", path.string()),
                   "put it back, or compute the camera poses again without it: stucco run SURVEY "
                   "--from ingest");
     }
-    TexturePhoto photo;
-    photo.name = posed.name;
-    photo.camera = model.cameras.at(posed.camera);
-    photo.cam_from_world = posed.cam_from_world;
-    const auto captured = captures.find(posed.name);
-    if (captured != captures.end()) {
-      photo.hash = captured->second.hash;
-      const double sharpness = captured->second.sharpness;
-      if (typical > 0 && sharpness > 0) photo.sharpness = sharpness / typical;
-    }
-    if (photo.hash.empty()) photo.hash = HashFile(path);
-    KnowLens(photo);
-    photos.push_back(std::move(photo));
+    if (photo.captured.hash.empty()) photo.captured.hash = HashFile(path);
   }
-  std::sort(photos.begin(), photos.end(),
-            [](const TexturePhoto& a, const TexturePhoto& b) { return a.name < b.name; });
+  std::ranges::sort(photos, {}, &SurveyPhoto::path);
   if (guided) {
-    if (const auto plan = PlanOfSurvey(context)) KnowPlan(*plan, captures, photos);
+    if (const auto plan = PlanOfSurvey(context)) JoinPlan(*plan, photos);
   }
   return photos;
 }

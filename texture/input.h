@@ -9,8 +9,8 @@
 #include "survey/georef.h"
 #include "survey/proxy.h"
 #include "survey/stage.h"
-#include "texture/photo.h"
-#include "texture/texture.h"
+#include "survey/survey_photo.h"
+#include "texture/options.h"
 
 namespace stucco {
 
@@ -18,7 +18,7 @@ namespace stucco {
 struct TextureInput {
   Proxy proxy;
   Georef georef;
-  std::vector<TexturePhoto> photos;    // posed and on disk, by name
+  std::vector<SurveyPhoto> photos;     // posed and on disk, by name
   std::vector<Eigen::Vector3d> cloud;  // thinned; empty without one
   std::string geometry_hash;           // of the proxy and the cloud
 };

@@ -35,11 +35,11 @@ Sphere SphereAround(const Facet& facet) {
   return sphere;
 }
 
-double HeightAbove(const Facet& facet, const TexturePhoto& photo) {
+double HeightAbove(const Facet& facet, const SurveyPhoto& photo) {
   return facet.normal.dot(photo.cam_from_world.Center()) - facet.offset;
 }
 
-bool ConeReaches(const TexturePhoto& photo, const Sphere& sphere) {
+bool ConeReaches(const SurveyPhoto& photo, const Sphere& sphere) {
   if (!(photo.safe_radius_squared > 0)) return true;  // the cone is not known
   const Eigen::Vector3d center_in_cam = photo.cam_from_world * sphere.center;
   const double distance = center_in_cam.norm();
@@ -51,7 +51,7 @@ bool ConeReaches(const TexturePhoto& photo, const Sphere& sphere) {
 
 std::vector<float> CostsOver(const RasterView& view, const TexelGrid& raster, double texel,
                              const PaintScene& scene) {
-  return ViewCosts(view, raster.texel, texel, scene.photos[view.photo].sharpness);
+  return ViewCosts(view, raster.texel, texel, scene.sights.photos[view.photo].relative_sharpness);
 }
 
 // How much brighter each candidate is than each other.
@@ -61,7 +61,7 @@ std::vector<ColourRatio> MeasureRatios(std::span<const Candidate> candidates,
   std::vector<std::vector<float>> colours;
   std::vector<const RasterView*> sights;
   for (const Candidate& candidate : candidates) {
-    colours.push_back(SampleRaster(scene.photos[candidate.photo], raster, *scene.cache));
+    colours.push_back(SampleRaster(scene.sights.photos[candidate.photo], raster, *scene.cache));
     sights.push_back(&*std::find_if(views.begin(), views.end(), [&](const RasterView& view) {
       return view.photo == candidate.photo;
     }));
@@ -84,12 +84,12 @@ std::vector<ColourRatio> MeasureRatios(std::span<const Candidate> candidates,
 
 }  // namespace
 
-ViewLimits LimitsFor(const Facet& facet, std::span<const TexturePhoto> photos,
+ViewLimits LimitsFor(const Facet& facet, std::span<const SurveyPhoto> photos,
                      double max_angle_deg) {
   const Eigen::Vector3d center = SphereAround(facet).center;
   std::vector<double> facing;
   std::vector<double> all;
-  for (const TexturePhoto& photo : photos) {
+  for (const SurveyPhoto& photo : photos) {
     const double distance = (photo.cam_from_world.Center() - center).norm();
     all.push_back(distance);
     if (ProjectIntoPhoto(photo, center)) facing.push_back(distance);
@@ -104,7 +104,7 @@ ViewLimits LimitsFor(const Facet& facet, std::span<const TexturePhoto> photos,
   return limits;
 }
 
-std::vector<int> PhotosThatMaySee(const Facet& facet, std::span<const TexturePhoto> photos,
+std::vector<int> PhotosThatMaySee(const Facet& facet, std::span<const SurveyPhoto> photos,
                                   double max_angle_deg) {
   const Sphere sphere = SphereAround(facet);
   const double least_cos = std::cos(max_angle_deg * std::numbers::pi / 180);
@@ -127,8 +127,8 @@ TexelGrid LookRaster(const Facet& facet, const PaintScene& scene, std::span<cons
   const double area = static_cast<double>(box.size()) * box.texel * box.texel;
   double footprint = std::numeric_limits<double>::max();
   for (int p : photos) {
-    const Camera& camera = scene.photos[p].camera;
-    footprint = std::min(footprint, HeightAbove(facet, scene.photos[p]) *
+    const Camera& camera = scene.sights.photos[p].camera;
+    footprint = std::min(footprint, HeightAbove(facet, scene.sights.photos[p]) *
                                         std::min(camera.width_px / camera.FocalX(),
                                                  camera.height_px / camera.FocalY()));
   }
@@ -139,40 +139,40 @@ TexelGrid LookRaster(const Facet& facet, const PaintScene& scene, std::span<cons
   return MakeGrid(facet, scene.up, std::clamp(footprint / kTexelsAcrossPhoto, finest, usual), most);
 }
 
-std::vector<float> SampleRaster(const TexturePhoto& photo, const TexelGrid& raster,
+std::vector<float> SampleRaster(const SurveyPhoto& photo, const TexelGrid& raster,
                                 PhotoCache& cache) {
-  return SamplePhoto(photo, *cache.Get(photo.name, kLookPhotoSide), raster,
+  return SamplePhoto(photo, *cache.Get(photo.path(), kLookPhotoSide), raster,
                      {0, 0, raster.width, raster.height})
       .rgb;
 }
 
 FacetLook LookAtFacet(const Facet& facet, const PaintScene& scene, const TextureOptions& options) {
   FacetLook look;
-  look.limits = LimitsFor(facet, scene.photos, options.max_angle_deg);
-  const std::vector<int> possible = PhotosThatMaySee(facet, scene.photos, options.max_angle_deg);
-  const TexelGrid raster = LookRaster(facet, scene, possible);
-  const std::vector<uint8_t> mask = RasterizeFacet(facet, raster);
-  const std::vector<uint16_t> inside(mask.begin(), mask.end());
+  look.limits = LimitsFor(facet, scene.sights.photos, options.max_angle_deg);
+  const std::vector<int> possible =
+      PhotosThatMaySee(facet, scene.sights.photos, options.max_angle_deg);
+  const TexelGrid grid = LookRaster(facet, scene, possible);
+  const std::vector<uint8_t> mask = RasterizeFacet(facet, grid);
+  const FacetRaster raster{grid, {mask.begin(), mask.end()}, 1};
   std::vector<RasterView> views;
   for (int p : possible) {
-    RasterView view =
-        MeasureView(scene.photos, p, facet, raster, inside, scene.obstacles, look.limits);
+    RasterView view = MeasureView(scene.sights, p, facet, raster, look.limits);
     const bool any = std::any_of(view.texels.begin(), view.texels.end(),
                                  [](const TexelView& t) { return t.sight != Sight::kNot; });
     if (any) views.push_back(std::move(view));
   }
-  look.texel = options.texel_size > 0 ? options.texel_size : FinestTexel(views, raster.texel);
+  look.texel = options.texel_size > 0 ? options.texel_size : FinestTexel(views, grid.texel);
   if (views.empty()) return look;
   std::vector<int> photos;
   for (const RasterView& view : views) photos.push_back(view.photo);
-  const std::vector<float> prior = PriorCosts(facet, scene.photos, photos);
+  const std::vector<float> prior = PriorCosts(facet, scene.sights.photos, photos);
   std::vector<std::vector<float>> costs;
   for (size_t v = 0; v < views.size(); ++v) {
-    costs.push_back(CostsOver(views[v], raster, look.texel, scene));
+    costs.push_back(CostsOver(views[v], grid, look.texel, scene));
     for (float& cost : costs.back()) cost += prior[v];
   }
-  look.candidates = RankCandidates(views, inside, costs, options.max_candidates);
-  if (options.colour) look.ratios = MeasureRatios(look.candidates, views, raster, scene);
+  look.candidates = RankCandidates(views, raster.inside, costs, options.max_candidates);
+  if (options.colour) look.ratios = MeasureRatios(look.candidates, views, grid, scene);
   return look;
 }
 

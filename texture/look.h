@@ -7,19 +7,18 @@
 #include <vector>
 
 #include "survey/proxy.h"
+#include "survey/survey_photo.h"
 #include "texture/candidates.h"
 #include "texture/colour.h"
 #include "texture/grid.h"
-#include "texture/photo.h"
+#include "texture/options.h"
 #include "texture/photo_cache.h"
-#include "texture/texture.h"
 
 namespace stucco {
 
 // What painting facets needs to know of the survey.
 struct PaintScene {
-  std::span<const TexturePhoto> photos;
-  Obstacles obstacles;
+  SightScene sights;
   PhotoCache* cache = nullptr;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
 };
@@ -37,12 +36,11 @@ FacetLook LookAtFacet(const Facet& facet, const PaintScene& scene, const Texture
 
 // How near things in front of a facet belong to it; distances in proportion to how far the photos
 // are from it (0.3 % and 2 %) and to how far its own points are from the plane.
-ViewLimits LimitsFor(const Facet& facet, std::span<const TexturePhoto> photos,
-                     double max_angle_deg);
+ViewLimits LimitsFor(const Facet& facet, std::span<const SurveyPhoto> photos, double max_angle_deg);
 
 // The photos that may see part of a facet, by their places alone: in front of its plane, not too
 // oblique for all of it, and the facet's bounding sphere reaches into their view cone.
-std::vector<int> PhotosThatMaySee(const Facet& facet, std::span<const TexturePhoto> photos,
+std::vector<int> PhotosThatMaySee(const Facet& facet, std::span<const SurveyPhoto> photos,
                                   double max_angle_deg);
 
 // The raster of the first look, for the photos of PhotosThatMaySee: about a thousand texels however
@@ -50,7 +48,7 @@ std::vector<int> PhotosThatMaySee(const Facet& facet, std::span<const TexturePho
 TexelGrid LookRaster(const Facet& facet, const PaintScene& scene, std::span<const int> photos);
 
 // The colours that a photo shows on a raster, 3 per texel, from a reduced copy.
-std::vector<float> SampleRaster(const TexturePhoto& photo, const TexelGrid& raster,
+std::vector<float> SampleRaster(const SurveyPhoto& photo, const TexelGrid& raster,
                                 PhotoCache& cache);
 
 }  // namespace stucco

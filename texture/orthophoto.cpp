@@ -49,7 +49,7 @@ std::string OrthophotoJson(const TexturedFacet& texture, const Facet& facet, con
   const ordered_json out = {
       {"version", kVersion},
       {"id", texture.id},
-      {"facade", facet.facade},
+      {"facade", FacadeName(facet)},
       {"class", CityGmlName(facet.facet_class)},
       {"width_px", texture.width_px},
       {"height_px", texture.height_px},

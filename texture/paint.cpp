@@ -36,9 +36,17 @@ constexpr int kPatchFillSide = 512;
 constexpr double kMostPatchFilled = 0.5;  // of the facet: beyond, copies would be invention
 constexpr uint32_t kFillSeed = 20260101;
 
+// What is to be painted from what.
+struct PaintJob {
+  const Facet& facet;
+  const FacetLook& look;
+  std::span<const Eigen::Vector3d> gains;  // by photo of the survey
+  const PaintScene& scene;
+  const TextureOptions& options;
+};
+
 struct Selected {
-  TexelGrid raster;
-  std::vector<uint16_t> inside;
+  FacetRaster raster;
   std::vector<RasterView> views;  // of the used photos, most painted first
   Ownership ownership;            // indices into `views`
 };
@@ -51,11 +59,11 @@ void ApplyGain(const Eigen::Vector3d& gain, std::vector<float>& rgb) {
 
 RasterPicture MakeRasterPicture(const RasterView& view, const TexelGrid& raster, double texel,
                                 const Eigen::Vector3d& gain, const PaintScene& scene) {
-  const TexturePhoto& photo = scene.photos[view.photo];
+  const SurveyPhoto& photo = scene.sights.photos[view.photo];
   RasterPicture picture;
   picture.sight.reserve(view.texels.size());
   for (const TexelView& seen : view.texels) picture.sight.push_back(seen.sight);
-  picture.cost = ViewCosts(view, raster.texel, texel, photo.sharpness);
+  picture.cost = ViewCosts(view, raster.texel, texel, photo.relative_sharpness);
   picture.rgb = SampleRaster(photo, raster, *scene.cache);
   SkyClues clues;
   for (const TexelView& seen : view.texels) clues.no_points.push_back(seen.no_points);
@@ -96,45 +104,42 @@ void KeepUsed(std::vector<RasterView>& views, std::span<const uint16_t> inside,
   views = std::move(kept);
 }
 
-Selected SelectPhotos(const Facet& facet, const FacetLook& look, const PaintedFacet& canvas,
-                      std::span<const Eigen::Vector3d> gains, const PaintScene& scene,
-                      const TextureOptions& options) {
+Selected SelectPhotos(const PaintJob& job, const PaintedFacet& canvas) {
+  const auto& [facet, look, gains, scene, options] = job;
   Selected out;
   const int cell = CellSide(canvas.grid, options.cell_px, look.candidates.size());
-  out.ownership.step = cell / kCellSplit;
-  out.raster = Coarsened(canvas.grid, out.ownership.step);
-  out.ownership.raster_width = out.raster.width;
-  out.inside = CountInside(canvas.grid, canvas.mask, out.ownership.step);
+  const int step = cell / kCellSplit;
+  out.raster = {Coarsened(canvas.grid, step), CountInside(canvas.grid, canvas.mask, step),
+                step * step};
+  out.ownership.step = step;
+  out.ownership.raster_width = out.raster.grid.width;
   std::vector<int> photos;
   for (const Candidate& candidate : look.candidates) photos.push_back(candidate.photo);
-  const std::vector<float> prior = PriorCosts(facet, scene.photos, photos);
+  const std::vector<float> prior = PriorCosts(facet, scene.sights.photos, photos);
   std::vector<RasterPicture> pictures;
   for (const Candidate& candidate : look.candidates) {
-    out.views.push_back(MeasureView(scene.photos, candidate.photo, facet, out.raster, out.inside,
-                                    scene.obstacles, look.limits));
-    pictures.push_back(MakeRasterPicture(out.views.back(), out.raster, canvas.grid.texel,
+    out.views.push_back(MeasureView(scene.sights, candidate.photo, facet, out.raster, look.limits));
+    pictures.push_back(MakeRasterPicture(out.views.back(), out.raster.grid, canvas.grid.texel,
                                          gains[candidate.photo], scene));
     for (float& cost : pictures.back().cost) cost += prior[pictures.size() - 1];
-    for (size_t i = 0; i < out.raster.size(); ++i) {
+    for (size_t i = 0; i < out.raster.grid.size(); ++i) {
       out.views.back().texels[i].sight = pictures.back().sight[i];
     }
   }
   const SelectOptions select{kCellSplit, options.photo_cost, options.seam_cost, options.min_region};
-  out.ownership.owner = SelectPictures(pictures, out.raster, out.inside,
-                                       out.ownership.step * out.ownership.step, select);
-  DropBackground(out.raster, out.inside, pictures, out.ownership.owner);
-  KeepUsed(out.views, out.inside, out.ownership.owner);
+  out.ownership.owner = SelectPictures(pictures, out.raster, select);
+  DropBackground(out.raster.grid, out.raster.inside, pictures, out.ownership.owner);
+  KeepUsed(out.views, out.raster.inside, out.ownership.owner);
   return out;
 }
 
-std::vector<ChosenPhoto> OpenChosen(const Selected& selected,
-                                    std::span<const Eigen::Vector3d> gains,
-                                    const PaintScene& scene) {
-  std::vector<ChosenPhoto> chosen;
+std::vector<PhotoLayer> OpenChosen(const Selected& selected, std::span<const Eigen::Vector3d> gains,
+                                   const PaintScene& scene) {
+  std::vector<PhotoLayer> chosen;
   for (const RasterView& view : selected.views) {
-    ChosenPhoto photo;
-    photo.photo = &scene.photos[view.photo];
-    photo.open = [cache = scene.cache, name = photo.photo->name] { return cache->Get(name, 0); };
+    PhotoLayer photo;
+    photo.photo = &scene.sights.photos[view.photo];
+    photo.open = [cache = scene.cache, path = photo.photo->path()] { return cache->Get(path, 0); };
     photo.gain = gains[view.photo];
     for (const TexelView& seen : view.texels) photo.sight.push_back(seen.sight);
     chosen.push_back(std::move(photo));
@@ -144,7 +149,7 @@ std::vector<ChosenPhoto> OpenChosen(const Selected& selected,
 
 // The part of the raster that a chosen photo shows freely; a texel of the selection's raster is
 // `scale` of this one's.
-Tile FreeArea(const ChosenPhoto& chosen, const Ownership& ownership, const TexelGrid& raster,
+Tile FreeArea(const PhotoLayer& chosen, const Ownership& ownership, const TexelGrid& raster,
               double scale) {
   int left = raster.width;
   int top = raster.height;
@@ -164,7 +169,7 @@ Tile FreeArea(const ChosenPhoto& chosen, const Ownership& ownership, const Texel
   return {left, top, std::max(0, right - left), std::max(0, bottom - top)};
 }
 
-GreyPicture MakeGreyPicture(const ChosenPhoto& chosen, const TexelGrid& raster, int step,
+GreyPicture MakeGreyPicture(const PhotoLayer& chosen, const TexelGrid& raster, int step,
                             const PaintedFacet& canvas, const Ownership& ownership) {
   const Tile area = FreeArea(chosen, ownership, raster, static_cast<double>(ownership.step) / step);
   if (area.size() == 0) return {};
@@ -185,13 +190,13 @@ GreyPicture MakeGreyPicture(const ChosenPhoto& chosen, const TexelGrid& raster, 
 }
 
 void AlignChosen(const Selected& selected, const TextureOptions& options,
-                 std::vector<ChosenPhoto>& chosen, PaintedFacet& painted) {
+                 std::vector<PhotoLayer>& chosen, PaintedFacet& painted) {
   if (chosen.size() < 2) return;
   const int longest = std::max(painted.grid.width, painted.grid.height);
   const int step = (longest + kAlignSide - 1) / kAlignSide;
   const TexelGrid raster = Coarsened(painted.grid, step);
   std::vector<GreyPicture> pictures;
-  for (const ChosenPhoto& photo : chosen) {
+  for (const PhotoLayer& photo : chosen) {
     pictures.push_back(MakeGreyPicture(photo, raster, step, painted, selected.ownership));
   }
   Alignment alignment = AlignPictures(pictures, Eigen::Vector2d(raster.width, raster.height),
@@ -259,7 +264,7 @@ uint64_t PaintingBytes(const Facet& facet, const FacetLook& look, const PaintSce
   double shown = 0;
   double photo_px = 0;
   for (const Candidate& candidate : look.candidates) {
-    const Camera& camera = scene.photos[candidate.photo].camera;
+    const Camera& camera = scene.sights.photos[candidate.photo].camera;
     shown += candidate.seen;
     photo_px = std::max(photo_px, static_cast<double>(camera.width_px) * camera.height_px);
   }
@@ -280,12 +285,12 @@ PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
   painted.mask = RasterizeFacet(facet, painted.grid);
 
   // 1. Which photo paints what.
-  const Selected selected = SelectPhotos(facet, look, painted, gains, scene, options);
+  const Selected selected = SelectPhotos({facet, look, gains, scene, options}, painted);
   if (selected.views.empty()) return painted;
   for (const RasterView& view : selected.views) painted.photos.push_back(view.photo);
 
   // 2. Bring the chosen photos together on the facet's plane.
-  std::vector<ChosenPhoto> chosen = OpenChosen(selected, gains, scene);
+  std::vector<PhotoLayer> chosen = OpenChosen(selected, gains, scene);
   AlignChosen(selected, options, chosen, painted);
 
   // 3. Paint, and fill what nobody shows.
@@ -301,7 +306,7 @@ PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
   FillAndCount(options, painted);
 
   // 4. Measure.
-  painted.quality = MeasureQuality(selected.views, scene.photos, selected.raster, selected.inside,
+  painted.quality = MeasureQuality(selected.views, scene.sights.photos, selected.raster,
                                    selected.ownership.owner, look.texel);
   return painted;
 }

@@ -11,8 +11,8 @@
 #include "survey/proxy.h"
 #include "texture/grid.h"
 #include "texture/look.h"
+#include "texture/options.h"
 #include "texture/quality.h"
-#include "texture/texture.h"
 
 namespace stucco {
 

@@ -32,9 +32,9 @@ double WeightedMedian(std::vector<std::pair<float, double>>& values) {
 }  // namespace
 
 AchievedQuality MeasureQuality(std::span<const RasterView> views,
-                               std::span<const TexturePhoto> photos, const TexelGrid& raster,
-                               std::span<const uint16_t> inside, std::span<const int> owner,
-                               double texel) {
+                               std::span<const SurveyPhoto> photos, const FacetRaster& raster,
+                               std::span<const int> owner, double texel) {
+  const TexelGrid& grid = raster.grid;
   AchievedQuality out;
   Sums sums;
   double area = 0;
@@ -42,8 +42,8 @@ AchievedQuality MeasureQuality(std::span<const RasterView> views,
   std::vector<Eigen::Vector3d> direction(views.size(), Eigen::Vector3d::Zero());
   std::vector<double> share(views.size(), 0);
   std::vector<std::pair<float, double>> footprints;
-  for (size_t i = 0; i < inside.size(); ++i) {
-    const double weight = inside[i];
+  for (size_t i = 0; i < raster.inside.size(); ++i) {
+    const double weight = raster.inside[i];
     if (!(weight > 0)) continue;
     area += weight;
     for (const RasterView& view : views) {
@@ -52,7 +52,7 @@ AchievedQuality MeasureQuality(std::span<const RasterView> views,
     if (owner[i] < 0) continue;
     const TexelView& texel_view = views[owner[i]].texels[i];
     const Eigen::Vector3d point =
-        raster.Center(static_cast<int>(i % raster.width), static_cast<int>(i / raster.width));
+        grid.Center(static_cast<int>(i % grid.width), static_cast<int>(i / grid.width));
     const Eigen::Vector3d camera = photos[views[owner[i]].photo].cam_from_world.Center();
     direction[owner[i]] += weight * (point - camera).normalized();
     share[owner[i]] += weight;

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "survey/image.h"
+#include "survey/survey_photo.h"
 #include "texture/candidates.h"
 #include "texture/grid.h"
-#include "texture/photo.h"
 
 namespace stucco {
 
@@ -31,11 +31,10 @@ struct AchievedQuality {
 };
 
 // `views` are the used photos over the raster, `owner` the index of the view that painted a texel
-// (-1: none), `inside` the facet's share of each texel in any unit, `texel` the wanted pixel size.
+// (-1: none), `texel` the wanted pixel size.
 AchievedQuality MeasureQuality(std::span<const RasterView> views,
-                               std::span<const TexturePhoto> photos, const TexelGrid& raster,
-                               std::span<const uint16_t> inside, std::span<const int> owner,
-                               double texel);
+                               std::span<const SurveyPhoto> photos, const FacetRaster& raster,
+                               std::span<const int> owner, double texel);
 
 // Variance of the Laplacian of the grey picture (4 neighbours, grey 0 to 255) over the texels that,
 // with their neighbours, were painted from photos. 0 when there is none.

@@ -27,7 +27,7 @@ struct Block {
 
 class Projector {
  public:
-  Projector(const TexturePhoto& photo, const TexelGrid& grid, const GridShift& shift)
+  Projector(const SurveyPhoto& photo, const TexelGrid& grid, const GridShift& shift)
       : photo_(photo), grid_(grid), shift_(shift), shifted_(!shift.IsZero()) {}
 
   std::optional<Eigen::Vector2d> At(double x, double y) const {
@@ -49,7 +49,7 @@ class Projector {
   }
 
  private:
-  const TexturePhoto& photo_;
+  const SurveyPhoto& photo_;
   const TexelGrid& grid_;
   const GridShift& shift_;
   bool shifted_;
@@ -187,7 +187,7 @@ Eigen::Vector2d GridShift::At(const Eigen::Vector2d& x) const {
           terms[1] + terms[4] * q.x() + terms[5] * q.y() + q.y() * bend};
 }
 
-SampledTile SamplePhoto(const TexturePhoto& photo, const PhotoPyramid& pyramid,
+SampledTile SamplePhoto(const SurveyPhoto& photo, const PhotoPyramid& pyramid,
                         const TexelGrid& grid, const Tile& tile, const GridShift& shift) {
   SampledTile out;
   out.rgb.assign(3 * tile.size(), 0);

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "survey/survey_photo.h"
 #include "texture/grid.h"
-#include "texture/photo.h"
 #include "texture/photo_cache.h"
 
 namespace stucco {
@@ -43,7 +43,7 @@ struct SampledTile {
 // fine enough for 0.05 pixel and interpolated between (exactly where it is not); photo pixels
 // smaller than texels are averaged (nearest halving of the photo, then several bicubic taps along
 // the longer side of the texel's footprint), larger ones interpolated bicubically (Catmull-Rom).
-SampledTile SamplePhoto(const TexturePhoto& photo, const PhotoPyramid& pyramid,
+SampledTile SamplePhoto(const SurveyPhoto& photo, const PhotoPyramid& pyramid,
                         const TexelGrid& grid, const Tile& tile, const GridShift& shift = {});
 
 }  // namespace stucco

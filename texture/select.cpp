@@ -32,16 +32,23 @@ float Difference(const float* a, const float* b) {
   return std::sqrt((r * r + g * g + bl * bl) / 3);
 }
 
+// Of the cell in this column and row with its right (direction 0) or lower neighbour (1).
+struct CellBorder {
+  int x = 0;
+  int y = 0;
+  int direction = 0;
+};
+
 // Walks the pairs of raster texels (i on this side, j on the other) along the border between a cell
 // and its right or lower neighbour.
 template <typename Fn>
-void ForEachBorderPair(const TexelGrid& raster, int cell, int cell_x, int cell_y, int direction,
-                       Fn&& fn) {
+void ForEachBorderPair(const TexelGrid& raster, int cell, const CellBorder& border, Fn&& fn) {
+  const bool right = border.direction == 0;
   for (int k = 0; k < cell; ++k) {
-    const int x = direction == 0 ? (cell_x + 1) * cell - 1 : cell_x * cell + k;
-    const int y = direction == 0 ? cell_y * cell + k : (cell_y + 1) * cell - 1;
-    const int next_x = direction == 0 ? x + 1 : x;
-    const int next_y = direction == 0 ? y : y + 1;
+    const int x = right ? (border.x + 1) * cell - 1 : border.x * cell + k;
+    const int y = right ? border.y * cell + k : (border.y + 1) * cell - 1;
+    const int next_x = right ? x + 1 : x;
+    const int next_y = right ? y : y + 1;
     if (next_x >= raster.width || next_y >= raster.height) continue;
     fn(static_cast<size_t>(y) * raster.width + x,
        static_cast<size_t>(next_y) * raster.width + next_x);
@@ -83,21 +90,28 @@ TexelCosts CostsOfTexels(std::span<const RasterPicture> pictures, const TexelGri
   return costs;
 }
 
-void FillData(std::span<const RasterPicture> pictures, const TexelGrid& raster,
-              std::span<const uint16_t> inside, double full_cell, int cell, LabelProblem& problem) {
-  const TexelCosts costs = CostsOfTexels(pictures, raster);
+// What `inside` sums up to in a cell that is all of the facet.
+double FullCell(const FacetRaster& raster, int cell) {
+  return static_cast<double>(raster.full) * cell * cell;
+}
+
+void FillData(std::span<const RasterPicture> pictures, const FacetRaster& raster, int cell,
+              LabelProblem& problem) {
+  const TexelGrid& grid = raster.grid;
+  const double full_cell = FullCell(raster, cell);
+  const TexelCosts costs = CostsOfTexels(pictures, grid);
   problem.data.assign(problem.cells() * problem.labels, 0);
   for (int label = 0; label < problem.labels; ++label) {
     const RasterPicture& picture = pictures[label];
     std::vector<uint8_t> seen(problem.cells(), 0);
-    for (int y = 0; y < raster.height; ++y) {
-      for (int x = 0; x < raster.width; ++x) {
-        const size_t i = static_cast<size_t>(y) * raster.width + x;
-        if (inside[i] == 0) continue;
+    for (int y = 0; y < grid.height; ++y) {
+      for (int x = 0; x < grid.width; ++x) {
+        const size_t i = static_cast<size_t>(y) * grid.width + x;
+        if (raster.inside[i] == 0) continue;
         const size_t c = static_cast<size_t>(y / cell) * problem.width + x / cell;
         if (picture.sight[i] != Sight::kNot) seen[c] = 1;
         problem.data[c * problem.labels + label] +=
-            costs[label][i] * static_cast<float>(inside[i] / full_cell);
+            costs[label][i] * static_cast<float>(raster.inside[i] / full_cell);
       }
     }
     for (size_t c = 0; c < problem.cells(); ++c) {
@@ -210,20 +224,20 @@ int CountAround(const std::vector<int>& values, const TexelGrid& raster, int x, 
 // From cells to texels: a texel that its cell's picture does not see takes the cheapest in use;
 // those that another picture nearby shows far better (the rim of an occluder) take that, unless
 // they are stray ones.
-std::vector<int> RefineToTexels(std::span<const RasterPicture> pictures, const TexelGrid& raster,
-                                std::span<const uint16_t> inside, int cell,
-                                const LabelProblem& problem, const Labels& labels) {
-  const TexelCosts costs = CostsOfTexels(pictures, raster);
+std::vector<int> RefineToTexels(std::span<const RasterPicture> pictures, const FacetRaster& raster,
+                                int cell, const LabelProblem& problem, const Labels& labels) {
+  const TexelGrid& grid = raster.grid;
+  const TexelCosts costs = CostsOfTexels(pictures, grid);
   std::vector<uint8_t> in_use(pictures.size(), 0);
   for (int label : labels) {
     if (label >= 0) in_use[label] = 1;
   }
-  std::vector<int> wish(raster.size(), -1);
-  std::vector<int> out(raster.size(), -1);
-  for (int y = 0; y < raster.height; ++y) {
-    for (int x = 0; x < raster.width; ++x) {
-      const size_t i = static_cast<size_t>(y) * raster.width + x;
-      if (inside[i] == 0) continue;
+  std::vector<int> wish(grid.size(), -1);
+  std::vector<int> out(grid.size(), -1);
+  for (int y = 0; y < grid.height; ++y) {
+    for (int x = 0; x < grid.width; ++x) {
+      const size_t i = static_cast<size_t>(y) * grid.width + x;
+      if (raster.inside[i] == 0) continue;
       const int own = labels[static_cast<size_t>(y / cell) * problem.width + x / cell];
       if (own < 0 || pictures[own].sight[i] == Sight::kNot) {
         out[i] = Cheapest(pictures, costs, in_use, i);
@@ -235,10 +249,10 @@ std::vector<int> RefineToTexels(std::span<const RasterPicture> pictures, const T
       if (costs[other][i] + kClearlyBetter < costs[own][i]) wish[i] = other;
     }
   }
-  for (int y = 0; y < raster.height; ++y) {
-    for (int x = 0; x < raster.width; ++x) {
-      const size_t i = static_cast<size_t>(y) * raster.width + x;
-      if (wish[i] >= 0 && CountAround(wish, raster, x, y, wish[i]) >= kNotStray) out[i] = wish[i];
+  for (int y = 0; y < grid.height; ++y) {
+    for (int x = 0; x < grid.width; ++x) {
+      const size_t i = static_cast<size_t>(y) * grid.width + x;
+      if (wish[i] >= 0 && CountAround(wish, grid, x, y, wish[i]) >= kNotStray) out[i] = wish[i];
     }
   }
   return out;
@@ -246,16 +260,14 @@ std::vector<int> RefineToTexels(std::span<const RasterPicture> pictures, const T
 
 }  // namespace
 
-LabelProblem MakeLabelProblem(std::span<const RasterPicture> pictures, const TexelGrid& raster,
-                              std::span<const uint16_t> inside, int full,
+LabelProblem MakeLabelProblem(std::span<const RasterPicture> pictures, const FacetRaster& raster,
                               const SelectOptions& options) {
   LabelProblem problem;
   const int cell = options.cell;
-  problem.width = (raster.width + cell - 1) / cell;
-  problem.height = (raster.height + cell - 1) / cell;
+  problem.width = (raster.grid.width + cell - 1) / cell;
+  problem.height = (raster.grid.height + cell - 1) / cell;
   problem.labels = static_cast<int>(pictures.size());
-  const double full_cell = static_cast<double>(full) * cell * cell;
-  FillData(pictures, raster, inside, full_cell, cell, problem);
+  FillData(pictures, raster, cell, problem);
 
   problem.seams.assign(problem.cells() * 2 * problem.labels * problem.labels, 0);
   const auto scale = static_cast<float>(options.seam_cost / cell);
@@ -264,8 +276,8 @@ LabelProblem MakeLabelProblem(std::span<const RasterPicture> pictures, const Tex
       const size_t c = static_cast<size_t>(y) * problem.width + x;
       for (int direction = 0; direction < 2; ++direction) {
         float* to = &problem.seams[(c * 2 + direction) * problem.labels * problem.labels];
-        ForEachBorderPair(raster, cell, x, y, direction, [&](size_t i, size_t j) {
-          if (inside[i] == 0 || inside[j] == 0) return;
+        ForEachBorderPair(raster.grid, cell, {x, y, direction}, [&](size_t i, size_t j) {
+          if (raster.inside[i] == 0 || raster.inside[j] == 0) return;
           for (int a = 0; a < problem.labels; ++a) {
             for (int b = a + 1; b < problem.labels; ++b) {
               const float seam = scale * (kSeamFloor + SeamAt(pictures[a], pictures[b], i, j));
@@ -278,7 +290,8 @@ LabelProblem MakeLabelProblem(std::span<const RasterPicture> pictures, const Tex
     }
   }
   double area = 0;
-  for (uint16_t count : inside) area += count / full_cell;
+  const double full_cell = FullCell(raster, cell);
+  for (uint16_t count : raster.inside) area += count / full_cell;
   problem.label_cost = options.photo_cost * area;
   return problem;
 }
@@ -306,17 +319,16 @@ void MergeSmallRegions(const LabelProblem& problem, size_t min_cells, Labels& la
   }
 }
 
-std::vector<int> SelectPictures(std::span<const RasterPicture> pictures, const TexelGrid& raster,
-                                std::span<const uint16_t> inside, int full,
+std::vector<int> SelectPictures(std::span<const RasterPicture> pictures, const FacetRaster& raster,
                                 const SelectOptions& options) {
-  const LabelProblem problem = MakeLabelProblem(pictures, raster, inside, full, options);
+  const LabelProblem problem = MakeLabelProblem(pictures, raster, options);
   Labels labels = CutLabels(problem);
   const auto used_cells =
       std::count_if(labels.begin(), labels.end(), [](int label) { return label >= 0; });
   MergeSmallRegions(problem,
                     static_cast<size_t>(options.min_region * static_cast<double>(used_cells)) + 1,
                     labels);
-  return RefineToTexels(pictures, raster, inside, options.cell, problem, labels);
+  return RefineToTexels(pictures, raster, options.cell, problem, labels);
 }
 
 }  // namespace stucco

@@ -19,12 +19,10 @@ struct SelectOptions {
   double min_region = 0.01;
 };
 
-// The labelling problem on cells of options.cell raster texels. `inside` are the counts of
-// CountInside, `full` their value inside the facet. Data term: view cost, disagreement, points of
-// the cloud in front; seams: difference of colour and gradient on both sides of the cell border
-// (Kwatra et al., "Graphcut Textures", 2003).
-LabelProblem MakeLabelProblem(std::span<const RasterPicture> pictures, const TexelGrid& raster,
-                              std::span<const uint16_t> inside, int full,
+// The labelling problem on cells of options.cell raster texels. Data term: view cost, disagreement,
+// points of the cloud in front; seams: difference of colour and gradient on both sides of the cell
+// border (Kwatra et al., "Graphcut Textures", 2003).
+LabelProblem MakeLabelProblem(std::span<const RasterPicture> pictures, const FacetRaster& raster,
                               const SelectOptions& options);
 
 // Gives connected regions of fewer than `min_cells` cells to the neighbour they share most of their
@@ -34,8 +32,7 @@ void MergeSmallRegions(const LabelProblem& problem, size_t min_cells, Labels& la
 // The picture for each raster texel: index into `pictures`, -1 where none sees it. Few pictures, in
 // large regions; texels that the picture of their cell does not see take the best of the others in
 // use.
-std::vector<int> SelectPictures(std::span<const RasterPicture> pictures, const TexelGrid& raster,
-                                std::span<const uint16_t> inside, int full,
+std::vector<int> SelectPictures(std::span<const RasterPicture> pictures, const FacetRaster& raster,
                                 const SelectOptions& options);
 
 }  // namespace stucco

@@ -85,12 +85,19 @@ int ThreadsThatFit(uint64_t bytes_each, const StageContext& context) {
   return static_cast<int>(std::min<uint64_t>(fit, std::max(1, context.threads)));
 }
 
-int PaintingThreads(const std::vector<const Facet*>& facets, const std::vector<FacetLook>& looks,
-                    const PaintScene& scene, const TextureOptions& options,
-                    const StageContext& context) {
+// All there is to paint.
+struct Painting {
+  std::vector<const Facet*> facets;
+  std::vector<FacetLook> looks;        // by facet
+  std::vector<Eigen::Vector3d> gains;  // by photo
+};
+
+int PaintingThreads(const Painting& painting, const PaintScene& scene,
+                    const TextureOptions& options, const StageContext& context) {
   uint64_t largest = 1;
-  for (size_t i = 0; i < facets.size(); ++i) {
-    largest = std::max(largest, PaintingBytes(*facets[i], looks[i], scene, options));
+  for (size_t i = 0; i < painting.facets.size(); ++i) {
+    largest =
+        std::max(largest, PaintingBytes(*painting.facets[i], painting.looks[i], scene, options));
   }
   return ThreadsThatFit(largest, context);
 }
@@ -115,24 +122,24 @@ TexturedFacet StoreFacet(FacetFiles files, const Facet& facet, const std::string
   return textured;
 }
 
-std::vector<TexturedFacet> PaintAll(const std::vector<const Facet*>& facets,
-                                    const std::vector<FacetLook>& looks,
-                                    const std::vector<Eigen::Vector3d>& gains,
-                                    const TextureInput& input, const PaintScene& scene,
-                                    const TextureOptions& options, const StageContext& context) {
+std::vector<TexturedFacet> PaintAll(const Painting& painting, const TextureInput& input,
+                                    const PaintScene& scene, const TextureOptions& options,
+                                    const StageContext& context) {
+  const std::vector<const Facet*>& facets = painting.facets;
   std::vector<std::string> ids;
   for (const Facet* facet : facets) ids.push_back(facet->id);
   const std::vector<std::string> names = FileNames(ids);
   std::vector<TexturedFacet> textured(facets.size());
   context.progress->Begin("painting facets", facets.size());
-  const int threads = PaintingThreads(facets, looks, scene, options, context);
+  const int threads = PaintingThreads(painting, scene, options, context);
   ParallelFor(facets.size(), threads, [&](size_t i) {
     context.ThrowIfCancelled();
-    const std::string key = FilesKey(*facets[i], looks[i], input, gains, options);
+    const std::string key = FilesKey(*facets[i], painting.looks[i], input, painting.gains, options);
     FacetFiles files = UnpackFiles(ComputeUnit(context, "texture_facet", key, [&] {
-      const PaintedFacet painted = PaintFacet(*facets[i], looks[i], gains, scene, options);
+      const PaintedFacet painted =
+          PaintFacet(*facets[i], painting.looks[i], painting.gains, scene, options);
       return PackFiles(
-          MakeFacetFiles(*facets[i], painted, input.photos, gains, options.orthophotos));
+          MakeFacetFiles(*facets[i], painted, input.photos, painting.gains, options.orthophotos));
     }));
     textured[i] = StoreFacet(std::move(files), *facets[i], names[i], input, context.out);
     context.progress->Advance();
@@ -196,7 +203,8 @@ int EncodingThreads(const TextureSet& textures, const StageContext& context) {
 void RunTexture(const TextureOptions& options, StageContext& context) {
   // 1. What there is.
   const TextureInput input = ReadTextureInput(context, options);
-  const std::vector<const Facet*> facets = FacetsToPaint(input.proxy, options.ground);
+  Painting painting;
+  painting.facets = FacetsToPaint(input.proxy, options.ground);
   for (const char* folder : {"textures", "labels"}) {
     std::filesystem::create_directories(context.out / folder);
   }
@@ -207,15 +215,15 @@ void RunTexture(const TextureOptions& options, StageContext& context) {
   const std::vector<NearestPoints> nearest = SplatAll(input, context);
   PhotoCache cache(context.photos, context.memory_limit_bytes / 3);
   const PaintScene scene{
-      input.photos, {&occlusion, nearest, input.cloud}, &cache, input.proxy.up.normalized()};
+      {input.photos, &occlusion, nearest, input.cloud}, &cache, input.proxy.up.normalized()};
 
   // 3. Who sees each facet, how finely and how brightly.
-  const std::vector<FacetLook> looks = LookAtAll(facets, input, scene, options, context);
-  const std::vector<Eigen::Vector3d> gains = GainsFrom(looks, input.photos.size());
+  painting.looks = LookAtAll(painting.facets, input, scene, options, context);
+  painting.gains = GainsFrom(painting.looks, input.photos.size());
 
   // 4. Paint.
   TextureSet textures;
-  textures.facets = PaintAll(facets, looks, gains, input, scene, options, context);
+  textures.facets = PaintAll(painting, input, scene, options, context);
   ReportFindings(textures.facets, *context.progress);
   NoteLimited(textures.facets, options.max_texture_px, *context.progress);
 

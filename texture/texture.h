@@ -2,35 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "survey/options.h"
 #include "survey/stage.h"
+#include "texture/options.h"
 
 namespace stucco {
-
-// How facets are painted. Lengths in texels ("_px") are texels of the finished picture.
-struct TextureOptions {
-  double texel_size = 0;  // world units; 0: from the photos, facet by facet
-  int max_texture_px = 8192;
-  double max_angle_deg = 78;
-  int max_candidates = 16;
-  bool guided = true;
-  int cell_px = 16;
-  double photo_cost = 0.03;
-  double seam_cost = 1.0;
-  double min_region = 0.01;
-  bool occluders = true;
-  bool align = true;
-  double align_limit_px = 8;
-  bool colour = true;
-  bool blend = true;
-  bool inpaint = true;
-  bool ground = true;
-  bool orthophotos = true;
-  int glb_max_px = 4096;
-  int glb_quality = 90;
-};
-
-void Describe(OptionTable& table, TextureOptions& options);
 
 // Paints every facet of proxy/facets.json with the few photos that show it best and writes
 // textures/, labels/, orthophotos/, model.glb, model.obj with model.mtl, and textures.json below

@@ -43,7 +43,7 @@ bool OcclusionScene::Blocked(const Eigen::Vector3d& from, const Eigen::Vector3d&
   return occluders_.Block(from, to - from, 1);
 }
 
-NearestPoints SplatNearest(const TexturePhoto& photo, std::span<const Eigen::Vector3d> points,
+NearestPoints SplatNearest(const SurveyPhoto& photo, std::span<const Eigen::Vector3d> points,
                            int most_px) {
   struct Splat {
     Eigen::Vector2d pixel;
@@ -80,9 +80,10 @@ NearestPoints SplatNearest(const TexturePhoto& photo, std::span<const Eigen::Vec
   return out;
 }
 
-CloudView AskCloud(const NearestPoints& nearest, std::span<const Eigen::Vector3d> points,
-                   const TexturePhoto& photo, const Eigen::Vector2d& pixel, const Facet& facet,
-                   double clearance) {
+CloudView AskCloud(const SightScene& scene, int photo_index, const Eigen::Vector2d& pixel,
+                   const Facet& facet, double clearance) {
+  const SurveyPhoto& photo = scene.photos[photo_index];
+  const NearestPoints& nearest = scene.nearest[photo_index];
   const double camera_height = facet.normal.dot(photo.cam_from_world.Center()) - facet.offset;
   const int x = static_cast<int>(pixel.x() * nearest.width / photo.camera.width_px);
   const int y = static_cast<int>(pixel.y() * nearest.height / photo.camera.height_px);
@@ -95,7 +96,7 @@ CloudView AskCloud(const NearestPoints& nearest, std::span<const Eigen::Vector3d
       const int32_t i = nearest.index[static_cast<size_t>(row) * nearest.width + column];
       if (i < 0) continue;
       ++all;
-      const double height = facet.normal.dot(points[i]) - facet.offset;
+      const double height = facet.normal.dot(scene.points[i]) - facet.offset;
       const bool close = std::abs(row - y) <= 1 && std::abs(column - x) <= 1;
       near += close;
       in_front += close && height > clearance && height < camera_height;

@@ -9,7 +9,7 @@
 
 #include "survey/occluders.h"
 #include "survey/proxy.h"
-#include "texture/photo.h"
+#include "survey/survey_photo.h"
 
 namespace stucco {
 
@@ -34,8 +34,17 @@ struct NearestPoints {
 };
 
 // The raster gets as fine as the points are dense, between 100 and `most_px` cells wide.
-NearestPoints SplatNearest(const TexturePhoto& photo, std::span<const Eigen::Vector3d> points,
+NearestPoints SplatNearest(const SurveyPhoto& photo, std::span<const Eigen::Vector3d> points,
                            int most_px);
+
+// The photos of a survey and what hides surfaces from them. `nearest` is empty or holds one raster
+// per photo.
+struct SightScene {
+  std::span<const SurveyPhoto> photos;
+  const OcclusionScene* occlusion = nullptr;
+  std::span<const NearestPoints> nearest;
+  std::span<const Eigen::Vector3d> points;  // the cloud that `nearest` points into
+};
 
 // What the cloud says about a place on a facet as one photo sees it.
 enum class CloudView {
@@ -45,12 +54,11 @@ enum class CloudView {
   kBeyond,    // the photo looks past the facet at things behind its plane
 };
 
-// Looks at the splats around `pixel`, where the photo sees the facet's plane. Points more than
+// Looks at the photo's splats around `pixel`, where it sees the facet's plane. Points more than
 // `clearance` (world units) on the outer side of the plane, nearer to it than the photo, are in
 // front; it takes two of the nine nearest splats, as one may be noise. Beyond means that of the
 // twenty-five nearest at least three hold points, all farther than `clearance` behind the plane.
-CloudView AskCloud(const NearestPoints& nearest, std::span<const Eigen::Vector3d> points,
-                   const TexturePhoto& photo, const Eigen::Vector2d& pixel, const Facet& facet,
-                   double clearance);
+CloudView AskCloud(const SightScene& scene, int photo, const Eigen::Vector2d& pixel,
+                   const Facet& facet, double clearance);
 
 }  // namespace stucco

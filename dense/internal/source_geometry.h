@@ -16,7 +16,7 @@ struct SourceGeometry {
   Eigen::Matrix3f source_from_reference = Eigen::Matrix3f::Zero();  // rotation
   Eigen::Vector3f translation = Eigen::Vector3f::Zero();
 
-  SourceGeometry(const PinholeView& reference, const PinholeView& source) {
+  SourceGeometry(const PinholeCamera& reference, const PinholeCamera& source) {
     source_from_reference = source.rotation * reference.rotation.transpose();
     const Eigen::Vector3d moved =
         source.translation - source_from_reference.cast<double>() * reference.translation;
@@ -28,7 +28,7 @@ struct SourceGeometry {
 
   // Row-major homography of the plane through `point` (reference camera frame) with normal
   // `normal`.
-  void Homography(const PinholeView& reference, const Eigen::Vector3f& point,
+  void Homography(const PinholeCamera& reference, const Eigen::Vector3f& point,
                   const Eigen::Vector3f& normal, float out[9]) const {
     const float inverse_d = 1 / normal.dot(point);
     const float mx = normal.x() / reference.fx * inverse_d;
@@ -41,12 +41,12 @@ struct SourceGeometry {
     }
   }
 
-  static Eigen::Matrix3f Intrinsics(const PinholeView& view) {
+  static Eigen::Matrix3f Intrinsics(const PinholeCamera& view) {
     Eigen::Matrix3f k;
     k << view.fx, 0, view.cx, 0, view.fy, view.cy, 0, 0, 1;
     return k;
   }
-  static Eigen::Matrix3f InverseIntrinsics(const PinholeView& view) {
+  static Eigen::Matrix3f InverseIntrinsics(const PinholeCamera& view) {
     Eigen::Matrix3f k;
     k << 1 / view.fx, 0, -view.cx / view.fx, 0, 1 / view.fy, -view.cy / view.fy, 0, 0, 1;
     return k;

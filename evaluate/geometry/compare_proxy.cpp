@@ -76,8 +76,9 @@ void CountBuildings(const Proxy& result, ProxyFigures& figures) {
 }
 
 bool IsPartOf(const std::string& facade, const Facet& facet) {
-  const auto& others = facet.other_facades;
-  return facet.facade == facade || std::find(others.begin(), others.end(), facade) != others.end();
+  const auto& planned = facet.planned_facades;
+  return FacadeName(facet) == facade ||
+         std::find(planned.begin(), planned.end(), facade) != planned.end();
 }
 
 double FacadeIdRate(const std::vector<TruthFacet>& matched) {
@@ -86,7 +87,7 @@ double FacadeIdRate(const std::vector<TruthFacet>& matched) {
     if (!IsFacade(*wall.truth)) continue;
     double with_id = 0;
     for (const FacetMatch& match : wall.matches) {
-      if (IsPartOf(wall.truth->facade, *match.result)) with_id += match.overlap_m2;
+      if (IsPartOf(FacadeName(*wall.truth), *match.result)) with_id += match.overlap_m2;
     }
     // What is below the ground need not be there. Overlaps are sums of many pieces: what is all of
     // it but for rounding is all of it.

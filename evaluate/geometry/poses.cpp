@@ -30,8 +30,8 @@ std::string FileName(const std::string& path) {
 
 // Posed photos by their path, and by their file name where only one has it.
 struct PhotosByName {
-  std::map<std::string, const PosedPhoto*> by_path;
-  std::map<std::string, std::vector<const PosedPhoto*>> by_file;
+  std::map<std::string, const RegisteredImage*> by_path;
+  std::map<std::string, std::vector<const RegisteredImage*>> by_file;
 
   explicit PhotosByName(const Reconstruction& reconstruction) {
     for (const auto& [id, photo] : reconstruction.photos) {
@@ -39,7 +39,7 @@ struct PhotosByName {
       by_file[FileName(photo.name)].push_back(&photo);
     }
   }
-  const PosedPhoto* Find(const std::string& path) const {
+  const RegisteredImage* Find(const std::string& path) const {
     if (const auto found = by_path.find(path); found != by_path.end()) return found->second;
     const auto found = by_file.find(FileName(path));
     return found != by_file.end() && found->second.size() == 1 ? found->second[0] : nullptr;
@@ -168,7 +168,7 @@ PoseComparison ComparePoses(const Reconstruction& result, const Georef& survey,
   PoseComparison comparison;
   for (const simulate::FlownPhoto* photo : DeliveredPhotos(truth)) {
     ++comparison.figures.total;
-    const PosedPhoto* found = posed.Find(photo->path);
+    const RegisteredImage* found = posed.Find(photo->path);
     if (found) pairs.push_back({photo->path, photo->cam_from_world, found->cam_from_world});
   }
   comparison.figures.posed = static_cast<int>(pairs.size());

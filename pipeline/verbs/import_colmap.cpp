@@ -123,7 +123,7 @@ void ScaleToPhotos(const fs::path& photos, Reconstruction& model, ImportReport& 
   }
 }
 
-CalibratedPhoto DescribePhoto(const Reconstruction& model, const PosedPhoto& photo) {
+CalibratedPhoto DescribePhoto(const Reconstruction& model, const RegisteredImage& photo) {
   CalibratedPhoto result;
   result.path = photo.name;
   const Camera& camera = model.cameras.at(photo.camera);

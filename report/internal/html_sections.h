@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "report/facade_rows.h"
+#include "report/facet_rows.h"
 #include "report/pictures.h"
 #include "report/survey_data.h"
 
@@ -15,8 +15,8 @@ namespace stucco::internal {
 // The page's content that the sections share.
 struct PageContent {
   const SurveyData& data;
-  const std::vector<FacadeRow>& rows;
-  const std::vector<FacadePictures>& pictures;  // by row
+  const std::vector<FacetRow>& rows;
+  const std::vector<FacetPictures>& pictures;  // by row
   const ReportOptions& options;
 };
 
@@ -40,6 +40,6 @@ std::string VerdictLabel(Verdict verdict);  // "Good", "Check", "Poor", "Not rat
 std::string Figure(std::string_view name, std::string_view value, std::string_view note = {});
 
 // Rows in the order of the table: the worst first, larger ones before smaller ones.
-std::vector<size_t> WorstFirst(const std::vector<FacadeRow>& rows);
+std::vector<size_t> WorstFirst(const std::vector<FacetRow>& rows);
 
 }  // namespace stucco::internal

@@ -462,7 +462,6 @@ std::vector<Facet> GroundFacets(const Town& town, const GroundGrid& grid) {
                    [](const Facet& a, const Facet& b) { return a.area > b.area; });
   for (size_t i = 0; i < facets.size(); ++i) {
     facets[i].id = fmt::format("G{}", i);
-    facets[i].facade = facets[i].id;
   }
   return facets;
 }

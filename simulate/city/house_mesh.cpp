@@ -266,7 +266,6 @@ Building TruthOf(const House& house, const Solid& solid, const std::vector<std::
   building.facets.push_back(FacetOf(solid, solid.faces.back()));
   building.facets.back().id = house.id + "/G0";
   hide(building.facets.back());
-  for (Facet& facet : building.facets) facet.facade = facet.id;
   return building;
 }
 

@@ -178,7 +178,7 @@ Reconstruction ModelOf(const Flight& flight) {
     if (photo.held_out || photo.lost) continue;
     model.cameras.emplace(photo.camera.id, photo.camera);
     const PhotoId id{next++};
-    model.photos[id] = PosedPhoto{id, photo.camera.id, photo.path, photo.cam_from_world, {}};
+    model.photos[id] = RegisteredImage{id, photo.camera.id, photo.path, photo.cam_from_world, {}};
   }
   return model;
 }

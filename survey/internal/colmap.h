@@ -17,7 +17,7 @@ Reconstruction ReadColmapText(const std::filesystem::path& folder);
 // Adds one entry; an id that is there already is an error. `where` (file and position) is for the
 // message.
 void AddCamera(Camera camera, const std::string& where, Reconstruction& reconstruction);
-void AddPhoto(PosedPhoto photo, const std::string& where, Reconstruction& reconstruction);
+void AddPhoto(RegisteredImage photo, const std::string& where, Reconstruction& reconstruction);
 void AddPoint(TrackPoint point, const std::string& where, Reconstruction& reconstruction);
 
 // The rotation stored as w x y z, which other programs round; throws when it is no rotation at all.

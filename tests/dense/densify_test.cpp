@@ -29,7 +29,7 @@ Reconstruction SparseModel() {
   r.cameras[camera.id] = camera;
   const std::vector<Pose> poses = PosesAround(kPhotos);
   for (uint32_t i = 0; i < kPhotos; ++i) {
-    PosedPhoto& photo = r.photos[PhotoId{i + 1}];
+    RegisteredImage& photo = r.photos[PhotoId{i + 1}];
     photo.id = PhotoId{i + 1};
     photo.camera = camera.id;
     photo.name = "flight/" + std::to_string(i) + ".jpg";
@@ -66,7 +66,7 @@ class Densify : public testing::Test {
     fs::create_directories(folder_ / "photos" / "flight");
     fs::create_directories(folder_ / "survey" / "ingest");
     for (const auto& [id, posed] : r.photos) {
-      const PinholeView view = PinholeLevels(SmallCamera(), posed.cam_from_world, 0, 1)[0];
+      const PinholeCamera view = PinholeLevels(SmallCamera(), posed.cam_from_world, 0, 1)[0];
       WriteImage(Render(view, TwoWalls()), folder_ / "photos" / posed.name, 97);
       CapturedPhoto photo;
       photo.path = posed.name;

@@ -18,23 +18,23 @@ class Fusing : public testing::Test {
     planes_ = planes;
     poses_ = PosesAround(count);
     for (int i = 0; i < count; ++i) {
-      FusePhoto photo;
-      photo.id = static_cast<uint32_t>(10 * (count - i));  // not in order of the photos
-      photo.view = PinholeLevels(SmallCamera(), poses_[i], 0, 1)[0];
+      input_.ids.push_back({static_cast<uint32_t>(10 * (count - i))});  // not in order
+      input_.cameras.push_back(PinholeLevels(SmallCamera(), poses_[i], 0, 1)[0]);
+      std::vector<int>& sources = input_.sources.emplace_back();
       for (int s = 0; s < count; ++s) {
-        if (s != i) photo.sources.push_back(s);
+        if (s != i) sources.push_back(s);
       }
-      photos_.push_back(photo);
-      maps_.push_back(std::make_shared<DepthMap>(TrueDepths(photo.view, planes)));
+      maps_.push_back(std::make_shared<DepthMap>(TrueDepths(input_.cameras[i], planes)));
       auto pyramid = std::make_shared<ViewPyramid>();
-      pyramid->color = Render(photo.view, planes);
+      pyramid->color = Render(input_.cameras[i], planes);
       colors_.push_back(pyramid);
     }
   }
 
   PointCloud Run(const FuseOptions& options = {}) {
-    return Fuse(photos_, {[this](int i) { return maps_[i]; }, [this](int i) { return colors_[i]; }},
-                options, [this] { ++photos_done_; });
+    input_.map = [this](int i) { return maps_[i]; };
+    input_.colors = [this](int i) { return colors_[i]; };
+    return Fuse(input_, options, [this] { ++photos_done_; });
   }
 
   double DistanceFromPlanes(const Eigen::Vector3d& point) const {
@@ -45,7 +45,7 @@ class Fusing : public testing::Test {
 
   std::vector<MadePlane> planes_;
   std::vector<Pose> poses_;
-  std::vector<FusePhoto> photos_;
+  FuseInput input_;
   std::vector<std::shared_ptr<DepthMap>> maps_;
   std::vector<std::shared_ptr<const ViewPyramid>> colors_;
   int photos_done_ = 0;
@@ -80,7 +80,7 @@ TEST_F(Fusing, ColoursComeFromThePhotos) {
   Make(3, {SlantedWall()});
   const PointCloud cloud = Run();
   ASSERT_GT(cloud.size(), 1000u);
-  const PinholeView& view = photos_[0].view;
+  const PinholeCamera& view = input_.cameras[0];
   int checked = 0;
   for (size_t i = 0; i < cloud.size() && checked < 500; ++i) {
     const Eigen::Vector3d p = poses_[0] * cloud.positions[i];

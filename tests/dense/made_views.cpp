@@ -40,7 +40,7 @@ double Texture(double u, double v) {
   return value;
 }
 
-double GrayAt(const PinholeView& view, const std::vector<MadePlane>& planes, double x, double y) {
+double GrayAt(const PinholeCamera& view, const std::vector<MadePlane>& planes, double x, double y) {
   const auto hit = FirstHit(view, planes, x, y);
   if (!hit) return 128;
   const Eigen::Vector3d in_cam((x - view.cx) / view.fx * hit->depth,
@@ -57,8 +57,8 @@ Camera SmallCamera() {
   return {CameraId{1}, CameraModel::kPinhole, 200, 150, {200, 200, 100, 75}};
 }
 
-std::optional<Hit> FirstHit(const PinholeView& view, const std::vector<MadePlane>& planes, double x,
-                            double y) {
+std::optional<Hit> FirstHit(const PinholeCamera& view, const std::vector<MadePlane>& planes,
+                            double x, double y) {
   const Eigen::Matrix3d world_from_cam = view.rotation.cast<double>().transpose();
   const Eigen::Vector3d origin = -(world_from_cam * view.translation);
   const Eigen::Vector3d ray =
@@ -78,7 +78,7 @@ std::optional<Hit> FirstHit(const PinholeView& view, const std::vector<MadePlane
   return first;
 }
 
-Image Render(const PinholeView& view, const std::vector<MadePlane>& planes) {
+Image Render(const PinholeCamera& view, const std::vector<MadePlane>& planes) {
   Image image{view.width, view.height, 3, {}};
   image.data.resize(size_t{3} * view.width * view.height);
   constexpr int kSamples = 3;
@@ -95,7 +95,7 @@ Image Render(const PinholeView& view, const std::vector<MadePlane>& planes) {
   return image;
 }
 
-DepthMap TrueDepths(const PinholeView& view, const std::vector<MadePlane>& planes) {
+DepthMap TrueDepths(const PinholeCamera& view, const std::vector<MadePlane>& planes) {
   DepthMap map = EmptyDepthMap(view.width, view.height);
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
@@ -146,9 +146,9 @@ std::vector<Pose> PosesAround(int count) {
 std::shared_ptr<const ViewPyramid> MadePyramid(const Pose& pose,
                                                const std::vector<MadePlane>& planes) {
   auto pyramid = std::make_shared<ViewPyramid>();
-  pyramid->views = PinholeLevels(SmallCamera(), pose, 0, 3);
-  pyramid->color = Render(pyramid->views[0], planes);
-  for (const PinholeView& view : pyramid->views) {
+  pyramid->cameras = PinholeLevels(SmallCamera(), pose, 0, 3);
+  pyramid->color = Render(pyramid->cameras[0], planes);
+  for (const PinholeCamera& view : pyramid->cameras) {
     const Image image = Render(view, planes);
     std::vector<uint8_t> gray;
     for (size_t i = 0; i < image.data.size(); i += 3) gray.push_back(image.data[i]);

@@ -39,15 +39,15 @@ struct Hit {
   double depth = 0;
   const MadePlane* plane = nullptr;
 };
-std::optional<Hit> FirstHit(const PinholeView& view, const std::vector<MadePlane>& planes, double x,
-                            double y);
+std::optional<Hit> FirstHit(const PinholeCamera& view, const std::vector<MadePlane>& planes,
+                            double x, double y);
 
 // The planes as the view sees them, with detail down to two or three pixels; the background is
 // evenly grey.
-Image Render(const PinholeView& view, const std::vector<MadePlane>& planes);
+Image Render(const PinholeCamera& view, const std::vector<MadePlane>& planes);
 
 // True depths and normals, cost 0.
-DepthMap TrueDepths(const PinholeView& view, const std::vector<MadePlane>& planes);
+DepthMap TrueDepths(const PinholeCamera& view, const std::vector<MadePlane>& planes);
 
 // A slanted wall five metres before a camera in the origin that looks along +z.
 MadePlane SlantedWall();

@@ -31,7 +31,7 @@ PatchMatchInput InputOf(const Pyramids& pyramids, const std::vector<MadePlane>& 
   for (int k = 0; k < 40; ++k) {
     const auto x = static_cast<float>(10 + k * 37 % 180);
     const auto y = static_cast<float>(10 + k * 53 % 130);
-    const auto hit = FirstHit(pyramids[index]->views[0], planes, x, y);
+    const auto hit = FirstHit(pyramids[index]->cameras[0], planes, x, y);
     if (hit) input.seeds.push_back({x, y, static_cast<float>(hit->depth)});
   }
   return input;
@@ -47,7 +47,7 @@ struct Quality {
   double normal_error = 0;  // median, radians
 };
 
-Quality Measure(const DepthMap& map, const PinholeView& view,
+Quality Measure(const DepthMap& map, const PinholeCamera& view,
                 const std::vector<MadePlane>& planes) {
   const DepthMap truth = TrueDepths(view, planes);
   Quality quality;
@@ -73,7 +73,7 @@ TEST(MatchDepths, FindsASlantedWall) {
   const std::vector<MadePlane> planes = {SlantedWall()};
   const Pyramids pyramids = MakePyramids(4, planes);
   const DepthMap map = MatchDepths(InputOf(pyramids, planes, 0), Options());
-  const Quality quality = Measure(map, pyramids[0]->views[0], planes);
+  const Quality quality = Measure(map, pyramids[0]->cameras[0], planes);
   EXPECT_GT(quality.found, 0.95);
   EXPECT_GT(quality.within, 0.95);
   EXPECT_LT(quality.normal_error, 0.15);
@@ -84,7 +84,7 @@ TEST(MatchDepths, FindsItWithoutSparsePointsToo) {
   const Pyramids pyramids = MakePyramids(3, planes);
   PatchMatchInput input = InputOf(pyramids, planes, 0);
   input.seeds.clear();
-  const Quality quality = Measure(MatchDepths(input, Options()), pyramids[0]->views[0], planes);
+  const Quality quality = Measure(MatchDepths(input, Options()), pyramids[0]->cameras[0], planes);
   EXPECT_GT(quality.found, 0.9);
   EXPECT_GT(quality.within, 0.9);
 }
@@ -100,8 +100,8 @@ TEST(MatchDepths, SecondPassDoesNotHurt) {
   input.start = &first[0];
   input.source_maps = {&first[1], &first[2]};
   const DepthMap second = MatchDepths(input, Options());
-  const Quality before = Measure(first[0], pyramids[0]->views[0], planes);
-  const Quality after = Measure(second, pyramids[0]->views[0], planes);
+  const Quality before = Measure(first[0], pyramids[0]->cameras[0], planes);
+  const Quality after = Measure(second, pyramids[0]->cameras[0], planes);
   EXPECT_GT(before.within, 0.93);
   EXPECT_GE(after.within, before.within - 0.002);
   EXPECT_GE(after.found, before.found - 0.01);
@@ -130,7 +130,7 @@ TEST(MatchDepths, LeavesFlatSkyEmpty) {
     }
   }
   EXPECT_LT(sky_found, 0.002 * sky);
-  EXPECT_GT(Measure(map, pyramids[0]->views[0], planes).found, 0.9);
+  EXPECT_GT(Measure(map, pyramids[0]->cameras[0], planes).found, 0.9);
 }
 
 TEST(MatchDepths, StaysInItsBounds) {
@@ -157,7 +157,7 @@ TEST(MatchDepths, NormalsFaceTheCamera) {
       const size_t i = map.Index(x, y);
       if (map.depths[i] <= 0) continue;
       const Eigen::Vector3f ray =
-          pyramids[0]->views[0].Ray(static_cast<float>(x), static_cast<float>(y));
+          pyramids[0]->cameras[0].Ray(static_cast<float>(x), static_cast<float>(y));
       EXPECT_LT(map.Normal(i).dot(ray), 0);
     }
   }

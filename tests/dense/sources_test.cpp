@@ -19,7 +19,7 @@ Reconstruction WallSeenFrom(const std::vector<Eigen::Vector3d>& places, int poin
   Camera camera = SmallCamera();
   r.cameras[camera.id] = camera;
   for (uint32_t i = 0; i < places.size(); ++i) {
-    PosedPhoto& photo = r.photos[PhotoId{i + 1}];
+    RegisteredImage& photo = r.photos[PhotoId{i + 1}];
     photo.id = PhotoId{i + 1};
     photo.camera = camera.id;
     photo.name = std::to_string(i) + ".jpg";
@@ -86,7 +86,7 @@ TEST(ChooseSources, BoundsDepthsWithAMargin) {
 TEST(ChooseSources, SeedsAreInPixelsOfTheReducedPhoto) {
   const Reconstruction r = WallSeenFrom({{0, 0, 0}, {1, 0, 0}}, 60);
   const SourceChoice choice = ChooseSources(r, 6, 100).at(PhotoId{2});
-  const PosedPhoto& photo = r.photos.at(PhotoId{2});
+  const RegisteredImage& photo = r.photos.at(PhotoId{2});
   ASSERT_EQ(choice.seeds.size(), photo.observations.size());
   for (size_t i = 0; i < choice.seeds.size(); ++i) {
     // Half the size, and the middle of the first pixel at 0 instead of 0.5.

@@ -44,7 +44,7 @@ TEST(PinholeLevels, ProjectAsTheCameraDoes) {
   double share = 1;
   for (size_t level = 0; level < 3; ++level) {
     share /= 2;
-    const PinholeView& view = levels[level];
+    const PinholeCamera& view = levels[level];
     EXPECT_EQ(view.width, 400 >> (level + 1));
     EXPECT_EQ(view.height, 300 >> (level + 1));
     // Uneven sizes lose up to a pixel when they are halved.
@@ -56,7 +56,7 @@ TEST(PinholeLevels, ProjectAsTheCameraDoes) {
 }
 
 TEST(PinholeLevels, NeverReachSizeZero) {
-  for (const PinholeView& view : PinholeLevels(DistortedCamera(), {}, 4, 6)) {
+  for (const PinholeCamera& view : PinholeLevels(DistortedCamera(), {}, 4, 6)) {
     EXPECT_GE(view.width, 1);
     EXPECT_GE(view.height, 1);
     EXPECT_GT(view.fx, 0);
@@ -80,17 +80,23 @@ Image DistortedPicture(const Camera& camera) {
   return image;
 }
 
+SurveyPhoto DistortedPhoto(const std::string& path) {
+  SurveyPhoto photo;
+  photo.captured.path = path;
+  photo.camera = DistortedCamera();
+  return photo;
+}
+
 TEST(LoadView, TakesTheDistortionOut) {
   const TemporaryFolder folder;
-  const Camera camera = DistortedCamera();
-  WriteImage(DistortedPicture(camera), folder / "photo.jpg", 98);
+  WriteImage(DistortedPicture(DistortedCamera()), folder / "photo.jpg", 98);
   for (const int max_px : {400, 200}) {
-    const auto pyramid = LoadView(folder / "photo.jpg", camera, {}, max_px, 3);
-    ASSERT_EQ(pyramid->views.size(), 3u);
+    const auto pyramid = LoadView(folder.path(), DistortedPhoto("photo.jpg"), max_px, 3);
+    ASSERT_EQ(pyramid->cameras.size(), 3u);
     ASSERT_EQ(pyramid->images.size(), 3u);
     EXPECT_EQ(pyramid->color.width_px, max_px);
     for (size_t level = 0; level < 3; ++level) {
-      const PinholeView& view = pyramid->views[level];
+      const PinholeCamera& view = pyramid->cameras[level];
       const PackedImage& image = pyramid->images[level];
       ASSERT_EQ(image.width, view.width);
       ASSERT_EQ(image.gray.size(), static_cast<size_t>(view.width) * view.height);
@@ -113,17 +119,17 @@ TEST(LoadView, TakesTheDistortionOut) {
 TEST(LoadView, NamesADamagedPhoto) {
   const TemporaryFolder folder;
   WriteFile(folder / "broken.jpg", "not a picture");
-  ExpectBadInput([&] { LoadView(folder / "broken.jpg", DistortedCamera(), {}, 200, 3); },
-                 "broken.jpg");
-  ExpectBadInput([&] { LoadView(folder / "gone.jpg", DistortedCamera(), {}, 200, 3); }, "gone.jpg");
+  for (const std::string path : {"broken.jpg", "gone.jpg"}) {
+    ExpectBadInput([&] { LoadView(folder.path(), DistortedPhoto(path), 200, 3); }, path);
+  }
 }
 
 TEST(SourceGeometry, TakesPointsOfAPlaneToTheSource) {
   const Pose a{Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX())), {0.1, 0.2, 0}};
   const Pose b{Eigen::Quaterniond(Eigen::AngleAxisd(-0.2, Eigen::Vector3d(1, 1, 0).normalized())),
                {-0.8, 0.1, 0.3}};
-  const PinholeView reference = PinholeLevels(DistortedCamera(), a, 400, 1)[0];
-  const PinholeView source = PinholeLevels(DistortedCamera(), b, 200, 1)[0];
+  const PinholeCamera reference = PinholeLevels(DistortedCamera(), a, 400, 1)[0];
+  const PinholeCamera source = PinholeLevels(DistortedCamera(), b, 200, 1)[0];
   const SourceGeometry geometry(reference, source);
   const Eigen::Vector3f point(0.3f, -0.2f, 6);
   const Eigen::Vector3f normal = Eigen::Vector3f(0.3f, 0.1f, -1).normalized();

@@ -105,10 +105,13 @@ TEST(CompareProxy, OpenAndCrossingBuildingsAreCounted) {
 
 TEST(CompareProxy, WrongIdsAreWrong) {
   Proxy result = MadeTruth();
-  result.buildings[0].facets[0].facade = "B0007/F00";  // 60 of 504 m2
+  result.buildings[0].facets[0].planned_facades = {"B0007/F00"};  // 60 of 504 m2
   EXPECT_NEAR(Compare(result, MadeTruth(), 0.05).facade_id_rate, 444.0 / 504, 1e-9);
   for (Building& building : result.buildings) {
-    for (Facet& facet : building.facets) facet.facade = facet.id = "own/" + facet.id;
+    for (Facet& facet : building.facets) {
+      facet.id = "own/" + facet.id;
+      facet.planned_facades.clear();
+    }
   }
   EXPECT_EQ(Compare(result, MadeTruth(), 0.05).facade_id_rate, 0);
 }
@@ -116,7 +119,7 @@ TEST(CompareProxy, WrongIdsAreWrong) {
 TEST(CompareProxy, WallsToANeighbourNeedNoId) {
   Proxy result = MadeTruth();
   Proxy truth = MadeTruth();
-  result.buildings[0].facets[0].facade = "own/W00";
+  result.buildings[0].facets[0].id = "own/W00";
   truth.buildings[0].facets[0].seen = 0;
   EXPECT_NEAR(Compare(result, truth, 0.05).facade_id_rate, 1, 1e-9);
 }
@@ -127,7 +130,7 @@ TEST(CompareProxy, WhatIsBelowTheGroundNeedsNoId) {
   Facet& buried = truth.buildings[0].facets[0];  // 10 x 6 m
   buried.seen = 0.5;
   EXPECT_NEAR(Compare(result, truth, 0.05).facade_id_rate, 1, 1e-9);
-  result.buildings[0].facets[0].facade = "B0007/F00";
+  result.buildings[0].facets[0].planned_facades = {"B0007/F00"};
   EXPECT_NEAR(Compare(result, truth, 0.05).facade_id_rate, 444.0 / 474, 1e-9);
 }
 
@@ -150,7 +153,7 @@ Proxy Cut(const Proxy& proxy, int strips) {
         Facet strip =
             MadeFacet(facet.id + "-" + std::to_string(i), facet.facet_class,
                       {between(0, i), between(0, i + 1), between(1, i + 1), between(1, i)});
-        strip.facade = facet.facade;
+        strip.planned_facades = {FacadeName(facet)};
         facets.push_back(strip);
       }
     }
@@ -182,11 +185,11 @@ TEST(CompareProxy, AFacetThatSpansTwoFacadesNamesBoth) {
   const Proxy result = truth;
   Facet east = west;
   west.outer[1].x() = west.outer[2].x() = east.outer[0].x() = east.outer[3].x() = 4;
-  east.id = east.facade = "B0001/F09";
+  east.id = "B0001/F09";
   truth.buildings[0].facets.push_back(east);
   EXPECT_NEAR(Compare(result, truth, 0.05).facade_id_rate, (504 - 36) / 504.0, 1e-9);
   Proxy named = result;
-  named.buildings[0].facets[0].other_facades = {"B0009/F00", "B0001/F09"};
+  named.buildings[0].facets[0].planned_facades = {west.id, "B0009/F00", "B0001/F09"};
   EXPECT_NEAR(Compare(named, truth, 0.05).facade_id_rate, 1, 1e-9);
 }
 

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 Facet MadeFacet(const std::string& id, FacetClass facet_class, const std::vector<Vector3d>& outer) {
   Facet facet;
-  facet.id = facet.facade = id;
+  facet.id = id;
   facet.facet_class = facet_class;
   facet.outer = outer;
   Vector3d twice_area = Vector3d::Zero();

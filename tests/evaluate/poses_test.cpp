@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-void Turn(double angle_deg, PosedPhoto& photo) {
+void Turn(double angle_deg, RegisteredImage& photo) {
   const Vector3d centre = photo.cam_from_world.Center();
   photo.cam_from_world.rotation =
       Eigen::AngleAxisd(angle_deg * std::numbers::pi / 180, Vector3d::UnitX()) *
@@ -26,7 +26,7 @@ void Turn(double angle_deg, PosedPhoto& photo) {
   photo.cam_from_world.translation = -(photo.cam_from_world.rotation * centre);
 }
 
-void Shift(const Vector3d& by, PosedPhoto& photo) {
+void Shift(const Vector3d& by, RegisteredImage& photo) {
   photo.cam_from_world.translation -= photo.cam_from_world.rotation * by;
 }
 

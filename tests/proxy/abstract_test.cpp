@@ -22,6 +22,7 @@ using Eigen::Vector3d;
 using testing::Capture;
 using testing::Captured;
 using testing::CaptureOptions;
+using testing::InputOf;
 
 Georef Metric() {
   Georef georef;
@@ -34,8 +35,7 @@ Georef Metric() {
 Proxy Abstract(const Captured& captured, const Georef& georef = Metric(),
                const ProxyOptions& options = {}, int threads = 1) {
   ProxyFindings findings;
-  const Proxy proxy =
-      AbstractCloud(captured.cloud, captured.stations, georef, options, threads, findings);
+  const Proxy proxy = AbstractCloud(InputOf(captured, georef), options, threads, findings);
   EXPECT_EQ(FindProblem(proxy), std::nullopt);
   return proxy;
 }
@@ -84,13 +84,13 @@ TEST(AbstractCloud, AGableHouseIsClosedAndExact) {
   const Proxy proxy = Abstract(Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.01}));
   ASSERT_EQ(proxy.buildings.size(), 2u);
   const Building& building = proxy.buildings[0];
-  EXPECT_EQ(building.id, "B0001");
+  EXPECT_EQ(building.id, "C0001");
   EXPECT_TRUE(building.watertight);
   ASSERT_EQ(building.facets.size(), 7u);
   EXPECT_EQ(Count(building, FacetClass::kWall), 4);
   EXPECT_EQ(Count(building, FacetClass::kRoof), 2);
   EXPECT_EQ(Count(building, FacetClass::kGround), 1);
-  EXPECT_EQ(building.facets[0].id, "B0001/W00");
+  EXPECT_EQ(building.facets[0].id, "C0001/W00");
   EXPECT_EQ(FindOpening(building.facets), std::nullopt);
   ExpectTruth(house, building, 0.2, 0.01, 0.01);
   const Building& ground = proxy.buildings[1];
@@ -131,7 +131,7 @@ TEST(AbstractCloud, BearsNoiseStraysAndTrees) {
         Capture({house}, {testing::GroundSquare(20)}, {.noise = noise, .outliers = 0.1});
     testing::AddTree({11, -6, 3}, 2, 6000, 4, captured);
     const Proxy proxy = Abstract(captured);
-    const Building* building = Find(proxy, "B0001");
+    const Building* building = Find(proxy, "C0001");
     ASSERT_NE(building, nullptr);
     EXPECT_TRUE(building->watertight) << noise;
     EXPECT_EQ(building->facets.size(), 7u) << noise;
@@ -159,7 +159,7 @@ TEST(AbstractCloud, AFrontAloneStaysOpenFacets) {
   const auto house = testing::GableHouse();
   CaptureOptions options{.noise = 0.02, .front_only = true, .hide = {"east", "west"}};
   const Proxy proxy = Abstract(Capture({house}, {testing::GroundSquare(20)}, options));
-  const Building* building = Find(proxy, "B0001");
+  const Building* building = Find(proxy, "C0001");
   ASSERT_NE(building, nullptr);
   EXPECT_FALSE(building->watertight);
   ASSERT_EQ(building->facets.size(), 2u);
@@ -182,7 +182,7 @@ TEST(AbstractCloud, FindsUpAndScaleInAnArbitraryFrame) {
   const Proxy proxy = Abstract(captured, Georef{});
   EXPECT_LT(AngleDeg(proxy.up, rotation.col(2)), 0.5);
   EXPECT_FALSE(proxy.metric);
-  const Building* building = Find(proxy, "B0001");
+  const Building* building = Find(proxy, "C0001");
   ASSERT_NE(building, nullptr);
   EXPECT_LE(building->facets.size(), 7u);
   EXPECT_NE(Find(proxy, "G0"), nullptr);
@@ -217,7 +217,7 @@ TEST(AbstractCloud, WallsStandUprightInAFrameThatGpsTilted) {
   georef.source = "gps";
   const Proxy proxy = Abstract(captured, georef);
   EXPECT_LT(AngleDeg(proxy.up, tilt.col(2)), 0.1);
-  const Building* building = Find(proxy, "B0001");
+  const Building* building = Find(proxy, "C0001");
   ASSERT_NE(building, nullptr);
   EXPECT_TRUE(building->watertight);
   for (const Facet& facet : building->facets) {
@@ -234,7 +234,7 @@ TEST(AbstractCloud, TwoHousesAreTwoBuildings) {
       Capture({testing::BoxHouse(8, 6, 5, {-9, 0, 0}), testing::BoxHouse(6, 6, 7, {9, 0, 0})},
               {testing::GroundSquare(20)}, {.noise = 0.02}));
   ASSERT_EQ(proxy.buildings.size(), 3u);
-  for (const char* id : {"B0001", "B0002"}) {
+  for (const char* id : {"C0001", "C0002"}) {
     EXPECT_TRUE(Find(proxy, id)->watertight);
     EXPECT_EQ(Find(proxy, id)->facets.size(), 6u);
   }
@@ -286,8 +286,7 @@ TEST(AbstractCloud, AFewPointsMakeACoarserModelAndSaySo) {
   const Captured captured =
       Capture({testing::BoxHouse(14, 12, 9)}, {testing::GroundSquare(24)}, {.noise = 0.02});
   ProxyFindings findings;
-  const Proxy proxy =
-      AbstractCloud(captured.cloud, captured.stations, Metric(), {.max_points = 6000}, 1, findings);
+  const Proxy proxy = AbstractCloud(InputOf(captured, Metric()), {.max_points = 6000}, 1, findings);
   EXPECT_EQ(FindProblem(proxy), std::nullopt);
   ASSERT_EQ(proxy.buildings.size(), 2u);
   EXPECT_TRUE(proxy.buildings[0].watertight);
@@ -296,7 +295,7 @@ TEST(AbstractCloud, AFewPointsMakeACoarserModelAndSaySo) {
               ::testing::ElementsAre(::testing::AllOf(::testing::HasSubstr("instead of 0.3"),
                                                       ::testing::HasSubstr("proxy.max_points"))));
   ProxyFindings dense;
-  AbstractCloud(captured.cloud, captured.stations, Metric(), {}, 1, dense);
+  AbstractCloud(InputOf(captured, Metric()), {}, 1, dense);
   EXPECT_THAT(dense.warnings, ::testing::IsEmpty());
 }
 
@@ -319,7 +318,7 @@ TEST(AbstractCloud, IsTheSameOnAnyNumberOfThreads) {
 void ExpectRefusal(const PointCloud& cloud, const std::string& word) {
   ProxyFindings findings;
   try {
-    AbstractCloud(cloud, {}, Metric(), {}, 1, findings);
+    AbstractCloud({StreamOf(cloud), {}, Metric()}, {}, 1, findings);
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kStageFailed);
@@ -367,7 +366,7 @@ TEST(AbstractCloud, ASphereIsAtMostOpenFacets) {
   }
   ProxyFindings findings;
   try {
-    const Proxy proxy = AbstractCloud(cloud, {}, Metric(), {}, 1, findings);
+    const Proxy proxy = AbstractCloud({StreamOf(cloud), {}, Metric()}, {}, 1, findings);
     EXPECT_EQ(FindProblem(proxy), std::nullopt);
     for (const Building& building : proxy.buildings) {
       if (building.watertight) {
@@ -383,9 +382,15 @@ TEST(AbstractCloud, RefusesABadUp) {
   ProxyFindings findings;
   const Captured captured = Capture({testing::BoxHouse(8, 6, 5)}, {}, {.spacing = 0.2});
   for (const std::vector<double>& up : {std::vector<double>{0, 0, 0}, {1, 2}}) {
-    EXPECT_THROW(
-        AbstractCloud(captured.cloud, captured.stations, Metric(), {.up = up}, 1, findings), Error);
+    EXPECT_THROW(AbstractCloud(InputOf(captured, Metric()), {.up = up}, 1, findings), Error);
   }
+}
+
+TEST(PointsWithin, HoldToTheMemoryLimit) {
+  EXPECT_EQ(PointsWithin(uint64_t{4} << 30, 2000000), 2000000);
+  EXPECT_EQ(PointsWithin(uint64_t{1} << 30, 2000000), 1342177);
+  EXPECT_EQ(PointsWithin(1, 2000000), 100000);
+  EXPECT_EQ(PointsWithin(uint64_t{1} << 40, 5000), 5000);
 }
 
 }  // namespace

@@ -26,9 +26,9 @@ struct Found {
 
 Found Find(const Captured& captured, double epsilon) {
   Found found;
-  found.samples = ThinCloud(captured.cloud, captured.stations, 1000000, 0);
+  found.samples = ThinCloud(StreamOf(captured.cloud), captured.photos, 1000000, 0);
   const GridIndex index(found.samples.positions, 0.4);
-  const auto agreement = SmoothNormals(found.samples, index, 0.4, captured.stations, 1);
+  const auto agreement = SmoothNormals(found.samples, index, 0.4, 1);
   found.planes = DetectPlanes(found.samples, index, agreement,
                               {.radius = 0.4, .epsilon = epsilon, .min_points = 60});
   return found;

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 Facet Square(const std::string& id, FacetClass facet_class, const Vector3d& origin,
              const Vector3d& u, const Vector3d& v) {
   Facet facet;
-  facet.id = facet.facade = id;
+  facet.id = id;
   facet.facet_class = facet_class;
   facet.normal = u.cross(v).normalized();
   facet.offset = facet.normal.dot(origin);

@@ -15,29 +15,29 @@ namespace {
 using Eigen::Vector2d;
 
 // Counter-clockwise corners -> walls with the building on their left.
-std::vector<WallLine> Walls(const std::vector<Vector2d>& ring) {
-  std::vector<WallLine> lines;
+std::vector<Segment2d> Walls(const std::vector<Vector2d>& ring) {
+  std::vector<Segment2d> lines;
   for (size_t i = 0; i < ring.size(); ++i) lines.push_back({ring[i], ring[(i + 1) % ring.size()]});
   return lines;
 }
 
-void Append(std::vector<WallLine> more, std::vector<WallLine>& lines) {
+void Append(std::vector<Segment2d> more, std::vector<Segment2d>& lines) {
   lines.insert(lines.end(), more.begin(), more.end());
 }
 
 // Three buildings of a street, turned by 20 degrees, one with a courtyard.
-std::vector<WallLine> Street() {
-  std::vector<WallLine> lines = Walls({{0, 0}, {13, 0}, {13, 9}, {0, 9}});
+std::vector<Segment2d> Street() {
+  std::vector<Segment2d> lines = Walls({{0, 0}, {13, 0}, {13, 9}, {0, 9}});
   Append(Walls({{20, 2}, {34, 2}, {34, 6}, {29, 6}, {29, 15}, {20, 15}}), lines);
   Append(Walls({{45, -5}, {75, -5}, {75, 25}, {45, 25}}), lines);
   Append(Walls({{53, 3}, {53, 17}, {67, 17}, {67, 3}}), lines);
   const Eigen::Rotation2Dd turn(0.35);
-  for (WallLine& line : lines) line = {turn * line.a, turn * line.b};
+  for (Segment2d& line : lines) line = {turn * line.a, turn * line.b};
   return lines;
 }
 
-std::vector<WallLine> Moved(std::vector<WallLine> lines, const Vector2d& shift) {
-  for (WallLine& line : lines) line = {line.a + shift, line.b + shift};
+std::vector<Segment2d> Moved(std::vector<Segment2d> lines, const Vector2d& shift) {
+  for (Segment2d& line : lines) line = {line.a + shift, line.b + shift};
   return lines;
 }
 
@@ -50,9 +50,9 @@ Numbers OneEach(size_t count) {
 }
 
 TEST(FacadeIds, FindsAnExactShift) {
-  const std::vector<WallLine> facades = Street();
+  const std::vector<Segment2d> facades = Street();
   for (const Vector2d& shift : {Vector2d(0, 0), Vector2d(2.3, -4.1), Vector2d(-7, 5.25)}) {
-    const std::vector<WallLine> walls = Moved(facades, shift);
+    const std::vector<Segment2d> walls = Moved(facades, shift);
     const auto found = FindShift(walls, facades);
     ASSERT_TRUE(found);
     EXPECT_NEAR((*found - shift).norm(), 0, 1e-6);
@@ -61,11 +61,11 @@ TEST(FacadeIds, FindsAnExactShift) {
 }
 
 TEST(FacadeIds, SurvivesNoiseAndWallsThatAreNotThere) {
-  const std::vector<WallLine> facades = Street();
+  const std::vector<Segment2d> facades = Street();
   std::mt19937 random(7);
   const auto noise = [&] { return (random() % 2001 - 1000.0) * 4e-4; };  // within 0.4 m
-  std::vector<WallLine> walls = Moved(facades, {3, 4});
-  for (WallLine& wall : walls) {
+  std::vector<Segment2d> walls = Moved(facades, {3, 4});
+  for (Segment2d& wall : walls) {
     wall.a += Vector2d(noise(), noise());
     wall.b += Vector2d(noise(), noise());
   }
@@ -83,7 +83,7 @@ TEST(FacadeIds, SurvivesNoiseAndWallsThatAreNotThere) {
 }
 
 TEST(FacadeIds, KeepsTheShiftAlongParallelWallsSmall) {
-  const std::vector<WallLine> facades = {{{0, 0}, {20, 0}}, {{22, 0}, {40, 0}}};
+  const std::vector<Segment2d> facades = {{{0, 0}, {20, 0}}, {{22, 0}, {40, 0}}};
   const auto found = FindShift(Moved(facades, {0, -3}), facades);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->y(), -3, 1e-6);
@@ -91,25 +91,26 @@ TEST(FacadeIds, KeepsTheShiftAlongParallelWallsSmall) {
 }
 
 TEST(FacadeIds, WallsMayShareAFacadeAndFacadesAWall) {
-  const std::vector<WallLine> facades = {{{0, 0}, {20, 0}}, {{20, 0}, {50, 0}}, {{50, 0}, {50, 9}}};
+  const std::vector<Segment2d> facades = {
+      {{0, 0}, {20, 0}}, {{20, 0}, {50, 0}}, {{50, 0}, {50, 9}}};
   // Two halves of the first, with a step of half a metre; one wall over a part of it and the
   // second.
-  const std::vector<WallLine> walls = {
+  const std::vector<Segment2d> walls = {
       {{0, 0}, {9, 0}}, {{9, 0.5}, {19, 0.5}}, {{16, 0}, {50, 0}}, {{50, 0}, {50, 9}}};
   EXPECT_EQ(MatchWalls(walls, facades, {0, 0}), (Numbers{{0}, {0}, {1}, {2}}));
 }
 
 TEST(FacadeIds, AWallOfATerraceSpansTheFacadesOfItsHouses) {
-  const std::vector<WallLine> facades = {
+  const std::vector<Segment2d> facades = {
       {{0, 0}, {6, 0}}, {{6, 0.3}, {14, 0.3}}, {{14, 0}, {20, 0}}, {{20, 0}, {31, 0}}};
   EXPECT_EQ(MatchWalls({{{0, 0}, {22, 0}}}, facades, {0, 0}), (Numbers{{1, 0, 2}}));
   // The back of a recess stands behind the front, and is not beside another part of the wall.
-  const std::vector<WallLine> recess = {{{0, 0}, {30, 0}}, {{8, 1.2}, {14, 1.2}}};
+  const std::vector<Segment2d> recess = {{{0, 0}, {30, 0}}, {{8, 1.2}, {14, 1.2}}};
   EXPECT_EQ(MatchWalls({{{0, 0}, {30, 0}}}, recess, {0, 0}), (Numbers{{0}}));
 }
 
 TEST(FacadeIds, TheBackOfAThinWallIsNotItsFront) {
-  const std::vector<WallLine> facades = {{{0, 0}, {20, 0}}};
+  const std::vector<Segment2d> facades = {{{0, 0}, {20, 0}}};
   EXPECT_EQ(MatchWalls({{{20, 0.3}, {0, 0.3}}}, facades, {0, 0}), Numbers{{}});
   // Nor is a wall that stands off it, beside it or across it.
   EXPECT_EQ(MatchWalls({{{0, 2.5}, {20, 2.5}}}, facades, {0, 0}), Numbers{{}});
@@ -120,9 +121,9 @@ TEST(FacadeIds, TheBackOfAThinWallIsNotItsFront) {
 TEST(FacadeIds, APlanOfAnotherPlaceMatchesNothing) {
   EXPECT_FALSE(FindShift(Moved(Street(), {400, 0}), Street()));
   // Here, but of houses that stand otherwise.
-  std::vector<WallLine> turned = Street();
+  std::vector<Segment2d> turned = Street();
   const Eigen::Rotation2Dd turn(0.6);
-  for (WallLine& line : turned) line = {turn * line.a, turn * line.b};
+  for (Segment2d& line : turned) line = {turn * line.a, turn * line.b};
   EXPECT_FALSE(FindShift(turned, Street()));
   EXPECT_FALSE(FindShift({}, Street()));
   EXPECT_FALSE(FindShift(Street(), {}));
@@ -130,12 +131,12 @@ TEST(FacadeIds, APlanOfAnotherPlaceMatchesNothing) {
 }
 
 // Detached houses in rows that all streets of the quarter follow.
-std::vector<WallLine> Quarter(uint32_t seed) {
+std::vector<Segment2d> Quarter(uint32_t seed) {
   std::mt19937 random(seed);
   const auto between = [&](double from, double to) {
     return from + (to - from) * (random() % 1001) / 1000.0;
   };
-  std::vector<WallLine> lines;
+  std::vector<Segment2d> lines;
   for (int i = 0; i < 16; ++i) {
     const double x = 24.0 * (i % 4) + between(-3, 3);
     const double y = 24.0 * (i / 4) + between(-3, 3);
@@ -155,9 +156,9 @@ TEST(FacadeIds, APlanOfAnotherQuarterOfTheTownMatchesNothing) {
 }
 
 TEST(FacadeIds, WallsStandBehindTheEavesThatMapsTrace) {
-  const std::vector<WallLine> walls = Quarter(1);
-  std::vector<WallLine> facades = Moved(walls, {-4, 6});
-  for (WallLine& line : facades) {
+  const std::vector<Segment2d> walls = Quarter(1);
+  std::vector<Segment2d> facades = Moved(walls, {-4, 6});
+  for (Segment2d& line : facades) {
     const Vector2d along = (line.b - line.a).normalized();
     const Vector2d outwards(along.y(), -along.x());
     line = {line.a + 0.8 * (outwards - along), line.b + 0.8 * (outwards + along)};
@@ -169,8 +170,8 @@ TEST(FacadeIds, WallsStandBehindTheEavesThatMapsTrace) {
 }
 
 // Houses 6 m wide and 6 m apart: moved by 12 m, all but one stand where another does.
-std::vector<WallLine> RowOfHouses(int count) {
-  std::vector<WallLine> lines;
+std::vector<Segment2d> RowOfHouses(int count) {
+  std::vector<Segment2d> lines;
   for (int i = 0; i < count; ++i) {
     const double x = 12.0 * i;
     Append(Walls({{x, 0}, {x + 6, 0}, {x + 6, 9}, {x, 9}}), lines);
@@ -180,9 +181,9 @@ std::vector<WallLine> RowOfHouses(int count) {
 
 TEST(FacadeIds, AHouseOfARegularRowIsNotItsNeighbour) {
   for (const int houses : {2, 5, 20}) {
-    const std::vector<WallLine> facades = RowOfHouses(houses);
+    const std::vector<Segment2d> facades = RowOfHouses(houses);
     for (const Vector2d& shift : {Vector2d(8, 0), Vector2d(-8, 3)}) {
-      const std::vector<WallLine> walls = Moved(facades, shift);
+      const std::vector<Segment2d> walls = Moved(facades, shift);
       const auto found = FindShift(walls, facades);
       ASSERT_TRUE(found);
       EXPECT_NEAR((*found - shift).norm(), 0, 1e-6) << houses << " houses";
@@ -193,30 +194,30 @@ TEST(FacadeIds, AHouseOfARegularRowIsNotItsNeighbour) {
 
 // Of a row that goes on on both sides nothing else says which houses the survey has.
 TEST(FacadeIds, TheLeastShiftIsTakenWhereSeveralExplainTheSurvey) {
-  const std::vector<WallLine> facades = RowOfHouses(9);
-  const std::vector<WallLine> walls(facades.begin() + 12, facades.begin() + 20);
+  const std::vector<Segment2d> facades = RowOfHouses(9);
+  const std::vector<Segment2d> walls(facades.begin() + 12, facades.begin() + 20);
   const auto found = FindShift(Moved(walls, {4, 0}), facades);
   ASSERT_TRUE(found);
   EXPECT_NEAR((*found - Vector2d(4, 0)).norm(), 0, 1e-6);
 }
 
 TEST(FacadeIds, ASurveyOfPartOfThePlanMatches) {
-  const std::vector<WallLine> facades = Street();
-  const std::vector<WallLine> walls(facades.begin(), facades.begin() + 4);
+  const std::vector<Segment2d> facades = Street();
+  const std::vector<Segment2d> walls(facades.begin(), facades.begin() + 4);
   const auto found = FindShift(Moved(walls, {-2, 1}), facades);
   ASSERT_TRUE(found);
   EXPECT_NEAR((*found - Vector2d(-2, 1)).norm(), 0, 1e-6);
 }
 
 // A building of four walls and a roof in the world frame.
-Proxy MadeProxy(const std::vector<WallLine>& lines) {
+Proxy MadeProxy(const std::vector<Segment2d>& lines) {
   Proxy proxy;
   proxy.metric = true;
   Building building;
-  building.id = "B0001";
+  building.id = "C0001";
   for (size_t i = 0; i < lines.size(); ++i) {
     Facet wall;
-    wall.id = wall.facade = "B0001/W0" + std::to_string(i);
+    wall.id = "C0001/W0" + std::to_string(i);
     const Vector2d along = (lines[i].b - lines[i].a).normalized();
     wall.normal = {along.y(), -along.x(), 0};
     const auto at = [](const Vector2d& p, double z) { return Eigen::Vector3d(p.x(), p.y(), z); };
@@ -225,7 +226,7 @@ Proxy MadeProxy(const std::vector<WallLine>& lines) {
     building.facets.push_back(wall);
   }
   Facet roof;
-  roof.id = roof.facade = "B0001/R0";
+  roof.id = "C0001/R0";
   roof.facet_class = FacetClass::kRoof;
   building.facets.push_back(roof);
   proxy.buildings.push_back(building);
@@ -233,7 +234,8 @@ Proxy MadeProxy(const std::vector<WallLine>& lines) {
 }
 
 TEST(FacadeIds, NamesTheWallsOfAProxy) {
-  const std::vector<WallLine> lines = Walls({{-6, -4}, {6, -4}, {6, 4}, {-6, 4}});
+  using Ids = std::vector<std::string>;
+  const std::vector<Segment2d> lines = Walls({{-6, -4}, {6, -4}, {6, 4}, {-6, 4}});
   Georef georef;
   georef.frame = "enu";
   georef.origin_latitude_deg = 47.05;
@@ -259,10 +261,10 @@ TEST(FacadeIds, NamesTheWallsOfAProxy) {
   EXPECT_NEAR((*naming.shift_m - Vector2d(1.5, -2.5)).norm(), 0, 0.01);
   const std::vector<Facet>& facets = proxy.buildings[0].facets;
   for (size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(facets[i].id, "B0001/W0" + std::to_string(i));
-    EXPECT_EQ(facets[i].facade, "B0012/F0" + std::to_string(3 - i));
+    EXPECT_EQ(facets[i].id, "C0001/W0" + std::to_string(i));
+    EXPECT_EQ(facets[i].planned_facades, Ids{"B0012/F0" + std::to_string(3 - i)});
   }
-  EXPECT_EQ(facets[4].facade, "B0001/R0");
+  EXPECT_EQ(facets[4].planned_facades, Ids());
 
   // The front is of two houses.
   PlannedFacade half = plan.facades[0];
@@ -272,14 +274,13 @@ TEST(FacadeIds, NamesTheWallsOfAProxy) {
   plan.facades.push_back(half);
   Proxy terrace = MadeProxy(lines);
   EXPECT_EQ(NameFacades(plan, georef, terrace).facades, 5u);
-  EXPECT_EQ(terrace.buildings[0].facets[0].facade, "B0012/F03");
-  EXPECT_EQ(terrace.buildings[0].facets[0].other_facades, std::vector<std::string>{"B0013/F00"});
-  EXPECT_TRUE(terrace.buildings[0].facets[1].other_facades.empty());
+  EXPECT_EQ(terrace.buildings[0].facets[0].planned_facades, (Ids{"B0012/F03", "B0013/F00"}));
+  EXPECT_EQ(terrace.buildings[0].facets[1].planned_facades.size(), 1u);
 
   plan.origin.latitude_deg += 10;
   Proxy elsewhere = MadeProxy(lines);
   EXPECT_FALSE(NameFacades(plan, georef, elsewhere).shift_m);
-  EXPECT_EQ(elsewhere.buildings[0].facets[0].facade, "B0001/W00");
+  EXPECT_EQ(elsewhere.buildings[0].facets[0].planned_facades, Ids());
 }
 
 TEST(FacadeIds, LinesHaveTheBuildingOnTheirLeft) {

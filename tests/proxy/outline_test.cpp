@@ -20,55 +20,56 @@ constexpr double kStep = 0.1;
 
 // A wall in the plane y = 0 facing south, seen where `seen` says so, 12 x 8 m.
 struct Wall {
-  Samples samples;
+  PlanarScene scene;
   Plane plane;
   std::vector<PlaneView> views;
-  Tolerances tolerances{.level_of_detail = 0.3,
+
+  explicit Wall(const std::function<bool(double, double)>& seen,
+                const std::function<bool(double, double)>& behind = nullptr) {
+    scene.samples.camera_centers = {{6, -30, 2}};
+    scene.tolerances = {.level_of_detail = 0.3,
                         .epsilon = 0.15,
                         .min_area = 2.25,
                         .fill_gap = 1.5,
                         .spacing = kStep,
                         .radius = 0.3};
-
-  explicit Wall(const std::function<bool(double, double)>& seen,
-                const std::function<bool(double, double)>& behind = nullptr) {
-    Stations stations;
-    stations.all.push_back({.center = {6, -30, 2}});
-    std::vector<int> witnesses;
     for (double x = kStep / 2; x < 12; x += kStep) {
       for (double z = kStep / 2; z < 8; z += kStep) {
         if (seen(x, z)) {
-          plane.points.push_back(static_cast<int>(samples.size()));
+          plane.points.push_back(static_cast<int>(scene.samples.size()));
           Add({x, 0, z});
         }
         if (behind && behind(x, z)) {
-          witnesses.push_back(static_cast<int>(samples.size()));
+          scene.support.push_back(static_cast<int>(scene.samples.size()));
           Add(Vector3d(6, -30, 2) + 1.2 * (Vector3d(x, 0, z) - Vector3d(6, -30, 2)));
         }
       }
     }
     plane.normal = -Vector3d::UnitY();
     plane.role = PlaneRole::kWall;
-    views = ViewPlanes(samples, stations, {&plane, 1}, witnesses, Vector3d::UnitZ(),
-                       Vector3d::UnitX(), tolerances, 99, 1);
+    views = ViewPlanes(scene, {&plane, 1}, 99, 1);
   }
   void Add(const Vector3d& p) {
-    samples.positions.push_back(p);
-    samples.normals.push_back(-Vector3d::UnitY());
-    samples.weights.push_back(1);
-    samples.stations.push_back(0);
+    scene.samples.positions.push_back(p);
+    scene.samples.normals.push_back(-Vector3d::UnitY());
+    scene.samples.weights.push_back(1);
+    scene.samples.cameras.push_back(0);
   }
   std::vector<Facet> Facets(const std::vector<CutLine>& creases = {}) const {
-    return OutlineFacets(samples, views[0], creases, tolerances, /*ground=*/false);
+    return OutlineFacets(scene.samples, views[0], creases, scene.tolerances, /*ground=*/false);
   }
 };
 
-bool InBox(double x, double z, double x0, double x1, double z0, double z1) {
-  return x > x0 && x < x1 && z > z0 && z < z1;
+struct Box {
+  double x0, x1, z0, z1;
+};
+
+bool InBox(double x, double z, const Box& box) {
+  return x > box.x0 && x < box.x1 && z > box.z0 && z < box.z1;
 }
 
 TEST(OutlineFacets, ARectangleIsARectangle) {
-  const auto facets = Wall([](double x, double z) { return InBox(x, z, 2, 10, 1, 6); }).Facets();
+  const auto facets = Wall([](double x, double z) { return InBox(x, z, {2, 10, 1, 6}); }).Facets();
   ASSERT_EQ(facets.size(), 1u);
   EXPECT_EQ(facets[0].outer.size(), 4u);
   EXPECT_TRUE(facets[0].holes.empty());
@@ -86,7 +87,7 @@ TEST(OutlineFacets, ClosesWindowsAndRaggedBorders) {
   const auto facets = Wall([](double x, double z) {
                         const bool window = std::fmod(x, 2) < 1 && z > 2.5 && z < 4.3;
                         const bool ragged = z > 5.8 + 0.15 * std::sin(9 * x);
-                        return InBox(x, z, 2, 10, 1, 7) && !window && !ragged;
+                        return InBox(x, z, {2, 10, 1, 7}) && !window && !ragged;
                       }).Facets();
   ASSERT_EQ(facets.size(), 1u);
   EXPECT_EQ(facets[0].outer.size(), 4u);
@@ -97,8 +98,10 @@ TEST(OutlineFacets, ClosesWindowsAndRaggedBorders) {
 }
 
 TEST(OutlineFacets, KeepsAPassageThatRaysGoThrough) {
-  const auto passage = [](double x, double z) { return InBox(x, z, 4, 7, 1, 4); };
-  const auto wall = [&](double x, double z) { return InBox(x, z, 1, 11, 1, 7) && !passage(x, z); };
+  const auto passage = [](double x, double z) { return InBox(x, z, {4, 7, 1, 4}); };
+  const auto wall = [&](double x, double z) {
+    return InBox(x, z, {1, 11, 1, 7}) && !passage(x, z);
+  };
   const auto open = Wall(wall, passage).Facets();
   ASSERT_EQ(open.size(), 1u);
   EXPECT_NEAR(open[0].area, 51, 3);
@@ -108,7 +111,7 @@ TEST(OutlineFacets, EndsAtACreaseEvenAcrossALostStrip) {
   // The roof meets the wall at z = 6; matching lost the last 0.5 m.
   const CutLine crease{
       .point = {0, 6}, .direction = Vector2d::UnitX(), .crease = true, .from = -100, .to = 100};
-  Wall wall([](double x, double z) { return InBox(x, z, 2, 10, 1, 5.5); });
+  Wall wall([](double x, double z) { return InBox(x, z, {2, 10, 1, 5.5}); });
   CutLine in_frame = crease;
   in_frame.point = wall.views[0].raster.frame.ToPlane({0, 0, 6});
   const auto facets = wall.Facets({in_frame});
@@ -120,8 +123,9 @@ TEST(OutlineFacets, EndsAtACreaseEvenAcrossALostStrip) {
 
 TEST(OutlineFacets, AWallEndsAtItsFoot) {
   // A car hides the wall up to 1.5 m; a mirror of the wet street adds points below the ground.
-  Wall wall(
-      [](double x, double z) { return InBox(x, z, 2, 10, 2.5, 7) || InBox(x, z, 2, 4, 0.2, 7); });
+  Wall wall([](double x, double z) {
+    return InBox(x, z, {2, 10, 2.5, 7}) || InBox(x, z, {2, 4, 0.2, 7});
+  });
   CutLine foot{.point = wall.views[0].raster.frame.ToPlane({0, 0, 1}),
                .direction = Vector2d::UnitX(),
                .crease = true,
@@ -140,7 +144,7 @@ TEST(OutlineFacets, ClosesGapsThatCross) {
   // Only window frames have texture: plain stripes between them, both ways.
   const auto facets =
       Wall([](double x, double z) {
-        return InBox(x, z, 1, 11, 1, 7.5) && std::fmod(x, 4.5) < 2.9 && std::fmod(z, 4.5) < 2.9;
+        return InBox(x, z, {1, 11, 1, 7.5}) && std::fmod(x, 4.5) < 2.9 && std::fmod(z, 4.5) < 2.9;
       }).Facets();
   ASSERT_EQ(facets.size(), 1u);
   EXPECT_TRUE(facets[0].holes.empty());
@@ -148,18 +152,18 @@ TEST(OutlineFacets, ClosesGapsThatCross) {
 }
 
 TEST(OutlineFacets, TheSkyBetweenTwoGablesStaysOpen) {
-  const auto facets =
-      Wall([](double x, double z) {
-        return InBox(x, z, 1, 11, 1, 4) || InBox(x, z, 1, 4, 1, 7.5) || InBox(x, z, 8, 11, 1, 7.5);
-      }).Facets();
+  const auto facets = Wall([](double x, double z) {
+                        return InBox(x, z, {1, 11, 1, 4}) || InBox(x, z, {1, 4, 1, 7.5}) ||
+                               InBox(x, z, {8, 11, 1, 7.5});
+                      }).Facets();
   ASSERT_EQ(facets.size(), 1u);
   EXPECT_NEAR(facets[0].area, 51, 3);
 }
 
 TEST(OutlineFacets, DropsIslandsAndSplitsParts) {
   const auto facets = Wall([](double x, double z) {
-                        return InBox(x, z, 0.5, 4, 1, 7) || InBox(x, z, 8, 11.5, 1, 7) ||
-                               InBox(x, z, 5.8, 6.3, 3, 3.5);
+                        return InBox(x, z, {0.5, 4, 1, 7}) || InBox(x, z, {8, 11.5, 1, 7}) ||
+                               InBox(x, z, {5.8, 6.3, 3, 3.5});
                       }).Facets();
   ASSERT_EQ(facets.size(), 2u);
   for (const auto& facet : facets) EXPECT_NEAR(facet.area, 21, 2);
@@ -175,26 +179,30 @@ TEST(OutlineFacets, AGableKeepsItsSlopes) {
 }
 
 TEST(OutlineFacets, AFewPointsAreNoFacet) {
-  EXPECT_TRUE(
-      Wall([](double x, double z) { return InBox(x, z, 3, 3.5, 3, 3.5); }).Facets().empty());
+  EXPECT_TRUE(Wall([](double x, double z) {
+                return InBox(x, z, {3, 3.5, 3, 3.5});
+              })
+                  .Facets()
+                  .empty());
 }
 
 // Three planes with a sample every 10 cm where they are seen.
 class CreasesTest : public testing::Test {
  protected:
   void Add(Plane& plane, const Vector3d& p) {
-    plane.points.push_back(static_cast<int>(samples_.size()));
-    samples_.positions.push_back(p);
-    samples_.normals.push_back(plane.normal);
-    samples_.weights.push_back(1);
-    samples_.stations.push_back(-1);
+    plane.points.push_back(static_cast<int>(scene_.samples.size()));
+    scene_.samples.positions.push_back(p);
+    scene_.samples.normals.push_back(plane.normal);
+    scene_.samples.weights.push_back(1);
+    scene_.samples.cameras.push_back(-1);
   }
   std::vector<PlaneView> View(size_t first_ground) const {
-    return ViewPlanes(samples_, {}, planes_, {}, Vector3d::UnitZ(), Vector3d::UnitX(), tolerances_,
-                      first_ground, 1);
+    PlanarScene scene = scene_;
+    scene.tolerances = tolerances_;
+    return ViewPlanes(scene, planes_, first_ground, 1);
   }
 
-  Samples samples_;
+  PlanarScene scene_;
   std::vector<Plane> planes_ = std::vector<Plane>(3);
   Tolerances tolerances_{.level_of_detail = 0.3,
                          .epsilon = 0.15,
@@ -246,7 +254,7 @@ TEST_F(CreasesTest, TakeNoSlopeFarAwayForTheFootOfAWall) {
   ASSERT_EQ(creases.size(), 1u);
   EXPECT_TRUE(creases[0].foot);
   EXPECT_NEAR(views[0].raster.frame.ToWorld(creases[0].point).z(), 0, 1e-9);
-  const auto facets = OutlineFacets(samples_, views[0], creases, tolerances_, false);
+  const auto facets = OutlineFacets(scene_.samples, views[0], creases, tolerances_, false);
   ASSERT_EQ(facets.size(), 1u);
   EXPECT_NEAR(facets[0].area, 48, 3);
 }
@@ -268,7 +276,7 @@ TEST(AssignIds, GivesEachClassItsLetterByFallingArea) {
   std::vector<std::string> ids;
   for (const Facet& facet : building.facets) {
     ids.push_back(facet.id);
-    EXPECT_EQ(facet.facade, facet.id);
+    EXPECT_EQ(FacadeName(facet), facet.id);
   }
   // F is left to the facades of the map.
   EXPECT_EQ(ids, (std::vector<std::string>{"B0012/W00", "B0012/W01", "B0012/R0", "B0012/G0",

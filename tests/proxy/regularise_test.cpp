@@ -47,7 +47,7 @@ struct Planes {
         samples.positions.push_back(center + a * u + b * v);
         samples.normals.push_back(plane.normal);
         samples.weights.push_back(1);
-        samples.stations.push_back(-1);
+        samples.cameras.push_back(-1);
       }
     }
     Measure(samples, 0.25, plane);

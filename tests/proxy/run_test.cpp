@@ -46,18 +46,9 @@ class RunProxyTest : public ::testing::Test {
     Reconstruction reconstruction;
     Camera camera{.id = {1}, .width_px = 100, .height_px = 80, .params = {90, 90, 50, 40}};
     reconstruction.cameras[camera.id] = camera;
-    for (const auto& [photo, index] : captured.stations.index_of_photo) {
-      const Station& station = captured.stations.all[index];
-      Eigen::Matrix3d cam_from_world;
-      cam_from_world << station.right.transpose(), -station.upwards.transpose(),
-          -station.backwards.transpose();
-      PosedPhoto posed;
-      posed.id = {photo};
-      posed.camera = camera.id;
-      posed.name = "p" + std::to_string(photo);
-      posed.cam_from_world.rotation = Eigen::Quaterniond(cam_from_world);
-      posed.cam_from_world.translation = -(cam_from_world * station.center);
-      reconstruction.photos[posed.id] = posed;
+    for (const SurveyPhoto& photo : captured.photos) {
+      reconstruction.photos[photo.id] = {
+          photo.id, camera.id, photo.path(), photo.cam_from_world, {}};
     }
     WriteColmapBinary(reconstruction, root_ / kSparseFolder);
   }
@@ -75,8 +66,8 @@ TEST_F(RunProxyTest, WritesTheModelInThreeFormats) {
   EXPECT_TRUE(proxy.buildings[0].watertight);
   EXPECT_EQ(proxy.buildings[0].facets.size(), 7u);
   const auto city = nlohmann::json::parse(ReadFile(root_ / "out/proxy.city.json"));
-  EXPECT_EQ(city["CityObjects"]["B0001-1"]["geometry"][0]["type"], "Solid");
-  EXPECT_NE(ReadFile(root_ / "out/proxy.obj").find("g B0001_W00"), std::string::npos);
+  EXPECT_EQ(city["CityObjects"]["C0001-1"]["geometry"][0]["type"], "Solid");
+  EXPECT_NE(ReadFile(root_ / "out/proxy.obj").find("g C0001_W00"), std::string::npos);
 }
 
 TEST_F(RunProxyTest, WritesTheSameBytesAgain) {

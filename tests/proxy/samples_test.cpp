@@ -26,25 +26,27 @@ PointCloud Grid(int side, double step) {
   return cloud;
 }
 
-Stations OneStation() {
-  Stations stations;
-  stations.all.push_back({.center = {0, 0, 11}});
-  stations.index_of_photo[7] = 0;
-  return stations;
+std::vector<SurveyPhoto> OnePhoto() {
+  std::vector<SurveyPhoto> photos(1);
+  photos[0].id = {7};
+  photos[0].cam_from_world.translation = {0, 0, -11};
+  return photos;
 }
 
 TEST(ThinCloud, KeepsSmallCloudsAsTheyAre) {
   const PointCloud cloud = Grid(20, 0.1);
-  const Samples samples = ThinCloud(cloud, OneStation(), 1000, 0);
+  const Samples samples = ThinCloud(StreamOf(cloud), OnePhoto(), 1000, 0);
   ASSERT_EQ(samples.size(), 400u);
   EXPECT_EQ(samples.cell, 0);
   EXPECT_EQ(samples.positions[21], cloud.positions[21]);
-  EXPECT_EQ(samples.stations[0], 0);
+  EXPECT_EQ(samples.cameras[0], 0);
+  EXPECT_EQ(*samples.EyeOf(0), Eigen::Vector3d(0, 0, 11));
   EXPECT_EQ(samples.weights[0], 1);
 }
 
 TEST(ThinCloud, StaysBelowTheLimitAndKeepsEveryPointsWeight) {
-  const Samples samples = ThinCloud(Grid(200, 0.05), OneStation(), 3000, 0);
+  const PointCloud cloud = Grid(200, 0.05);
+  const Samples samples = ThinCloud(StreamOf(cloud), OnePhoto(), 3000, 0);
   EXPECT_LE(samples.size(), 3000u);
   EXPECT_GE(samples.size(), 1500u);
   int weight = 0;
@@ -59,12 +61,12 @@ TEST(ThinCloud, GivesTheSameFromAFileAsFromMemory) {
   const auto file = std::filesystem::path(::testing::TempDir()) / "stucco_thin_cloud.ply";
   WritePly(cloud, file);
   for (const int max_points : {2000, 100000}) {
-    const Samples held = ThinCloud(cloud, OneStation(), max_points, 0);
-    const Samples read = ThinCloud(StreamOf(file), OneStation(), max_points, 0);
+    const Samples held = ThinCloud(StreamOf(cloud), OnePhoto(), max_points, 0);
+    const Samples read = ThinCloud(StreamOf(file), OnePhoto(), max_points, 0);
     EXPECT_EQ(held.positions, read.positions);
     EXPECT_EQ(held.normals, read.normals);
     EXPECT_EQ(held.weights, read.weights);
-    EXPECT_EQ(held.stations, read.stations);
+    EXPECT_EQ(held.cameras, read.cameras);
     EXPECT_EQ(held.cell, read.cell);
   }
   std::filesystem::remove(file);
@@ -96,26 +98,27 @@ TEST(ThinCloud, DropsPointsThatAreNotFiniteOrFarAway) {
   cloud.positions[3].x() = std::numeric_limits<double>::quiet_NaN();
   cloud.positions[4].y() = std::numeric_limits<double>::infinity();
   cloud.positions[5] = {1e7, 0, 0};
-  const Samples samples = ThinCloud(cloud, OneStation(), 1000, 0);
+  const Samples samples = ThinCloud(StreamOf(cloud), OnePhoto(), 1000, 0);
   EXPECT_EQ(samples.size(), 397u);
   EXPECT_EQ(samples.dropped, 3u);
 }
 
 TEST(ThinCloud, TakesCloudsWithoutNormalsViewsOrPoints) {
   PointCloud cloud;
-  EXPECT_EQ(ThinCloud(cloud, OneStation(), 1000, 0).size(), 0u);
+  EXPECT_EQ(ThinCloud(StreamOf(cloud), OnePhoto(), 1000, 0).size(), 0u);
   cloud.positions = {{0, 0, 0}, {1, 0, 0}};
-  const Samples samples = ThinCloud(cloud, OneStation(), 1000, 0);
+  const Samples samples = ThinCloud(StreamOf(cloud), OnePhoto(), 1000, 0);
   ASSERT_EQ(samples.size(), 2u);
-  EXPECT_EQ(samples.stations[0], -1);
+  EXPECT_EQ(samples.cameras[0], -1);
+  EXPECT_EQ(samples.EyeOf(0), nullptr);
   EXPECT_EQ(samples.normals[0].norm(), 0);
 }
 
 TEST(MeasureScale, FindsSpacingNoiseAndViewingDistance) {
   PointCloud cloud = Grid(60, 0.1);
   for (size_t i = 0; i < cloud.size(); ++i) cloud.positions[i].z() += i % 2 == 0 ? 0.02 : -0.02;
-  const Samples samples = ThinCloud(cloud, OneStation(), 100000, 0);
-  const CloudScale scale = MeasureScale(samples, OneStation());
+  const Samples samples = ThinCloud(StreamOf(cloud), OnePhoto(), 100000, 0);
+  const CloudScale scale = MeasureScale(samples);
   EXPECT_NEAR(scale.spacing, 0.1, 0.015);
   EXPECT_NEAR(scale.noise, 0.02, 0.004);
   EXPECT_GT(scale.viewing_distance, 10);
@@ -148,13 +151,6 @@ TEST(DeriveTolerances, GrowTogetherWithACoarseSpacing) {
   const CloudScale fine{.spacing = 0.06, .noise = 0.01, .viewing_distance = 60, .extent = 700};
   EXPECT_DOUBLE_EQ(DeriveTolerances(fine, true, {}).min_area, 2.25);
   EXPECT_EQ(LeastPoints(DeriveTolerances(fine, true, {})), 60);
-}
-
-TEST(PointsWithin, HoldToTheMemoryLimit) {
-  EXPECT_EQ(PointsWithin(uint64_t{4} << 30, 2000000), 2000000);
-  EXPECT_EQ(PointsWithin(uint64_t{1} << 30, 2000000), 1342177);
-  EXPECT_EQ(PointsWithin(1, 2000000), 100000);
-  EXPECT_EQ(PointsWithin(uint64_t{1} << 40, 5000), 5000);
 }
 
 TEST(GridIndex, FindsExactlyThePointsWithinTheRadius) {

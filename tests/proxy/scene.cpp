@@ -72,29 +72,25 @@ bool Blocks(const Frame& frame, const Vector3d& eye, const Vector3d& point) {
   return Inside(frame.ring, {frame.u.dot(hit - frame.origin), frame.v.dot(hit - frame.origin)});
 }
 
-Station LookAt(const Vector3d& center, const Vector3d& target) {
-  Station station;
-  station.center = center;
+Pose LookAt(const Vector3d& center, const Vector3d& target) {
   const Vector3d forward = (target - center).normalized();
-  station.right = forward.cross(Vector3d::UnitZ()).normalized();
-  station.upwards = station.right.cross(forward);
-  station.backwards = -forward;
-  return station;
+  return PoseOf(center, forward, forward.cross(Vector3d::UnitZ()).normalized());
 }
 
-Stations PlaceStations(bool front_only) {
-  Stations stations;
-  const auto add = [&](const Station& station) {
-    stations.index_of_photo[static_cast<uint32_t>(stations.all.size() + 1)] =
-        static_cast<int>(stations.all.size());
-    stations.all.push_back(station);
+std::vector<SurveyPhoto> PlacePhotos(bool front_only) {
+  std::vector<SurveyPhoto> photos;
+  const auto add = [&](const Pose& cam_from_world) {
+    SurveyPhoto& photo = photos.emplace_back();
+    photo.id = {static_cast<uint32_t>(photos.size())};
+    photo.captured.path = "p" + std::to_string(photos.size());
+    photo.cam_from_world = cam_from_world;
   };
   if (front_only) {
     for (int i = 0; i < 9; ++i) {
       const double x = -16 + 4.0 * i;
       add(LookAt({x, -22 + 0.05 * x * x, 1.7}, {0.3 * x, 0, 4.5}));
     }
-    return stations;
+    return photos;
   }
   for (const double height : {6.0, 22.0}) {
     for (int i = 0; i < 12; ++i) {
@@ -102,7 +98,7 @@ Stations PlaceStations(bool front_only) {
       add(LookAt({30 * std::cos(angle), 30 * std::sin(angle), height}, {0, 0, 3}));
     }
   }
-  return stations;
+  return photos;
 }
 
 TruePolygon Polygon(std::string name, std::vector<Vector3d> ring) {
@@ -131,13 +127,13 @@ void SamplePolygon(const std::vector<Frame>& blockers, const Frame& frame,
       if (!Inside(frame.ring, at)) continue;
       const Vector3d exact = frame.origin + at.x() * frame.u + at.y() * frame.v;
       std::vector<uint32_t> views;
-      for (const auto& [photo, index] : captured.stations.index_of_photo) {
-        const Vector3d& eye = captured.stations.all[index].center;
+      for (const SurveyPhoto& photo : captured.photos) {
+        const Vector3d eye = photo.cam_from_world.Center();
         const Vector3d ray = (eye - exact).normalized();
         if (views.size() == 3 || ray.dot(frame.normal) < 0.15) continue;
         if (std::none_of(blockers.begin(), blockers.end(),
                          [&](const Frame& other) { return Blocks(other, eye, exact); })) {
-          views.push_back(photo);
+          views.push_back(photo.id.value);
         }
       }
       if (views.size() < 2) continue;
@@ -148,6 +144,19 @@ void SamplePolygon(const std::vector<Frame>& blockers, const Frame& frame,
 }
 
 }  // namespace
+
+ProxyInput InputOf(const Captured& captured, const Georef& georef) {
+  return {StreamOf(captured.cloud), captured.photos, georef};
+}
+
+Pose PoseOf(const Vector3d& center, const Vector3d& forward, const Vector3d& right) {
+  Eigen::Matrix3d cam_from_world;
+  cam_from_world << right.transpose(), forward.cross(right).transpose(), forward.transpose();
+  Pose pose;
+  pose.rotation = Eigen::Quaterniond(cam_from_world);
+  pose.translation = -(pose.rotation * center);
+  return pose;
+}
 
 House BoxHouse(double length, double width, double height, const Vector3d& corner) {
   const double x0 = corner.x() - length / 2, x1 = corner.x() + length / 2;
@@ -195,7 +204,7 @@ TruePolygon GroundSquare(double half, double z) {
 Captured Capture(const std::vector<House>& houses, const std::vector<TruePolygon>& others,
                  const CaptureOptions& options) {
   Captured captured;
-  captured.stations = PlaceStations(options.front_only);
+  captured.photos = PlacePhotos(options.front_only);
   std::vector<Frame> frames;
   std::vector<std::string> names;
   const auto add = [&](const TruePolygon& polygon) {
@@ -240,11 +249,9 @@ void MoveTo(const Eigen::Matrix3d& rotation, double scale, const Vector3d& trans
   const Eigen::Matrix3f rotation_f = rotation.cast<float>();
   for (auto& p : captured.cloud.positions) p = scale * (rotation * p) + translation;
   for (auto& n : captured.cloud.normals) n = rotation_f * n;
-  for (Station& station : captured.stations.all) {
-    station.center = scale * (rotation * station.center) + translation;
-    station.right = rotation * station.right;
-    station.upwards = rotation * station.upwards;
-    station.backwards = rotation * station.backwards;
+  const Similarity new_from_old{scale, Eigen::Quaterniond(rotation), translation};
+  for (SurveyPhoto& photo : captured.photos) {
+    photo.cam_from_world = Transformed(photo.cam_from_world, new_from_old);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "proxy/stations.h"
+#include "proxy/input.h"
 #include "survey/point_cloud.h"
 
 namespace stucco::testing {
@@ -43,8 +43,15 @@ struct CaptureOptions {
 
 struct Captured {
   PointCloud cloud;
-  Stations stations;
+  std::vector<SurveyPhoto> photos;
 };
+
+// The input refers to the cloud.
+ProxyInput InputOf(const Captured& captured, const Georef& georef);
+
+// A camera at `center` that looks along `forward`, its x axis along `right` (both unit vectors).
+Pose PoseOf(const Eigen::Vector3d& center, const Eigen::Vector3d& forward,
+            const Eigen::Vector3d& right);
 
 // Points only where a camera sees the polygon (no other polygon in between, not from behind), with
 // the normal's noise that patch-based stereo has (10 degrees), colours and up to three views.

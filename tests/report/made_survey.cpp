@@ -28,7 +28,6 @@ std::string PhotoPath(int i) {
 Facet MakeFacet(const std::string& id, FacetClass facet_class, std::vector<Eigen::Vector3d> outer) {
   Facet facet;
   facet.id = id;
-  facet.facade = id;
   facet.facet_class = facet_class;
   facet.normal = (outer[1] - outer[0]).cross(outer[2] - outer[0]).normalized();
   facet.offset = facet.normal.dot(outer[0]);
@@ -148,7 +147,7 @@ void AddCalibration(MadeSurvey& made) {
   for (int i = 0; i < 19; ++i) {
     calibration.photos.push_back(
         {PhotoPath(i), 0.5 + 0.01 * i, 1200 - 20 * i, 0.03 + 0.002 * i, i == 7, 0.9 - 0.01 * i});
-    PosedPhoto posed;
+    RegisteredImage posed;
     posed.id = PhotoId{static_cast<uint32_t>(i + 1)};
     posed.camera = CameraId{1};
     posed.name = PhotoPath(i);

@@ -23,7 +23,7 @@ class Outputs : public testing::Test {
   void Load(const MadeSurvey& made) {
     WriteSurvey(made, folder_.path());
     data_ = LoadSurvey(folder_.path(), {});
-    rows_ = MakeFacadeRows(data_, {});
+    rows_ = MakeFacetRows(data_, {});
   }
 
   Json Report(const ReportOptions& options = {}) {
@@ -32,7 +32,7 @@ class Outputs : public testing::Test {
 
   TempFolder folder_;
   SurveyData data_;
-  std::vector<FacadeRow> rows_;
+  std::vector<FacetRow> rows_;
 };
 
 // A reader of RFC 4180 of the test's own.
@@ -90,7 +90,7 @@ TEST_F(Outputs, JsonHasTheFixedNames) {
 
 TEST_F(Outputs, ThePlanStandsBesideWhatWasAchieved) {
   MadeSurvey made = MakeSurvey();
-  made.proxy.buildings[0].facets[0].facade = "B0007/F01";
+  made.proxy.buildings[0].facets[0].planned_facades = {"B0007/F01"};
   WriteSurvey(made, folder_.path());
   data_ = LoadSurvey(folder_.path(), {});
   data_.plan.emplace();
@@ -99,7 +99,7 @@ TEST_F(Outputs, ThePlanStandsBesideWhatWasAchieved) {
   data_.plan->facades[0].id = "B0007/F00";
   data_.plan->facades[1].id = "B0007/F01";
   data_.plan->facades[1].predicted = {0.9, 0.8, 0.7, 0.95};
-  rows_ = MakeFacadeRows(data_, {});
+  rows_ = MakeFacetRows(data_, {});
   const Json report = Report();
   const Json& facade = report["facades"][0];
   EXPECT_EQ(facade["id"], "B0001/W01");
@@ -187,7 +187,7 @@ TEST_F(Outputs, CsvHasALinePerFacade) {
 TEST_F(Outputs, CsvQuotesNames) {
   MadeSurvey made = MakeSurvey();
   const std::string hostile = "a,\"b\"\r\nc";
-  made.proxy.buildings[0].facets[0].facade = hostile;
+  made.proxy.buildings[0].facets[0].planned_facades = {hostile};
   Load(made);
   const auto lines = ParseCsv(FacadesCsv(data_, rows_));
   ASSERT_EQ(lines.size(), 16U);

@@ -23,17 +23,17 @@ class Pictures : public testing::Test {
     row_.texture = &made_.textures.facets[0];
   }
 
-  FacadePictures Make(int picture_px = 300) {
-    return MakeFacadePictures(row_, folder_.path() / "texture", picture_px);
+  FacetPictures Make(int picture_px = 300) {
+    return MakeFacetPictures(row_, folder_.path() / "texture", picture_px);
   }
 
   TempFolder folder_;
   MadeSurvey made_ = MakeSurvey();
-  FacadeRow row_;
+  FacetRow row_;
 };
 
 TEST_F(Pictures, AreEmbeddedAtTheirSize) {
-  const FacadePictures pictures = Make();
+  const FacetPictures pictures = Make();
   EXPECT_THAT(pictures.problem, IsEmpty());
   EXPECT_THAT(pictures.texture.uri, StartsWith("data:image/jpeg;base64,/9j/"));
   EXPECT_THAT(pictures.labels.uri, StartsWith("data:image/png;base64,iVBOR"));
@@ -45,8 +45,8 @@ TEST_F(Pictures, AreEmbeddedAtTheirSize) {
 TEST_F(Pictures, AreReadByAsManyThreadsAsFitIntoMemory) {
   made_.textures.facets[0].width_px = 8192;
   made_.textures.facets[0].height_px = 8192;
-  FacadeRow unpainted;
-  const std::vector<FacadeRow> rows = {unpainted, row_, unpainted};
+  FacetRow unpainted;
+  const std::vector<FacetRow> rows = {unpainted, row_, unpainted};
   const uint64_t gigabyte = uint64_t{1} << 30;
   EXPECT_EQ(PictureThreads(rows, 16, 64 * gigabyte), 16);
   EXPECT_EQ(PictureThreads(rows, 16, gigabyte), 2);  // 7 bytes for each of 64 M texels
@@ -65,7 +65,7 @@ TEST_F(Pictures, SharesAreThoseOfTheLabelMap) {
 TEST_F(Pictures, MissingOnesAreNamed) {
   const auto texture = folder_.path() / "texture";
   std::filesystem::remove(texture / row_.texture->image);
-  FacadePictures pictures = Make();
+  FacetPictures pictures = Make();
   EXPECT_EQ(pictures.problem, "texture/" + row_.texture->image + " is missing");
   EXPECT_THAT(pictures.texture.uri, IsEmpty());
   EXPECT_THAT(pictures.thumbnail.uri, IsEmpty());
@@ -76,7 +76,7 @@ TEST_F(Pictures, MissingOnesAreNamed) {
 
 TEST_F(Pictures, WithoutLabelMapThereIsStillAPicture) {
   std::filesystem::remove(folder_.path() / "texture" / row_.texture->label_image);
-  const FacadePictures pictures = Make();
+  const FacetPictures pictures = Make();
   EXPECT_THAT(pictures.problem, HasSubstr("labels/"));
   EXPECT_THAT(pictures.texture.uri, StartsWith("data:"));
   EXPECT_THAT(pictures.labels.uri, IsEmpty());

@@ -94,7 +94,7 @@ TEST_F(Report, TablesAndDialogsAreClosed) {
 
 TEST_F(Report, NamesFacadesAsThePlanDoes) {
   MadeSurvey made = MakeSurvey();
-  made.proxy.buildings[0].facets[0].facade = "B0007/F01";
+  made.proxy.buildings[0].facets[0].planned_facades = {"B0007/F01"};
   WriteSurvey(made, folder_.path());
   Run();
   EXPECT_FALSE(Has(Content(Page()), "B0007"));

@@ -32,7 +32,7 @@ TEST(LoadSurvey, ReadsEverything) {
   WriteSurvey(MakeSurvey(), folder.path());
   const SurveyData data = LoadSurvey(folder.path(), {Status("ingest", "done")});
   EXPECT_TRUE(data.captures && data.calibration && data.georef && data.proxy && data.textures);
-  EXPECT_EQ(data.camera_centers.size(), 19U);
+  EXPECT_EQ(data.photos.size(), 19U);
   EXPECT_THAT(data.damaged, IsEmpty());
   EXPECT_TRUE(data.metric);
   EXPECT_THAT(FindAttention(data), IsEmpty());

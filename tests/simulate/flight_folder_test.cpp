@@ -98,7 +98,7 @@ TEST_F(FlightFolder, ColmapModelHasThePhotosThatThereAre) {
   std::vector<std::string> names;
   for (const auto& [id, photo] : model.photos) names.push_back(photo.name);
   EXPECT_THAT(names, ::testing::ElementsAre("photo0.JPG", "photo2.JPG"));
-  const PosedPhoto& first = model.photos.begin()->second;
+  const RegisteredImage& first = model.photos.begin()->second;
   EXPECT_LT((first.cam_from_world.Center() - flight.photos[0].cam_from_world.Center()).norm(),
             1e-12);
   EXPECT_EQ(model.cameras.begin()->second.params, flight.photos[0].camera.params);

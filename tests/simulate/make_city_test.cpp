@@ -61,7 +61,7 @@ TEST_P(Cities, EveryFacadeOfThePlannerIsAWallOfTheTruth) {
   for (const Facade& facade : site.facades) {
     ASSERT_TRUE(facets.contains(facade.id)) << facade.id;
     const Facet& wall = facets.at(facade.id);
-    EXPECT_EQ(wall.facade, facade.id);
+    EXPECT_EQ(FacadeName(wall), facade.id);
     matched.insert(facade.id);
     // The wall's foot runs from a to b, to a millimetre of the map's rounding.
     const auto in_scene = [&](const Eigen::Vector2d& at) -> Eigen::Vector2d {

@@ -26,7 +26,7 @@ void ExpectSame(const Reconstruction& a, const Reconstruction& b) {
   }
   ASSERT_EQ(a.photos.size(), b.photos.size());
   for (const auto& [id, photo] : a.photos) {
-    const PosedPhoto& other = b.photos.at(id);
+    const RegisteredImage& other = b.photos.at(id);
     EXPECT_EQ(photo.name, other.name);
     EXPECT_EQ(photo.camera, other.camera);
     EXPECT_EQ(photo.cam_from_world.rotation.coeffs(), other.cam_from_world.rotation.coeffs());
@@ -120,7 +120,7 @@ TEST(Colmap, ReadsForeignText) {
   WriteText(folder, kCameras, kImages, kPoints);
   const Reconstruction r = ReadColmapModel(folder.path());
   ASSERT_EQ(r.photos.size(), 3u);
-  const PosedPhoto& photo = r.photos.at(PhotoId{1});
+  const RegisteredImage& photo = r.photos.at(PhotoId{1});
   EXPECT_EQ(photo.name, "a b.jpg");
   EXPECT_EQ(photo.cam_from_world.rotation.w(), 1);  // 2 0 0 0 means the same rotation
   EXPECT_EQ(photo.cam_from_world.translation, Eigen::Vector3d(0.5, -1e-3, 3));

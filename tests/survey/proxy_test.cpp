@@ -23,8 +23,7 @@ Facet MakeWall() {
   const double y = 1234.5;
   Facet wall;
   wall.id = "B0001/W00";
-  wall.facade = "B0001/F03";
-  wall.other_facades = {"B0002/F00", "B0003/F01"};
+  wall.planned_facades = {"B0001/F03", "B0002/F00", "B0003/F01"};
   wall.normal = -Eigen::Vector3d::UnitY();
   wall.offset = -y;
   wall.outer = {{0, y, 0}, {4, y, 0}, {4, y, 3}, {0, y, 3}};
@@ -45,7 +44,6 @@ Proxy MakeProxy() {
   proxy.buildings.push_back({"B0001", true, "cloud", {MakeWall()}});
   Facet ground;
   ground.id = "G0";
-  ground.facade = "G0";
   ground.facet_class = FacetClass::kGround;
   ground.outer = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   proxy.buildings.push_back({"G0", false, "map", {ground}});
@@ -69,8 +67,10 @@ TEST(Proxy, ReadsBackWhatItWrote) {
   const Facet& wall = read.buildings[0].facets[0];
   const Facet expected = MakeWall();
   EXPECT_EQ(wall.id, expected.id);
-  EXPECT_EQ(wall.facade, expected.facade);
-  EXPECT_EQ(wall.other_facades, expected.other_facades);
+  EXPECT_EQ(wall.planned_facades, expected.planned_facades);
+  EXPECT_TRUE(read.buildings[1].facets[0].planned_facades.empty());
+  EXPECT_EQ(FacadeName(wall), "B0001/F03");
+  EXPECT_EQ(FacadeName(read.buildings[1].facets[0]), "G0");
   EXPECT_EQ(wall.facet_class, FacetClass::kWall);
   EXPECT_EQ(wall.normal, expected.normal);
   EXPECT_EQ(wall.offset, expected.offset);
@@ -91,9 +91,9 @@ TEST(Proxy, UsesTheFixedNames) {
   const std::string text = ReadFile(folder / "facets.json");
   for (const char* part :
        {"\"version\": 1", "\"buildings\": [", "\"id\": \"B0001\"", "\"watertight\": true",
-        "\"source\": \"cloud\"", "\"facets\": [", "\"facade\": \"B0001/F03\"",
-        "\"class\": \"WallSurface\"", "\"area_m2\": 11.0", "\"rms_m\": 0.0125", "\"seen\": 0.75",
-        "\"inferred\": 0.25"}) {
+        "\"source\": \"cloud\"", "\"facets\": [", "\"facade\": \"B0001/F03\"", "\"facade\": \"G0\"",
+        "\"other_facades\": [", "\"class\": \"WallSurface\"", "\"area_m2\": 11.0",
+        "\"rms_m\": 0.0125", "\"seen\": 0.75", "\"inferred\": 0.25"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
 }

@@ -81,7 +81,7 @@ inline Reconstruction MakeReconstruction() {
       600,
       {600, 601, 400.25, 300.125, -0.1, 0.01, 1e-3, -2e-3, 1.0 / 3, 0.02, -0.003, 1e-4}};
   for (uint32_t i = 1; i <= 3; ++i) {
-    PosedPhoto photo;
+    RegisteredImage photo;
     photo.id = PhotoId{i};
     photo.camera = CameraId{i == 3 ? 7u : 1u};
     photo.name = "flight 1/DJI_000" + std::to_string(i) + ".JPG";

@@ -98,7 +98,7 @@ TEST(ComposePicture, HasNoTraceOfItsTiles) {
   grid.u_axis = Eigen::Vector3d::UnitX();
   grid.v_axis = -Eigen::Vector3d::UnitY();
   grid.normal = Eigen::Vector3d::UnitZ();
-  TexturePhoto photo;
+  SurveyPhoto photo;
   photo.camera.width_px = 1700;
   photo.camera.height_px = 200;
   photo.camera.params = {1000, 1000, 850, 100};
@@ -116,7 +116,7 @@ TEST(ComposePicture, HasNoTraceOfItsTiles) {
   ownership.step = 4;
   ownership.raster_width = 400;
   for (int i = 0; i < 400 * 16; ++i) ownership.owner.push_back(i % 400 < 190 + i / 400 ? 0 : 1);
-  std::vector<ChosenPhoto> chosen(2);
+  std::vector<PhotoLayer> chosen(2);
   for (int k = 0; k < 2; ++k) {
     chosen[k].photo = &photo;
     chosen[k].open = [=] { return pyramid; };

@@ -17,12 +17,12 @@ using testing::MakeWall;
 
 class MeasuredWall : public ::testing::Test {
  protected:
-  RasterView Measure(const TexturePhoto& photo, const Proxy& proxy) const {
+  RasterView Measure(const SurveyPhoto& photo, const Proxy& proxy) const {
     const OcclusionScene scene(proxy);
-    const std::vector<TexturePhoto> photos = {photo};
-    return MeasureView(photos, 0, wall_, raster_, inside_, {&scene, {}, {}}, {78, 0.02, 0.2});
+    const std::vector<SurveyPhoto> photos = {photo};
+    return MeasureView({photos, &scene, {}, {}}, 0, wall_, {raster_, inside_, 1}, {78, 0.02, 0.2});
   }
-  RasterView Measure(const TexturePhoto& photo) const { return Measure(photo, MakeProxy({wall_})); }
+  RasterView Measure(const SurveyPhoto& photo) const { return Measure(photo, MakeProxy({wall_})); }
   static double Share(const RasterView& view) {
     return static_cast<double>(
                std::count_if(view.texels.begin(), view.texels.end(),
@@ -36,7 +36,7 @@ class MeasuredWall : public ::testing::Test {
 };
 
 TEST_F(MeasuredWall, SeenFrontallyHasTheExactNumbers) {
-  const RasterView view = Measure(LookFrom("a", {2, -5, 1.5}, {2, 0, 1.5}, 1000, 800, 500));
+  const RasterView view = Measure(LookFrom("a", {2, -5, 1.5}, {2, 0, 1.5}, {1000, 800, 500}));
   EXPECT_DOUBLE_EQ(Share(view), 1);
   const TexelView& middle = view.texels[15 * raster_.width + 20];
   EXPECT_NEAR(middle.footprint, 0.01, 1e-4);  // 5 m / 500 px
@@ -46,19 +46,19 @@ TEST_F(MeasuredWall, SeenFrontallyHasTheExactNumbers) {
 }
 
 TEST_F(MeasuredWall, IsNotSeenFromBehindOrAtGrazingAngles) {
-  EXPECT_EQ(Share(Measure(LookFrom("a", {2, 5, 1.5}, {2, 0, 1.5}, 1000, 800, 500))), 0);
-  EXPECT_EQ(Share(Measure(LookFrom("a", {-20, -1, 1.5}, {2, 0, 1.5}, 1000, 800, 500))), 0);
+  EXPECT_EQ(Share(Measure(LookFrom("a", {2, 5, 1.5}, {2, 0, 1.5}, {1000, 800, 500}))), 0);
+  EXPECT_EQ(Share(Measure(LookFrom("a", {-20, -1, 1.5}, {2, 0, 1.5}, {1000, 800, 500}))), 0);
 }
 
 TEST_F(MeasuredWall, IsSeenOnlyInsideThePicture) {
-  const double share = Share(Measure(LookFrom("a", {4, -5, 1.5}, {4, 0, 1.5}, 400, 800, 500)));
+  const double share = Share(Measure(LookFrom("a", {4, -5, 1.5}, {4, 0, 1.5}, {400, 800, 500})));
   EXPECT_NEAR(share, 0.5, 0.03);
 }
 
 TEST_F(MeasuredWall, IsHiddenByAnotherFacet) {
   Facet screen = MakeWall(2, 3);
   for (auto& vertex : screen.outer) vertex.y() -= 0.5;
-  const RasterView view = Measure(LookFrom("a", {2, -50, 1.5}, {2, 0, 1.5}, 1000, 800, 5000),
+  const RasterView view = Measure(LookFrom("a", {2, -50, 1.5}, {2, 0, 1.5}, {1000, 800, 5000}),
                                   MakeProxy({wall_, screen}));
   EXPECT_NEAR(Share(view), 0.5, 0.03);
   EXPECT_EQ(view.texels[15 * raster_.width + 5].sight, Sight::kNot);
@@ -70,12 +70,12 @@ TEST_F(MeasuredWall, CountsAsBehindWherePointsStandInFront) {
   for (int i = 0; i < 60; ++i) {
     for (int j = 0; j < 60; ++j) points.push_back({1.7 + 0.01 * i, -1, 1.2 + 0.01 * j});
   }
-  const std::vector<TexturePhoto> photos = {
-      LookFrom("a", {2, -5, 1.5}, {2, 0, 1.5}, 1000, 800, 500)};
+  const std::vector<SurveyPhoto> photos = {
+      LookFrom("a", {2, -5, 1.5}, {2, 0, 1.5}, {1000, 800, 500})};
   const std::vector<NearestPoints> nearest = {SplatNearest(photos[0], points, 200)};
   const OcclusionScene scene(MakeProxy({wall_}));
-  const RasterView view =
-      MeasureView(photos, 0, wall_, raster_, inside_, {&scene, nearest, points}, {78, 0.02, 0.2});
+  const RasterView view = MeasureView({photos, &scene, nearest, points}, 0, wall_,
+                                      {raster_, inside_, 1}, {78, 0.02, 0.2});
   EXPECT_EQ(view.texels[15 * raster_.width + 20].sight, Sight::kBehind);
   EXPECT_EQ(view.texels[15 * raster_.width + 35].sight, Sight::kFree);
 }

@@ -59,7 +59,7 @@ TEST(FilesKey, ChangesWithWhatTheFacetDependsOnOnly) {
   input.geometry_hash = "g";
   const Facet wall = testing::MakeWall(4, 3);
   for (const char* name : {"a", "b", "c"}) {
-    input.photos.push_back(testing::LookFrom(name, {2, -5, 1}, {2, 0, 1}, 100, 100, 100));
+    input.photos.push_back(testing::LookFrom(name, {2, -5, 1}, {2, 0, 1}, {100, 100, 100}));
   }
   FacetLook look;
   look.candidates = {{0, 1, 1}, {1, 1, 1}};
@@ -68,13 +68,13 @@ TEST(FilesKey, ChangesWithWhatTheFacetDependsOnOnly) {
   const auto key = [&] { return FilesKey(wall, look, input, gains, options); };
   const std::string original = key();
 
-  input.photos[2].hash = "other";  // no candidate
+  input.photos[2].captured.hash = "other";  // no candidate
   gains[2] *= 2;
   options.glb_quality = 50;
   EXPECT_EQ(key(), original);
-  input.photos[1].hash = "other";
+  input.photos[1].captured.hash = "other";
   EXPECT_NE(key(), original);
-  input.photos[1].hash = "b";
+  input.photos[1].captured.hash = "b";
   EXPECT_EQ(key(), original);
   gains[0].x() = 1.01;
   EXPECT_NE(key(), original);
@@ -90,7 +90,7 @@ TEST(FilesKey, ChangesWithWhatTheFacetDependsOnOnly) {
   look.limits = {};
   EXPECT_EQ(key(), original);
   options.guided = false;  // no photo was planned for it
-  input.photos[0].facades = {"B0009/F01"};
+  input.photos[0].planned_facades = {"B0009/F01"};
   EXPECT_EQ(key(), original);
   options.seam_cost = 2;
   EXPECT_NE(key(), original);
@@ -99,17 +99,17 @@ TEST(FilesKey, ChangesWithWhatTheFacetDependsOnOnly) {
 TEST(FilesKey, ChangesWithThePlannedPhotosOfTheFacade) {
   TextureInput input;
   Facet wall = testing::MakeWall(4, 3);
-  wall.facade = "B0009/F01";
-  input.photos = {testing::LookFrom("a", {2, -5, 1}, {2, 0, 1}, 100, 100, 100)};
+  wall.planned_facades = {"B0009/F01"};
+  input.photos = {testing::LookFrom("a", {2, -5, 1}, {2, 0, 1}, {100, 100, 100})};
   FacetLook look;
   look.candidates = {{0, 1, 1}};
   const std::vector<Eigen::Vector3d> gains(1, Eigen::Vector3d::Ones());
   const std::string files = FilesKey(wall, look, input, gains, {});
   const std::string first_look = LookKey(wall, input, {});
-  input.photos[0].facades = {"B0009/F02"};
+  input.photos[0].planned_facades = {"B0009/F02"};
   EXPECT_EQ(FilesKey(wall, look, input, gains, {}), files);
   EXPECT_EQ(LookKey(wall, input, {}), first_look);
-  input.photos[0].facades = {"B0009/F01"};
+  input.photos[0].planned_facades = {"B0009/F01"};
   EXPECT_NE(FilesKey(wall, look, input, gains, {}), files);
   EXPECT_NE(LookKey(wall, input, {}), first_look);
 }

@@ -15,21 +15,21 @@ namespace {
 using testing::LookFrom;
 using testing::MakeWall;
 
-TexturePhoto KnownLens(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  TexturePhoto photo = LookFrom("a", from, to, 640, 480, 600);
-  KnowLens(photo);
+SurveyPhoto KnownLens(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  SurveyPhoto photo = LookFrom("a", from, to, {640, 480, 600});
+  photo.safe_radius_squared = SafeRadiusSquared(photo.camera);
   return photo;
 }
 
 TEST(PhotosThatMaySee, LeavesOutWhatCannot) {
   const Facet wall = MakeWall(4, 3);
-  std::vector<TexturePhoto> photos = {
-      KnownLens({2, -5, 1.5}, {2, 0, 1.5}),                      // in front
-      KnownLens({2, 5, 1.5}, {2, 0, 1.5}),                       // behind
-      KnownLens({2, -5, 1.5}, {2, -9, 1.5}),                     // looks away
-      KnownLens({-60, -5, 1.5}, {2, 0, 1.5}),                    // too oblique
-      LookFrom("b", {2, -5, 1.5}, {2, -9, 1.5}, 640, 480, 600),  // a lens that nobody knows
-      KnownLens({7.5, -5, 1.5}, {7.5, 0, 1.5})};                 // the sphere at its very border
+  std::vector<SurveyPhoto> photos = {
+      KnownLens({2, -5, 1.5}, {2, 0, 1.5}),                        // in front
+      KnownLens({2, 5, 1.5}, {2, 0, 1.5}),                         // behind
+      KnownLens({2, -5, 1.5}, {2, -9, 1.5}),                       // looks away
+      KnownLens({-60, -5, 1.5}, {2, 0, 1.5}),                      // too oblique
+      LookFrom("b", {2, -5, 1.5}, {2, -9, 1.5}, {640, 480, 600}),  // a lens that nobody knows
+      KnownLens({7.5, -5, 1.5}, {7.5, 0, 1.5})};                   // the sphere at its very border
   EXPECT_EQ(PhotosThatMaySee(wall, photos, 78), (std::vector<int>{0, 4, 5}));
   EXPECT_EQ(PhotosThatMaySee(wall, photos, 89), (std::vector<int>{0, 3, 4, 5}));
 }
@@ -37,11 +37,11 @@ TEST(PhotosThatMaySee, LeavesOutWhatCannot) {
 TEST(PhotosThatMaySee, KeepsEveryPhotoThatSeesSomething) {
   const Facet wall = MakeWall(4, 3);
   const OcclusionScene nothing(testing::MakeProxy({wall}));
-  const TexelGrid raster = MakeGrid(wall, Eigen::Vector3d::UnitZ(), 0.25, 100);
-  const std::vector<uint16_t> inside(raster.size(), 1);
+  const TexelGrid grid = MakeGrid(wall, Eigen::Vector3d::UnitZ(), 0.25, 100);
+  const FacetRaster raster{grid, std::vector<uint16_t>(grid.size(), 1), 1};
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-12, 12);
-  std::vector<TexturePhoto> photos;
+  std::vector<SurveyPhoto> photos;
   for (int i = 0; i < 400; ++i) {
     const Eigen::Vector3d from(place(random), place(random), place(random));
     const Eigen::Vector3d to(place(random) / 3, place(random) / 6, place(random) / 3);
@@ -52,7 +52,7 @@ TEST(PhotosThatMaySee, KeepsEveryPhotoThatSeesSomething) {
   int seeing = 0;
   for (int p = 0; p < 400; ++p) {
     const RasterView view =
-        MeasureView(photos, p, wall, raster, inside, {&nothing, {}, {}}, {78, 0.02, 0.2});
+        MeasureView({photos, &nothing, {}, {}}, p, wall, raster, {78, 0.02, 0.2});
     const bool sees = std::any_of(view.texels.begin(), view.texels.end(),
                                   [](const TexelView& t) { return t.sight != Sight::kNot; });
     seeing += sees;
@@ -62,9 +62,9 @@ TEST(PhotosThatMaySee, KeepsEveryPhotoThatSeesSomething) {
 }
 
 TEST(LookRaster, HasTexelsOnThinAndOnLongFacets) {
-  const std::vector<TexturePhoto> photos = {KnownLens({20, -8, 1}, {20, 0, 1})};
+  const std::vector<SurveyPhoto> photos = {KnownLens({20, -8, 1}, {20, 0, 1})};
   PaintScene scene;
-  scene.photos = photos;
+  scene.sights.photos = photos;
   const std::vector<int> all = {0};
   const auto texels_on = [&](const Facet& facet) {
     const std::vector<uint8_t> mask = RasterizeFacet(facet, LookRaster(facet, scene, all));
@@ -80,18 +80,18 @@ TEST(LookRaster, HasTexelsOnThinAndOnLongFacets) {
 }
 
 TEST(LookRaster, IsBoundedWithManyPhotos) {
-  const std::vector<TexturePhoto> photos(1, KnownLens({20, -1, 1}, {20, 0, 1}));
+  const std::vector<SurveyPhoto> photos(1, KnownLens({20, -1, 1}, {20, 0, 1}));
   PaintScene scene;
-  scene.photos = photos;
+  scene.sights.photos = photos;
   const std::vector<int> all(100000, 0);
   EXPECT_LT(LookRaster(MakeWall(300, 100), scene, all).size(), 1200U);
 }
 
 TEST(LimitsFor, GrowWithTheTypicalDistance) {
   Facet wall = MakeWall(4, 3);
-  const std::vector<TexturePhoto> photos = {KnownLens({2, -10, 1.5}, {2, 0, 1.5}),
-                                            KnownLens({2, -10, 1.5}, {2, -50, 1.5}),
-                                            KnownLens({2, -90, 1.5}, {2, -99, 1.5})};
+  const std::vector<SurveyPhoto> photos = {KnownLens({2, -10, 1.5}, {2, 0, 1.5}),
+                                           KnownLens({2, -10, 1.5}, {2, -50, 1.5}),
+                                           KnownLens({2, -90, 1.5}, {2, -99, 1.5})};
   ViewLimits limits = LimitsFor(wall, photos, 70);
   EXPECT_EQ(limits.max_angle_deg, 70);
   EXPECT_NEAR(limits.tolerance, 0.03, 1e-9);  // of the photo that shows it, 10 m away

@@ -12,10 +12,10 @@ namespace {
 constexpr uint64_t kMegabyte = 1'000'000;
 
 uint64_t Bytes(const Facet& facet, int candidates, int photo_side_px) {
-  const std::vector<TexturePhoto> photos = {
-      testing::LookFrom("a", {2, -5, 1}, {2, 0, 1}, photo_side_px, photo_side_px, 500)};
+  const std::vector<SurveyPhoto> photos = {
+      testing::LookFrom("a", {2, -5, 1}, {2, 0, 1}, {photo_side_px, photo_side_px, 500})};
   PaintScene scene;
-  scene.photos = photos;
+  scene.sights.photos = photos;
   FacetLook look;
   look.texel = 0.01;
   look.candidates.assign(candidates, {0, 1.0 / std::max(1, candidates), 1});

@@ -32,16 +32,16 @@ class Quality : public ::testing::Test {
   }
   AchievedQuality Measure(const std::vector<RasterView>& views, const std::vector<int>& owner,
                           double texel) const {
-    return MeasureQuality(views, photos_, raster_, inside_, owner, texel);
+    return MeasureQuality(views, photos_, {raster_, inside_, 1}, owner, texel);
   }
 
   TexelGrid raster_;
   std::vector<uint16_t> inside_;
   // Frontal from very far, and from 60 degrees to the left and to the right.
-  std::vector<TexturePhoto> photos_ = {
-      LookFrom("a", {2, -1000, 1.5}, {2, 0, 1.5}, 100, 100, 100),
-      LookFrom("b", {2 - 866, -500, 1.5}, {2, 0, 1.5}, 100, 100, 100),
-      LookFrom("c", {2 + 866, -500, 1.5}, {2, 0, 1.5}, 100, 100, 100)};
+  std::vector<SurveyPhoto> photos_ = {
+      LookFrom("a", {2, -1000, 1.5}, {2, 0, 1.5}, {100, 100, 100}),
+      LookFrom("b", {2 - 866, -500, 1.5}, {2, 0, 1.5}, {100, 100, 100}),
+      LookFrom("c", {2 + 866, -500, 1.5}, {2, 0, 1.5}, {100, 100, 100})};
 };
 
 TEST_F(Quality, OfOneFrontalPhotoIsOne) {

@@ -22,7 +22,7 @@ using testing::WallScene;
 
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 
-PhotoPyramid PyramidOf(const TexturePhoto& photo) {
+PhotoPyramid PyramidOf(const SurveyPhoto& photo) {
   Image image = Render(photo, WallScene(4, 3));
   const int width = image.width_px;
   const int height = image.height_px;
@@ -37,7 +37,7 @@ Image AsImage(const SampledTile& tile, int width, int height) {
   return image;
 }
 
-double PsnrOf(const TexturePhoto& photo, double texel) {
+double PsnrOf(const SurveyPhoto& photo, double texel) {
   const TexelGrid grid = MakeGrid(MakeWall(4, 3), kUp, texel, 8192);
   const SampledTile tile =
       SamplePhoto(photo, PyramidOf(photo), grid, {0, 0, grid.width, grid.height});
@@ -46,27 +46,27 @@ double PsnrOf(const TexturePhoto& photo, double texel) {
 }
 
 TEST(SamplePhoto, RectifiesAFrontalPhoto) {
-  EXPECT_GT(PsnrOf(LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, 900, 680, 800), 0.01), 30);
+  EXPECT_GT(PsnrOf(LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, {900, 680, 800}), 0.01), 30);
 }
 
 TEST(SamplePhoto, RectifiesAnObliquePhoto) {
-  EXPECT_GT(PsnrOf(LookFrom("a", {5, -4, 3.5}, {2, 0, 1.5}, 1200, 900, 800), 0.01), 27);
+  EXPECT_GT(PsnrOf(LookFrom("a", {5, -4, 3.5}, {2, 0, 1.5}, {1200, 900, 800}), 0.01), 27);
 }
 
 TEST(SamplePhoto, UndoesLensDistortion) {
-  TexturePhoto photo = LookFrom("a", {2.2, -4, 1.6}, {2, 0, 1.5}, 1000, 800, 800);
+  SurveyPhoto photo = LookFrom("a", {2.2, -4, 1.6}, {2, 0, 1.5}, {1000, 800, 800});
   photo.camera.model = CameraModel::kOpenCv;
   photo.camera.params = {800, 805, 498, 403, -0.12, 0.05, 0.002, -0.001};
   EXPECT_GT(PsnrOf(photo, 0.01), 29);
 }
 
 TEST(SamplePhoto, AveragesPhotoPixelsSmallerThanTexels) {
-  EXPECT_GT(PsnrOf(LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, 900, 680, 800), 0.04), 30);
-  EXPECT_GT(PsnrOf(LookFrom("a", {5, -4, 3.5}, {2, 0, 1.5}, 1200, 900, 800), 0.05), 29);
+  EXPECT_GT(PsnrOf(LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, {900, 680, 800}), 0.04), 30);
+  EXPECT_GT(PsnrOf(LookFrom("a", {5, -4, 3.5}, {2, 0, 1.5}, {1200, 900, 800}), 0.05), 29);
 }
 
 TEST(SamplePhoto, AveragesAFineCheckerboardToGrey) {
-  const TexturePhoto photo = LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, 640, 480, 400);
+  const SurveyPhoto photo = LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, {640, 480, 400});
   Image image;
   image.width_px = 640;
   image.height_px = 480;
@@ -80,7 +80,7 @@ TEST(SamplePhoto, AveragesAFineCheckerboardToGrey) {
 }
 
 TEST(SamplePhoto, LeavesOutWhatThePhotoDoesNotShow) {
-  const TexturePhoto photo = LookFrom("a", {0, -4, 1.5}, {0, 0, 1.5}, 900, 800, 800);
+  const SurveyPhoto photo = LookFrom("a", {0, -4, 1.5}, {0, 0, 1.5}, {900, 800, 800});
   const TexelGrid grid = MakeGrid(MakeWall(4, 3), kUp, 0.01, 8192);
   const SampledTile tile =
       SamplePhoto(photo, PyramidOf(photo), grid, {0, 0, grid.width, grid.height});
@@ -91,7 +91,7 @@ TEST(SamplePhoto, LeavesOutWhatThePhotoDoesNotShow) {
 }
 
 TEST(SamplePhoto, TilesFitTogether) {
-  const TexturePhoto photo = LookFrom("a", {5, -4, 3.5}, {2, 0, 1.5}, 600, 450, 400);
+  const SurveyPhoto photo = LookFrom("a", {5, -4, 3.5}, {2, 0, 1.5}, {600, 450, 400});
   const PhotoPyramid pyramid = PyramidOf(photo);
   const TexelGrid grid = MakeGrid(MakeWall(4, 3), kUp, 0.02, 8192);
   const SampledTile whole = SamplePhoto(photo, pyramid, grid, {0, 0, grid.width, grid.height});
@@ -106,7 +106,7 @@ TEST(SamplePhoto, TilesFitTogether) {
 }
 
 TEST(SamplePhoto, FollowsAShift) {
-  const TexturePhoto photo = LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, 900, 680, 800);
+  const SurveyPhoto photo = LookFrom("a", {2, -4, 1.5}, {2, 0, 1.5}, {900, 680, 800});
   const PhotoPyramid pyramid = PyramidOf(photo);
   const TexelGrid grid = MakeGrid(MakeWall(4, 3), kUp, 0.01, 8192);
   GridShift shift;
@@ -126,23 +126,6 @@ TEST(GridShift, IsAHomographyToFirstOrder) {
   const double bend = 7 * 0.5 + 8 * 0.25;
   EXPECT_NEAR(at.x(), 1 + 3 * 0.5 + 4 * 0.25 + 0.5 * bend, 1e-12);
   EXPECT_NEAR(at.y(), 2 + 5 * 0.5 + 6 * 0.25 + 0.25 * bend, 1e-12);
-}
-
-TEST(ProjectIntoPhoto, RefusesPointsWhereTheLensFoldsBack) {
-  TexturePhoto photo = LookFrom("a", {0, -4, 0}, {0, 0, 0}, 800, 600, 400);
-  photo.camera.model = CameraModel::kRadial;
-  photo.camera.params = {400, 400, 300, -0.3, 0};
-  EXPECT_TRUE(ProjectIntoPhoto(photo, {1, 0, 0}));
-  EXPECT_FALSE(ProjectIntoPhoto(photo, {1, -8, 0}));  // behind
-  EXPECT_FALSE(ProjectIntoPhoto(photo, {9, 0, 0}));   // far outside; r (1 - 0.3 r^2) is negative
-  EXPECT_FALSE(ProjectIntoPhoto(photo, {6.5, 0, 0}));
-  KnowLens(photo);
-  EXPECT_EQ(photo.safe_radius_squared, 0);  // the corners are out of this lens's reach
-  photo.camera.params = {400, 400, 300, -0.1, 0.01};
-  KnowLens(photo);
-  EXPECT_GT(photo.safe_radius_squared, 1.5);  // 500 px from the centre at 400 px focal length
-  EXPECT_TRUE(ProjectIntoPhoto(photo, {1, 0, 0}));
-  EXPECT_FALSE(ProjectIntoPhoto(photo, {40, 0, 0}));
 }
 
 TEST(PhotoCache, DecodesOnceAndForgetsTheOldest) {

@@ -39,7 +39,7 @@ void ForSquare(int x0, int y0, int x1, int y1, Fn&& fn) {
 
 std::vector<int> Select(const std::vector<RasterPicture>& pictures, SelectOptions options = {}) {
   const std::vector<uint16_t> inside(kSide * kSide, 1);
-  return SelectPictures(pictures, Raster(), inside, 1, options);
+  return SelectPictures(pictures, {Raster(), inside, 1}, options);
 }
 
 std::vector<std::vector<float>> DisagreementOf(const std::vector<RasterPicture>& pictures) {

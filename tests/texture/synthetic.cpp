@@ -27,7 +27,6 @@ double Hash(int a, int b, int c) {
 Facet MakeWall(double width, double height) {
   Facet facet;
   facet.id = "B0001/W01";
-  facet.facade = facet.id;
   facet.normal = -Eigen::Vector3d::UnitY();
   facet.outer = {{0, 0, 0}, {width, 0, 0}, {width, 0, height}, {0, 0, height}};
   facet.area = width * height;
@@ -56,16 +55,17 @@ Colour WallColour(double x, double z) {
   return colour;
 }
 
-TexturePhoto LookFrom(const std::string& name, const Eigen::Vector3d& position,
-                      const Eigen::Vector3d& target, int width_px, int height_px, double focal_px) {
-  TexturePhoto photo;
-  photo.name = name;
-  photo.hash = name;
+SurveyPhoto LookFrom(const std::string& name, const Eigen::Vector3d& position,
+                     const Eigen::Vector3d& target, const Pinhole& camera) {
+  SurveyPhoto photo;
+  photo.captured.path = name;
+  photo.captured.hash = name;
   photo.camera.id = {1};
   photo.camera.model = CameraModel::kPinhole;
-  photo.camera.width_px = width_px;
-  photo.camera.height_px = height_px;
-  photo.camera.params = {focal_px, focal_px, width_px / 2.0, height_px / 2.0};
+  photo.camera.width_px = camera.width_px;
+  photo.camera.height_px = camera.height_px;
+  photo.camera.params = {camera.focal_px, camera.focal_px, camera.width_px / 2.0,
+                         camera.height_px / 2.0};
   const Eigen::Vector3d forward = (target - position).normalized();
   const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
   Eigen::Matrix3d cam_from_world;
@@ -97,7 +97,7 @@ Scene DiscScene(const Eigen::Vector3d& center, double radius, const Scene& behin
   };
 }
 
-Image Render(const TexturePhoto& photo, const Scene& scene, double exposure) {
+Image Render(const SurveyPhoto& photo, const Scene& scene, double exposure) {
   Image image;
   image.width_px = photo.camera.width_px;
   image.height_px = photo.camera.height_px;

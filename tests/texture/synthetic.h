@@ -11,8 +11,8 @@
 
 #include "survey/image.h"
 #include "survey/proxy.h"
+#include "survey/survey_photo.h"
 #include "texture/grid.h"
-#include "texture/photo.h"
 
 namespace stucco::testing {
 
@@ -26,8 +26,13 @@ Proxy MakeProxy(const std::vector<Facet>& facets);
 Colour WallColour(double x, double z);
 
 // A pinhole camera of the given size and focal length that looks from `position` to `target`.
-TexturePhoto LookFrom(const std::string& name, const Eigen::Vector3d& position,
-                      const Eigen::Vector3d& target, int width_px, int height_px, double focal_px);
+struct Pinhole {
+  int width_px = 0;
+  int height_px = 0;
+  double focal_px = 0;
+};
+SurveyPhoto LookFrom(const std::string& name, const Eigen::Vector3d& position,
+                     const Eigen::Vector3d& target, const Pinhole& camera);
 
 // What a ray meets first: colour, or nothing for the background.
 using Scene =
@@ -39,7 +44,7 @@ Scene WallScene(double width, double height);
 Scene DiscScene(const Eigen::Vector3d& center, double radius, const Scene& behind);
 
 // Renders with 2 x 2 rays a pixel, times `exposure`; background 128.
-Image Render(const TexturePhoto& photo, const Scene& scene, double exposure = 1);
+Image Render(const SurveyPhoto& photo, const Scene& scene, double exposure = 1);
 
 // WallColour as a perfect facade picture on a grid of MakeWall's plane.
 Image WallPicture(const TexelGrid& grid);

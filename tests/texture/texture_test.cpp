@@ -53,19 +53,19 @@ class Survey {
 
   void SetProxy(const Proxy& proxy) { WriteProxy(proxy, Folder() / kFacetsFile); }
 
-  TexturePhoto Add(const std::string& name, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                   double exposure = 1, const testing::Scene& scene = WallScene(4, 3)) {
-    const TexturePhoto photo = LookFrom(name, from, to, kPhotoWidth, kPhotoHeight, kFocal);
+  SurveyPhoto Add(const std::string& name, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                  double exposure = 1, const testing::Scene& scene = WallScene(4, 3)) {
+    const SurveyPhoto photo = LookFrom(name, from, to, {kPhotoWidth, kPhotoHeight, kFocal});
     WriteImage(Render(photo, scene, exposure), Photos() / name, 97);
     Pose(photo);
     return photo;
   }
 
   // Poses a photo without writing a file.
-  void Pose(const TexturePhoto& photo) {
+  void Pose(const SurveyPhoto& photo) {
     model_.cameras[photo.camera.id] = photo.camera;
     const PhotoId id{static_cast<uint32_t>(model_.photos.size() + 1)};
-    model_.photos[id] = {id, photo.camera.id, photo.name, photo.cam_from_world, {}};
+    model_.photos[id] = {id, photo.camera.id, photo.path(), photo.cam_from_world, {}};
   }
 
   // The pose that the program is told is wrong by this rotation about the camera's y axis.
@@ -81,7 +81,7 @@ class Survey {
   // A plan whose only facade is the wall, with one view for the photo of this name, if any.
   void Plan(const std::string& planned_photo) {
     Proxy proxy = MakeProxy({MakeWall(4, 3)});
-    proxy.buildings[0].facets[0].facade = "B0012/F03";
+    proxy.buildings[0].facets[0].planned_facades = {"B0012/F03"};
     SetProxy(proxy);
     PlannedFacade facade;
     facade.id = "B0012/F03";

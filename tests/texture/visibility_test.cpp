@@ -45,7 +45,8 @@ class Foreground : public ::testing::Test {
   }
   CloudView Ask(const Eigen::Vector3d& on_wall, double clearance) const {
     const NearestPoints nearest = SplatNearest(photo_, points_, 100);
-    return AskCloud(nearest, points_, photo_, *ProjectIntoPhoto(photo_, on_wall), wall_, clearance);
+    const SightScene scene{{&photo_, 1}, nullptr, {&nearest, 1}, points_};
+    return AskCloud(scene, 0, *ProjectIntoPhoto(photo_, on_wall), wall_, clearance);
   }
   // A patch of points of 40 cm around a place.
   void AddPatch(double x, double y, double z) {
@@ -55,7 +56,7 @@ class Foreground : public ::testing::Test {
   }
 
   Facet wall_ = MakeWall(4, 3);
-  TexturePhoto photo_ = LookFrom("a.jpg", {2, -6, 1.5}, {2, 0, 1.5}, 400, 300, 400);
+  SurveyPhoto photo_ = LookFrom("a.jpg", {2, -6, 1.5}, {2, 0, 1.5}, {400, 300, 400});
   std::vector<Eigen::Vector3d> points_;
 };
 
@@ -86,7 +87,7 @@ TEST_F(Foreground, IsNotWhatLiesBeyondThePlane) {
 }
 
 TEST(SplatNearest, KeepsTheNearestPoint) {
-  const TexturePhoto photo = LookFrom("a.jpg", {0, -6, 0}, {0, 0, 0}, 400, 300, 400);
+  const SurveyPhoto photo = LookFrom("a.jpg", {0, -6, 0}, {0, 0, 0}, {400, 300, 400});
   const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {0, -2, 0}, {0, -1, 0}, {0, -7, 0}};
   const NearestPoints nearest = SplatNearest(photo, points, 100);
   EXPECT_EQ(nearest.width, 100);

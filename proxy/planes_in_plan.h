@@ -19,10 +19,10 @@ namespace stucco {
 // themselves, and which go on in one another. A roof falls off at its eaves, ground does not,
 // however high it lies on its hill: heights over the whole scene decide nothing (compare the
 // morphological ground filters, e.g. Zhang et al. 2003).
-class Terrain {
+class PlanesInPlan {
  public:
-  Terrain(const Samples& samples, const Tolerances& tolerances, const Eigen::Vector3d& up,
-          const std::vector<Plane>& planes);
+  PlanesInPlan(const Samples& samples, const Tolerances& tolerances, const Eigen::Vector3d& up,
+               const std::vector<Plane>& planes);
 
   // Whether what is seen next to the plane lies below it along at most 30 % of its border.
   bool IsLowest(int plane) const;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "report/facade_rows.h"
+#include "report/facet_rows.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,6 @@ SurveyData GoodWalls() {
   for (int i = 0; i < 3; ++i) {
     Facet facet;
     facet.id = "B0001/W0" + std::to_string(i + 1);
-    facet.facade = facet.id;
     facet.area = 50;
     facet.seen = 0.95;
     facet.inferred = 0.05;
@@ -43,15 +42,15 @@ SurveyData GoodWalls() {
   return data;
 }
 
-FacadeRow FirstRow(const SurveyData& data) {
-  return MakeFacadeRows(data, {}).at(0);
+FacetRow FirstRow(const SurveyData& data) {
+  return MakeFacetRows(data, {}).at(0);
 }
 
-TEST(MakeFacadeRows, GoodWallsAreGreen) {
+TEST(MakeFacetRows, GoodWallsAreGreen) {
   const SurveyData data = GoodWalls();
-  const auto rows = MakeFacadeRows(data, {});
+  const auto rows = MakeFacetRows(data, {});
   ASSERT_EQ(rows.size(), 3U);
-  for (const FacadeRow& row : rows) {
+  for (const FacetRow& row : rows) {
     EXPECT_EQ(row.verdict, Verdict::kGreen);
     EXPECT_THAT(row.findings, IsEmpty());
     EXPECT_EQ(row.building, "B0001");
@@ -68,13 +67,13 @@ SurveyData PlannedWalls() {
     facade.predicted = {0.9, 0.8, 0.7, 1};
     data.plan->facades.push_back(facade);
   }
-  for (int i : {0, 1}) data.proxy->buildings[0].facets[i].facade = "B0007/F01";
+  for (int i : {0, 1}) data.proxy->buildings[0].facets[i].planned_facades = {"B0007/F01"};
   return data;
 }
 
-TEST(MakeFacadeRows, PartsOfAPlannedFacadeKnowIt) {
+TEST(MakeFacetRows, PartsOfAPlannedFacadeKnowIt) {
   const SurveyData data = PlannedWalls();
-  const auto rows = MakeFacadeRows(data, {});
+  const auto rows = MakeFacetRows(data, {});
   ASSERT_EQ(rows.size(), 3U);
   for (int i : {0, 1}) {
     ASSERT_NE(rows[i].planned, nullptr);
@@ -87,30 +86,30 @@ TEST(MakeFacadeRows, PartsOfAPlannedFacadeKnowIt) {
   EXPECT_THAT(MissingFacades(data, rows), testing::ElementsAre("B0007/F00"));
 }
 
-TEST(MakeFacadeRows, AFacadeThatAWallSpansBesidesIsNotMissing) {
+TEST(MakeFacetRows, AFacadeThatAWallSpansBesidesIsNotMissing) {
   SurveyData data = PlannedWalls();
-  data.proxy->buildings[0].facets[1].other_facades = {"B0007/F00"};
-  const auto rows = MakeFacadeRows(data, {});
+  data.proxy->buildings[0].facets[1].planned_facades.push_back("B0007/F00");
+  const auto rows = MakeFacetRows(data, {});
   EXPECT_EQ(rows[1].Name(), "B0007/F01");
   EXPECT_THAT(MissingFacades(data, rows), IsEmpty());
 }
 
-TEST(MakeFacadeRows, AnOwnIdIsNotThePlansEvenWhereItLooksLikeOne) {
+TEST(MakeFacetRows, AnOwnIdIsNotThePlansEvenWhereItLooksLikeOne) {
   SurveyData data = PlannedWalls();
   data.plan->facades[0].id = "B0001/W03";
-  const auto rows = MakeFacadeRows(data, {});
+  const auto rows = MakeFacetRows(data, {});
   EXPECT_EQ(rows[2].planned, nullptr);
   // A facade id that no plan explains is kept, and nothing is predicted.
-  data.proxy->buildings[0].facets[2].facade = "B0099/F00";
-  EXPECT_EQ(MakeFacadeRows(data, {})[2].planned, nullptr);
+  data.proxy->buildings[0].facets[2].planned_facades = {"B0099/F00"};
+  EXPECT_EQ(MakeFacetRows(data, {})[2].planned, nullptr);
   data.plan.reset();
-  const auto unplanned = MakeFacadeRows(data, {});
-  for (const FacadeRow& row : unplanned) EXPECT_EQ(row.planned, nullptr);
+  const auto unplanned = MakeFacetRows(data, {});
+  for (const FacetRow& row : unplanned) EXPECT_EQ(row.planned, nullptr);
   EXPECT_THAT(MissingFacades(data, unplanned), IsEmpty());
 }
 
 // Every measure makes a facade amber and red by itself, with a text that says which.
-TEST(MakeFacadeRows, EachMeasureCountsByItself) {
+TEST(MakeFacetRows, EachMeasureCountsByItself) {
   struct Case {
     const char* text;
     std::function<void(SurveyData&, bool)> damage;  // the flag: badly
@@ -130,16 +129,16 @@ TEST(MakeFacadeRows, EachMeasureCountsByItself) {
     for (const bool bad : {false, true}) {
       SurveyData data = GoodWalls();
       c.damage(data, bad);
-      const FacadeRow row = FirstRow(data);
+      const FacetRow row = FirstRow(data);
       EXPECT_EQ(row.verdict, bad ? Verdict::kRed : Verdict::kAmber) << c.text;
       ASSERT_EQ(row.findings.size(), 1U) << c.text;
       EXPECT_THAT(row.findings[0].text, HasSubstr(c.text));
-      EXPECT_EQ(MakeFacadeRows(data, {})[1].verdict, Verdict::kGreen) << c.text;
+      EXPECT_EQ(MakeFacetRows(data, {})[1].verdict, Verdict::kGreen) << c.text;
     }
   }
 }
 
-TEST(MakeFacadeRows, ExactlyAtTheLimitIsGood) {
+TEST(MakeFacetRows, ExactlyAtTheLimitIsGood) {
   SurveyData data = GoodWalls();
   const ReportOptions options;
   data.textures->facets[0].painted = options.coverage_amber_below;
@@ -148,23 +147,23 @@ TEST(MakeFacadeRows, ExactlyAtTheLimitIsGood) {
   EXPECT_EQ(FirstRow(data).verdict, Verdict::kGreen);
 }
 
-TEST(MakeFacadeRows, LimitsAreOptions) {
+TEST(MakeFacetRows, LimitsAreOptions) {
   SurveyData data = GoodWalls();
   data.textures->facets[0].painted = 0.8;
   ReportOptions options;
   options.coverage_amber_below = 0.7;
-  EXPECT_EQ(MakeFacadeRows(data, options)[0].verdict, Verdict::kGreen);
+  EXPECT_EQ(MakeFacetRows(data, options)[0].verdict, Verdict::kGreen);
   options.coverage_amber_below = options.coverage_red_below = 0.85;
-  EXPECT_EQ(MakeFacadeRows(data, options)[0].verdict, Verdict::kRed);
+  EXPECT_EQ(MakeFacetRows(data, options)[0].verdict, Verdict::kRed);
 }
 
-TEST(MakeFacadeRows, NotANumberIsRed) {
+TEST(MakeFacetRows, NotANumberIsRed) {
   SurveyData data = GoodWalls();
   data.textures->facets[0].painted = NAN;
   EXPECT_EQ(FirstRow(data).verdict, Verdict::kRed);
 }
 
-TEST(MakeFacadeRows, PicturesCoarserThanTheirPhotosAreAmber) {
+TEST(MakeFacetRows, PicturesCoarserThanTheirPhotosAreAmber) {
   SurveyData data = GoodWalls();
   TexturedFacet& texture = data.textures->facets[0];
   texture.metres_per_texel = 0.024;
@@ -179,13 +178,13 @@ TEST(MakeFacadeRows, PicturesCoarserThanTheirPhotosAreAmber) {
   EXPECT_EQ(FirstRow(data).verdict, Verdict::kGreen);
 }
 
-TEST(MakeFacadeRows, OnePhotoHasNoMisfit) {
+TEST(MakeFacetRows, OnePhotoHasNoMisfit) {
   SurveyData data = GoodWalls();
   data.textures->facets[0].misregistration_px = -1;
   EXPECT_EQ(FirstRow(data).verdict, Verdict::kGreen);
 }
 
-TEST(MakeFacadeRows, UnpaintedIsRed) {
+TEST(MakeFacetRows, UnpaintedIsRed) {
   SurveyData data = GoodWalls();
   data.textures->facets[0].image.clear();
   data.textures->facets[0].painted = 0;
@@ -196,7 +195,7 @@ TEST(MakeFacadeRows, UnpaintedIsRed) {
   EXPECT_EQ(FirstRow(data).texture, nullptr);
 }
 
-TEST(MakeFacadeRows, WithoutTexturesNothingIsRated) {
+TEST(MakeFacetRows, WithoutTexturesNothingIsRated) {
   SurveyData data = GoodWalls();
   data.textures.reset();
   EXPECT_EQ(FirstRow(data).verdict, Verdict::kUnknown);
@@ -204,10 +203,10 @@ TEST(MakeFacadeRows, WithoutTexturesNothingIsRated) {
   EXPECT_EQ(MedianGsd(data), std::nullopt);
 }
 
-TEST(MakeFacadeRows, TexturesWithoutProxyAreRated) {
+TEST(MakeFacetRows, TexturesWithoutProxyAreRated) {
   SurveyData data = GoodWalls();
   data.proxy.reset();
-  const auto rows = MakeFacadeRows(data, {});
+  const auto rows = MakeFacetRows(data, {});
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0].verdict, Verdict::kGreen);
   EXPECT_EQ(rows[0].building, "B0001");
@@ -241,7 +240,7 @@ void SetTextureState(SurveyData& data, const char* state) {
 
 // After a new proxy and a failed texture stage the old pictures are still there, under ids that
 // may now be other walls'.
-TEST(MakeFacadeRows, OldPicturesAreJoinedOnlyWhereTheyFit) {
+TEST(MakeFacetRows, OldPicturesAreJoinedOnlyWhereTheyFit) {
   const std::function<void(SurveyData&)> changes[] = {
       [](SurveyData& d) { d.proxy->buildings[0].facets[0].offset += 0.1; },
       [](SurveyData& d) { d.proxy->buildings[0].facets[0].normal *= -1; },
@@ -252,7 +251,7 @@ TEST(MakeFacadeRows, OldPicturesAreJoinedOnlyWhereTheyFit) {
     SetTextureState(data, "failed");
     EXPECT_EQ(FirstRow(data).verdict, Verdict::kGreen);
     change(data);
-    const auto rows = MakeFacadeRows(data, {});
+    const auto rows = MakeFacetRows(data, {});
     EXPECT_EQ(rows[0].texture, nullptr);
     EXPECT_EQ(rows[0].verdict, Verdict::kUnknown);
     ASSERT_EQ(rows[0].findings.size(), 1U);
@@ -263,18 +262,18 @@ TEST(MakeFacadeRows, OldPicturesAreJoinedOnlyWhereTheyFit) {
   }
 }
 
-TEST(MakeFacadeRows, OldPicturesOfFacetsThatAreGoneAreNotListed) {
+TEST(MakeFacetRows, OldPicturesOfFacetsThatAreGoneAreNotListed) {
   SurveyData data = WallsInPlace();
   SetTextureState(data, "stale");
   data.proxy->buildings[0].facets.pop_back();
-  EXPECT_EQ(MakeFacadeRows(data, {}).size(), 2U);
+  EXPECT_EQ(MakeFacetRows(data, {}).size(), 2U);
   data.proxy->buildings[0].facets.push_back(data.proxy->buildings[0].facets[0]);
   data.proxy->buildings[0].facets.back().id = "B0001/W09";  // never textured
-  EXPECT_EQ(MakeFacadeRows(data, {}).back().verdict, Verdict::kUnknown);
+  EXPECT_EQ(MakeFacetRows(data, {}).back().verdict, Verdict::kUnknown);
 }
 
-TEST(MakeFacadeRows, NothingFromNothing) {
-  EXPECT_THAT(MakeFacadeRows({}, {}), IsEmpty());
+TEST(MakeFacetRows, NothingFromNothing) {
+  EXPECT_THAT(MakeFacetRows({}, {}), IsEmpty());
   EXPECT_EQ(CountVerdicts({}, true).Total(), 0);
 }
 
@@ -282,7 +281,7 @@ TEST(CountVerdicts, CountsWallsApart) {
   SurveyData data = GoodWalls();
   data.textures->facets[0].painted = 0.1;
   data.proxy->buildings[0].facets[2].facet_class = FacetClass::kRoof;
-  const auto rows = MakeFacadeRows(data, {});
+  const auto rows = MakeFacetRows(data, {});
   EXPECT_EQ(CountVerdicts(rows, true).Total(), 2);
   EXPECT_EQ(CountVerdicts(rows, true).red, 1);
   EXPECT_EQ(CountVerdicts(rows, false).green, 2);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "proxy/terrain.h"
+#include "proxy/planes_in_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace stucco {
 
-Terrain::Terrain(const Samples& samples, const Tolerances& tolerances, const Eigen::Vector3d& up,
-                 const std::vector<Plane>& planes)
+PlanesInPlan::PlanesInPlan(const Samples& samples, const Tolerances& tolerances,
+                           const Eigen::Vector3d& up, const std::vector<Plane>& planes)
     : planes_(planes), up_(up), cells_(planes.size()) {
   constexpr double kDetailsPerCell = 5;  // 1.5 m
   constexpr double kPointsPerCell = 4;
@@ -40,12 +40,12 @@ Terrain::Terrain(const Samples& samples, const Tolerances& tolerances, const Eig
 }
 
 // Negative below the plane, along up.
-double Terrain::HeightOver(int plane, const Eigen::Vector3d& position) const {
+double PlanesInPlan::HeightOver(int plane, const Eigen::Vector3d& position) const {
   return planes_[plane].DistanceTo(position) / planes_[plane].normal.dot(up_);
 }
 
 // What the terrain may fall or rise by on the way to a cell that far.
-double Terrain::StepAt(int steps) const {
+double PlanesInPlan::StepAt(int steps) const {
   constexpr double kBend = 0.18;  // ten degrees from one plane of the terrain to the next
   return step_ + kBend * steps * cell_;
 }
@@ -53,7 +53,7 @@ double Terrain::StepAt(int steps) const {
 // What lies across the plane's border: from each of its outer cells in the four directions the
 // first cell with points, as far as walls hide the ground from photos. The outer cells themselves
 // count too: walls end in them.
-std::vector<Terrain::Neighbour> Terrain::Around(int plane) const {
+std::vector<PlanesInPlan::Neighbour> PlanesInPlan::Around(int plane) const {
   constexpr int kFarthest = 4;
   const auto& own = cells_[plane];
   const auto is_own = [&](const Cell& cell) {
@@ -78,7 +78,7 @@ std::vector<Terrain::Neighbour> Terrain::Around(int plane) const {
   return around;
 }
 
-bool Terrain::IsLowest(int plane) const {
+bool PlanesInPlan::IsLowest(int plane) const {
   constexpr double kMayFall = 0.3;
   size_t falls = 0, all = 0;
   for (const auto& [spots, steps] : Around(plane)) {
@@ -92,7 +92,7 @@ bool Terrain::IsLowest(int plane) const {
   return static_cast<double>(falls) <= kMayFall * static_cast<double>(all);
 }
 
-bool Terrain::Continues(int plane, int other) const {
+bool PlanesInPlan::Continues(int plane, int other) const {
   for (const auto& [spots, steps] : Around(plane)) {
     for (const Spot& spot : *spots) {
       if (spot.plane == other &&
@@ -104,7 +104,7 @@ bool Terrain::Continues(int plane, int other) const {
   return false;
 }
 
-int Terrain::Nearest(int plane, std::span<const int> others) const {
+int PlanesInPlan::Nearest(int plane, std::span<const int> others) const {
   int best = others.front();
   double nearest = std::numeric_limits<double>::infinity();
   const Cell from = cells_[plane][cells_[plane].size() / 2];

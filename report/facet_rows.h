@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report/report.h"
+#include "report/options.h"
 #include "report/survey_data.h"
 
 namespace stucco {
@@ -22,7 +22,7 @@ struct Finding {
 };
 
 // A facet of the proxy with all that is known about it.
-struct FacadeRow {
+struct FacetRow {
   std::string id;
   std::string building;
   const Facet* facet = nullptr;            // nullptr: only textured
@@ -42,10 +42,10 @@ struct FacadeRow {
 // A row per facet in the order of the proxy, then of the textures; the rows point into `data`.
 // Verdicts are kUnknown as long as there are no textures. Facets have the pictures of their id;
 // where texturing has not been finished since the proxy, only those that still fit.
-std::vector<FacadeRow> MakeFacadeRows(const SurveyData& data, const ReportOptions& options);
+std::vector<FacetRow> MakeFacetRows(const SurveyData& data, const ReportOptions& options);
 
 // The plan's facades that no row is a part of, in its order; none without a plan.
-std::vector<std::string> MissingFacades(const SurveyData& data, const std::vector<FacadeRow>& rows);
+std::vector<std::string> MissingFacades(const SurveyData& data, const std::vector<FacetRow>& rows);
 
 // "Wall", "Roof", ... for people.
 std::string ClassLabel(FacetClass facet_class);
@@ -58,7 +58,7 @@ struct VerdictCounts {
   int Total() const { return green + amber + red + unknown; }
 };
 
-VerdictCounts CountVerdicts(const std::vector<FacadeRow>& rows, bool walls_only);
+VerdictCounts CountVerdicts(const std::vector<FacetRow>& rows, bool walls_only);
 
 // Median size of a photo pixel over the painted facets, world units; nothing without any.
 std::optional<double> MedianGsd(const SurveyData& data);

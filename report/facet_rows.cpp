@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "report/facade_rows.h"
+#include "report/facet_rows.h"
 
 #include <fmt/format.h>
 
@@ -43,7 +43,7 @@ class Judge {
  public:
   explicit Judge(const ReportOptions& options) : options_(options) {}
 
-  void Fill(FacadeRow& row) const {
+  void Fill(FacetRow& row) const {
     if (row.texture_outdated) {
       row.findings = {{Verdict::kUnknown, "its picture is of an older model; texture it again"}};
       return;
@@ -65,7 +65,7 @@ class Judge {
   }
 
  private:
-  void JudgeTexture(FacadeRow& row) const {
+  void JudgeTexture(FacetRow& row) const {
     const TexturedFacet& texture = *row.texture;
     Add(row, {options_.coverage_amber_below, options_.coverage_red_below, /*low_is_bad=*/true},
         texture.painted, [](double value, double bound) {
@@ -99,7 +99,7 @@ class Judge {
   }
 
   template <typename Text>
-  static void Add(FacadeRow& row, const Limit& limit, double value, Text text) {
+  static void Add(FacetRow& row, const Limit& limit, double value, Text text) {
     const Verdict verdict = limit.Judge(value);
     if (verdict == Verdict::kGreen) return;
     row.findings.push_back({verdict, text(value, limit.Passed(verdict))});
@@ -134,13 +134,13 @@ bool Fits(const TexturedFacet& texture, const Facet& facet) {
 }
 
 // The picture of a facet, or a note that the one of this id is of another model.
-void Join(const TexturedFacet& texture, bool may_be_old, FacadeRow& row) {
+void Join(const TexturedFacet& texture, bool may_be_old, FacetRow& row) {
   const bool has_picture = !texture.image.empty();
   row.texture_outdated = may_be_old && !(has_picture && Fits(texture, *row.facet));
   if (!row.texture_outdated) row.texture = &texture;
 }
 
-std::vector<FacadeRow> ListFacets(const SurveyData& data) {
+std::vector<FacetRow> ListFacets(const SurveyData& data) {
   std::map<std::string, const TexturedFacet*> texture_by_id;
   if (data.textures) {
     for (const TexturedFacet& texture : data.textures->facets) {
@@ -148,12 +148,12 @@ std::vector<FacadeRow> ListFacets(const SurveyData& data) {
     }
   }
   const bool may_be_old = TexturesMayBeOld(data);
-  std::vector<FacadeRow> rows;
+  std::vector<FacetRow> rows;
   if (data.proxy) {
     for (const Building& building : data.proxy->buildings) {
       for (const Facet& facet : building.facets) {
         const auto found = texture_by_id.find(facet.id);
-        FacadeRow row;
+        FacetRow row;
         row.id = facet.id;
         row.building = building.id;
         row.facet = &facet;
@@ -171,7 +171,7 @@ std::vector<FacadeRow> ListFacets(const SurveyData& data) {
   if (!data.textures || may_be_old) return rows;
   for (const TexturedFacet& texture : data.textures->facets) {
     if (texture_by_id.erase(texture.id) == 0) continue;
-    FacadeRow row;
+    FacetRow row;
     row.id = texture.id;
     row.building = texture.id.substr(0, texture.id.find('/'));
     row.texture = &texture;
@@ -180,15 +180,13 @@ std::vector<FacadeRow> ListFacets(const SurveyData& data) {
   return rows;
 }
 
-// A wall that is no part of the plan carries its own id as its facade's, which another planner may
-// have given away too.
-void JoinPlan(const SurveyData& data, std::vector<FacadeRow>& rows) {
+void JoinPlan(const SurveyData& data, std::vector<FacetRow>& rows) {
   if (!data.plan) return;
   std::map<std::string, const PlannedFacade*> facades;
   for (const PlannedFacade& facade : data.plan->facades) facades[facade.id] = &facade;
-  for (FacadeRow& row : rows) {
-    if (row.facet == nullptr || row.facet->facade == row.facet->id) continue;
-    const auto found = facades.find(row.facet->facade);
+  for (FacetRow& row : rows) {
+    if (row.facet == nullptr || row.facet->planned_facades.empty()) continue;
+    const auto found = facades.find(row.facet->planned_facades.front());
     if (found != facades.end()) row.planned = found->second;
   }
 }
@@ -233,28 +231,26 @@ std::optional<double> MedianGsd(const SurveyData& data) {
   return Median(std::move(sizes));
 }
 
-std::vector<FacadeRow> MakeFacadeRows(const SurveyData& data, const ReportOptions& options) {
-  std::vector<FacadeRow> rows = ListFacets(data);
+std::vector<FacetRow> MakeFacetRows(const SurveyData& data, const ReportOptions& options) {
+  std::vector<FacetRow> rows = ListFacets(data);
   JoinPlan(data, rows);
   if (!data.textures) return rows;
   const double median = MedianGsd(data).value_or(0);
   const Judge judge(options);
-  for (FacadeRow& row : rows) {
+  for (FacetRow& row : rows) {
     if (row.texture != nullptr && median > 0) row.gsd_ratio = row.texture->gsd_m / median;
     judge.Fill(row);
   }
   return rows;
 }
 
-std::vector<std::string> MissingFacades(const SurveyData& data,
-                                        const std::vector<FacadeRow>& rows) {
+std::vector<std::string> MissingFacades(const SurveyData& data, const std::vector<FacetRow>& rows) {
   std::vector<std::string> missing;
   if (!data.plan) return missing;
   std::set<std::string> found;
-  for (const FacadeRow& row : rows) {
+  for (const FacetRow& row : rows) {
     if (row.planned == nullptr) continue;
-    found.insert(row.planned->id);
-    found.insert(row.facet->other_facades.begin(), row.facet->other_facades.end());
+    found.insert(row.facet->planned_facades.begin(), row.facet->planned_facades.end());
   }
   for (const PlannedFacade& facade : data.plan->facades) {
     if (!found.contains(facade.id)) missing.push_back(facade.id);
@@ -262,9 +258,9 @@ std::vector<std::string> MissingFacades(const SurveyData& data,
   return missing;
 }
 
-VerdictCounts CountVerdicts(const std::vector<FacadeRow>& rows, bool walls_only) {
+VerdictCounts CountVerdicts(const std::vector<FacetRow>& rows, bool walls_only) {
   VerdictCounts counts;
-  for (const FacadeRow& row : rows) {
+  for (const FacetRow& row : rows) {
     if (walls_only && row.facet_class != FacetClass::kWall) continue;
     switch (row.verdict) {
       case Verdict::kGreen:

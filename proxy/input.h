@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "proxy/samples.h"
+#include "survey/georef.h"
+#include "survey/survey_photo.h"
+
+namespace stucco {
+
+// What the planar model is made from.
+struct ProxyInput {
+  PointStream cloud;
+  std::vector<SurveyPhoto> photos;  // the cloud's `views` are their ids
+  Georef georef;
+};
+
+}  // namespace stucco
