@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -244,6 +245,7 @@ std::vector<std::vector<int>> MatchWalls(const std::vector<WallLine>& walls,
 }
 
 FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy) {
+  assert(georef.frame == "enu");
   std::vector<Facet*> facets;
   std::vector<WallLine> walls;
   for (Building& building : proxy.buildings) {

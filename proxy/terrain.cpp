@@ -3,6 +3,7 @@
 #include "proxy/terrain.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -105,6 +106,7 @@ bool Terrain::Continues(int plane, int other) const {
 }
 
 int Terrain::Nearest(int plane, std::span<const int> others) const {
+  assert(!others.empty());
   int best = others.front();
   double nearest = std::numeric_limits<double>::infinity();
   const Cell from = cells_[plane][cells_[plane].size() / 2];

@@ -5,6 +5,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "survey/error.h"
@@ -50,6 +51,8 @@ void Occluders::State::Attach(std::span<const Eigen::Vector3d> vertices,
 Occluders::Occluders(std::span<const Eigen::Vector3d> vertices,
                      std::span<const std::array<uint32_t, 3>> triangles)
     : state_(std::make_unique<State>()) {
+  assert(std::ranges::all_of(triangles,
+                             [&](const auto& t) { return std::ranges::max(t) < vertices.size(); }));
   for (const Eigen::Vector3d& vertex : vertices) state_->center += vertex;
   if (!vertices.empty()) state_->center /= static_cast<double>(vertices.size());
   state_->device = rtcNewDevice("threads=1");

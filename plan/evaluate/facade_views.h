@@ -32,7 +32,7 @@ struct FacadeGrid {
   int rows = 0;
 };
 
-// The target on a facade that just holds these cells, of which there is at least one.
+// The target on a facade that just holds these cells. Requires at least one.
 Target BoxAround(const FacadeGrid& grid, int facade, std::span<const uint32_t> cells);
 
 // What one photo sees of a facade.
