@@ -4,11 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "calib/project_inside.h"
+#include "calib/expect/project_inside.h"
 #include "survey/parallel.h"
 
 namespace stucco {
@@ -171,6 +172,7 @@ std::vector<WallRange> WallsOf(const ExpectedViews& views, size_t photo) {
 }  // namespace
 
 ExpectedViews ExpectViews(ExpectInput input, const StageContext& context) {
+  assert(input.poses.size() == input.cameras.size());
   const SiteMesh mesh = MeshOfSite(input.plan);
   const double reach_m =
       std::clamp(kReach * std::max(input.plan.safe_altitude_m, input.plan.d_max_m), kLeastReach_m,
