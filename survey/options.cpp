@@ -167,7 +167,7 @@ Option& OptionTable::Append(Option option) {
 }
 
 Option& OptionTable::Add(std::string name, int& value, int min, int max, std::string help) {
-  assert(min <= value && value <= max);
+  assert(min <= max);
   return Append(Option{std::move(name),
                        std::move(help),
                        &value,
@@ -178,7 +178,7 @@ Option& OptionTable::Add(std::string name, int& value, int min, int max, std::st
 
 Option& OptionTable::Add(std::string name, double& value, double min, double max,
                          std::string help) {
-  assert(min <= value && value <= max);
+  assert(min <= max);
   return Append(Option{std::move(name), std::move(help), &value, min, max, {}});
 }
 

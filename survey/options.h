@@ -29,7 +29,7 @@ class OptionTable {
  public:
   explicit OptionTable(std::string section) : section_(std::move(section)) {}
 
-  // Requires a name that the table does not have yet, and a default within the range.
+  // Requires a name that the table does not have yet, and a range that is not empty.
   Option& Add(std::string name, int& value, int min, int max, std::string help);
   Option& Add(std::string name, double& value, double min, double max, std::string help);
   Option& Add(std::string name, bool& value, std::string help);
