@@ -10,10 +10,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <set>
+#include <span>
+#include <stdexcept>
 
 #include "calib/internal/costs.h"
 #include "survey/error.h"
@@ -42,6 +46,31 @@ RefineIntrinsics LevelFor(int num_photos) {
   return num_photos < 5 ? RefineIntrinsics::kDistortion : RefineIntrinsics::kPrincipalPoint;
 }
 
+// The level from which on a parameter may change. Tangential distortion and the principal point
+// look much the same to few photos.
+RefineIntrinsics LevelOf(ParameterKind kind) {
+  switch (kind) {
+    case ParameterKind::kFocalLength:
+      return RefineIntrinsics::kFocal;
+    case ParameterKind::kRadial:
+    case ParameterKind::kRational:
+      return RefineIntrinsics::kDistortion;
+    case ParameterKind::kPrincipalPoint:
+    case ParameterKind::kTangential:
+      return RefineIntrinsics::kPrincipalPoint;
+  }
+  throw std::logic_error("unknown kind of parameter");
+}
+
+std::vector<int> HeldParameters(CameraModel model, RefineIntrinsics refine) {
+  const std::span<const ParameterKind> kinds = ParameterKinds(model);
+  std::vector<int> held;
+  for (int i = 0; i < static_cast<int>(kinds.size()); ++i) {
+    if (refine < LevelOf(kinds[i])) held.push_back(i);
+  }
+  return held;
+}
+
 // A pose as one block of Ceres: few large blocks cost less than many small ones.
 struct PoseBlock {
   explicit PoseBlock(const Pose& pose) {
@@ -68,7 +97,10 @@ class Adjustment {
         scene_(scene),
         variable_(scene.photos.size(), options.variable_photos.empty()),
         problem_(ProblemOptions()) {
-    for (const int photo : options.variable_photos) variable_[photo] = true;
+    for (const int photo : options.variable_photos) {
+      assert(photo >= 0 && static_cast<size_t>(photo) < scene.photos.size());
+      variable_[photo] = true;
+    }
   }
 
   AdjustReport Solve() {
@@ -178,7 +210,7 @@ class Adjustment {
     }
   }
 
-  int NumPosedOf(int camera) const {
+  int NumRegisteredOf(int camera) const {
     return static_cast<int>(std::count_if(poses_.begin(), poses_.end(), [&](const auto& pose) {
       return scene_.photos[pose.first].camera == camera;
     }));
@@ -188,23 +220,15 @@ class Adjustment {
     for (const int index : used_cameras_) {
       SceneCamera& camera = scene_.cameras[index];
       std::vector<double>& params = camera.intrinsics.params;
-      const RefineIntrinsics refine = std::min(options_.refine, LevelFor(NumPosedOf(index)));
+      const RefineIntrinsics refine = std::min(options_.refine, LevelFor(NumRegisteredOf(index)));
       if (camera.focal_sigma_ratio == 0 || refine == RefineIntrinsics::kNone) {
         problem_.SetParameterBlockConstant(params.data());
         continue;
       }
-      std::vector<int> held;
-      if (refine < RefineIntrinsics::kPrincipalPoint) held = {2, 3};
-      const int num_params = static_cast<int>(params.size());
-      for (int i = 4; i < num_params; ++i) {
-        const bool tangential = i == 6 || i == 7;
-        if (refine < RefineIntrinsics::kDistortion ||
-            (tangential && refine < RefineIntrinsics::kPrincipalPoint)) {
-          held.push_back(i);
-        }
-      }
+      const std::vector<int> held = HeldParameters(camera.intrinsics.model, refine);
       if (!held.empty()) {
-        subsets_.push_back(std::make_unique<ceres::SubsetManifold>(num_params, held));
+        subsets_.push_back(
+            std::make_unique<ceres::SubsetManifold>(static_cast<int>(params.size()), held));
         problem_.SetManifold(params.data(), subsets_.back().get());
       }
       AddIntrinsicsPrior(camera);
@@ -302,19 +326,20 @@ class Adjustment {
 }  // namespace
 
 double PriorSigma(const SceneCamera& camera, int i) {
-  switch (i) {
-    case 0:
-    case 1:
+  assert(i >= 0 && static_cast<size_t>(i) < camera.prior.params.size());
+  switch (ParameterKinds(camera.prior.model)[i]) {
+    case ParameterKind::kFocalLength:
       return camera.focal_sigma_ratio * camera.prior.params[i];
-    case 2:
-    case 3:
+    case ParameterKind::kPrincipalPoint:
       return kPrincipalPointSigma * std::max(camera.prior.width_px, camera.prior.height_px);
-    case 6:
-    case 7:
+    case ParameterKind::kRadial:
+      return kRadialSigma;
+    case ParameterKind::kTangential:
       return kTangentialSigma;
-    default:
-      return i < 6 ? kRadialSigma : kRationalSigma;
+    case ParameterKind::kRational:
+      return kRationalSigma;
   }
+  throw std::logic_error("unknown kind of parameter");
 }
 
 AdjustReport Adjust(const AdjustOptions& options, Scene& scene) {
@@ -327,17 +352,11 @@ double MeasureNoise(const Scene& scene) {
     if (!track.position) continue;
     for (const SceneElement& element : track.elements) {
       if (!element.used) continue;
-      errors.push_back(Misfit(scene, element, *track.position));
+      errors.push_back(ReprojectionErrorInSigmas(scene, element, *track.position));
     }
   }
   const auto median = Median(std::move(errors));
   return median ? std::max(kLeastNoise, *median / kRayleighMedian) : 1;
-}
-
-std::string Brief(const AdjustReport& report) {
-  return fmt::format("{} observations, {:.3f} -> {:.3f} standard deviations in {} steps{}",
-                     report.num_observations, report.rms_before, report.rms_after,
-                     report.num_iterations, report.usable ? "" : ", not usable");
 }
 
 }  // namespace stucco

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "calib/scene.h"
@@ -13,7 +12,7 @@ namespace stucco {
 enum class RefineIntrinsics { kNone, kFocal, kDistortion, kPrincipalPoint };
 
 struct AdjustOptions {
-  // Photos whose poses may change, by index; empty: all posed ones. The others hold the frame.
+  // Photos whose poses may change, by index; empty: all registered ones. The others hold the frame.
   std::vector<int> variable_photos;
   // At most; a camera of which few photos take part gets less.
   RefineIntrinsics refine = RefineIntrinsics::kDistortion;
@@ -33,20 +32,19 @@ struct AdjustReport {
   double rms_after = -1;
 };
 
-std::string Brief(const AdjustReport& report);
-
 // Bundle adjustment (Triggs et al. 2000) of poses, points and shared intrinsics with Ceres.
 // Intrinsics are held near their priors by weak Gaussian terms, so that what the photos do not
 // determine stays where it was: focal length by SceneCamera::focal_sigma_ratio, principal point
-// within a few per cent of the image, square pixels, small tangential distortion.
+// within a few per cent of the image, square pixels, small tangential distortion. Requires a
+// consistent scene. Throws Error (kStageFailed) for camera models without a cost function.
 AdjustReport Adjust(const AdjustOptions& options, Scene& scene);
 
 // Standard deviation of the keypoints per axis as their residuals show it, in units of the one they
 // came with: from the median, so that wrong matches do not count. At least 0.05; 1 without points.
 double MeasureNoise(const Scene& scene);
 
-// Standard deviation of the plausibility term of parameter `i`, or 0 when there is none. In the
-// parameter's own unit.
+// Standard deviation of the plausibility term of parameter `i` of the camera's model, in the
+// parameter's own unit, or 0 when there is none. Requires 0 <= i < number of parameters.
 double PriorSigma(const SceneCamera& camera, int i);
 
 // Standard deviation of the ratio of the two focal lengths against the prior's.

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "calib/matches.h"
+#include "calib/match.h"
 
 namespace stucco {
 

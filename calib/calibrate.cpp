@@ -8,10 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "calib/adjust.h"
+#include "calib/contradictions.h"
 #include "calib/detect_photos.h"
-#include "calib/expect/contradictions.h"
 #include "calib/focal.h"
 #include "calib/georeference.h"
 #include "calib/mapper.h"
@@ -153,8 +154,8 @@ void GuessFocalLengths(const Photos& photos, const std::vector<VerifiedPair>& pa
   }
 }
 
-[[noreturn]] void ThrowNothingPosed(const std::vector<VerifiedPair>& pairs,
-                                    const std::vector<std::string>& findings) {
+[[noreturn]] void ThrowNothingRegistered(const std::vector<VerifiedPair>& pairs,
+                                         const std::vector<std::string>& findings) {
   if (pairs.empty()) {
     throw Error(
         ErrorKind::kStageFailed,
@@ -250,19 +251,26 @@ GeoreferenceResult Georeference(const CalibOptions& options, const MapperOptions
   return result;
 }
 
-void Write(const Photos& photos, const Scene& scene, const MapReport& map,
-           const GeoreferenceResult& georeference, const std::vector<std::string>& findings,
-           const StageContext& context) {
-  std::vector<uint32_t> ids;
-  for (const int capture : photos.capture_of_photo)
-    ids.push_back(static_cast<uint32_t>(capture) + 1);
-  const Reconstruction reconstruction = ToReconstruction(scene, ids);
+// What the user should know of the result.
+void Note(const Calibration& calibration, Progress& progress) {
+  progress.Note(fmt::format("{} of {} photos placed, {} points, mean reprojection error {:.2f} px",
+                            calibration.photos_posed, calibration.photos_total, calibration.points,
+                            calibration.reprojection_error_px));
+  if (calibration.prior_rms_horizontal_m < 0) return;
+  progress.Note(
+      fmt::format("residual to recorded positions: {:.3f} m horizontal, {:.3f} m "
+                  "vertical (root mean square)",
+                  calibration.prior_rms_horizontal_m, calibration.prior_rms_vertical_m));
+}
+
+void Write(const SummaryInput& input, const Georef& georef,
+           const std::vector<std::string>& findings, const StageContext& context) {
+  const Reconstruction reconstruction = ToReconstruction(input.scene, PhotoIds(input));
   const std::filesystem::path sparse = context.out / "sparse" / "0";
   WriteColmapBinary(reconstruction, sparse);
   WriteColmapText(reconstruction, sparse);
-  WriteGeoref(georeference.georef, context.out / "georef.json");
-  Calibration calibration = Summarize({photos.captures, photos.capture_of_photo, scene, map,
-                                       georeference.residuals, georeference.prior_outliers});
+  WriteGeoref(georef, context.out / "georef.json");
+  Calibration calibration = Summarize(input);
   calibration.findings = findings;
   for (const CalibratedCamera& camera : calibration.cameras) {
     if (!camera.held.empty() && camera.held.size() < camera.names.size()) {
@@ -272,45 +280,10 @@ void Write(const Photos& photos, const Scene& scene, const MapReport& map,
     }
   }
   WriteCalibration(calibration, context.out / "calibration.json");
-  context.progress->Note(
-      fmt::format("{} of {} photos placed, {} points, mean reprojection error {:.2f} px",
-                  calibration.photos_posed, calibration.photos_total, calibration.points,
-                  calibration.reprojection_error_px));
-  if (calibration.prior_rms_horizontal_m >= 0) {
-    context.progress->Note(
-        fmt::format("residual to recorded positions: {:.3f} m horizontal, {:.3f} m "
-                    "vertical (root mean square)",
-                    calibration.prior_rms_horizontal_m, calibration.prior_rms_vertical_m));
-  }
+  Note(calibration, *context.progress);
 }
 
 }  // namespace
-
-void Describe(OptionTable& table, CalibOptions& options) {
-  table.Add(
-      "max_image_px", options.max_image_px, 400, 20000,
-      "Photos are reduced to this many pixels on the longer side before features are detected.");
-  table.Add("max_features", options.max_features, 200, 100000, "Features kept per photo.");
-  table.Add("match_ratio", options.match_ratio, 0.3, 0.99,
-            "A match's descriptor angle must be below this share of the second best one's.");
-  table.Add("exhaustive_below", options.exhaustive_below, 2, 100000,
-            "Up to this many photos every pair is matched, unless a plan says which overlap.");
-  table.Add(
-      "neighbours", options.neighbours, 2, 1000,
-      "Photos matched with each: those that should overlap most by the plan; without one, the "
-      "nearest by position and as many by appearance.");
-  table.Add("camera_model", options.camera_model, {"PINHOLE", "OPENCV", "FULL_OPENCV"},
-            "COLMAP's name of the lens model that is calibrated.");
-  table.Add("refine_principal_point", options.refine_principal_point,
-            "Calibrate the principal point and tangential distortion too.");
-  table.Add("use_positions", options.use_positions,
-            "Use the positions in the photos (GPS, RTK) for scale, direction and adjustment.");
-  table.Add("min_angle_deg", options.min_angle_deg, 0.1, 30,
-            "Points seen under a smaller angle are dropped, degrees.");
-  table.Add(
-      "fast_adjustment", options.fast_adjustment,
-      "Adjust on all threads: faster, but results differ in the last digits from run to run.");
-}
 
 void RunCalib(const CalibOptions& options, StageContext& context) {
   const Photos photos = ReadPhotos(context);
@@ -328,17 +301,19 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   mapper.refine_principal_point = options.refine_principal_point;
   mapper.threads = options.fast_adjustment ? context.threads : 1;
 
-  for (VerifiedPair& pair : pairs) ClassifyMotion(scene, mapper.max_misfit, pair);
-  MapReport map = Reconstruct(mapper, pairs, context, scene);
+  for (VerifiedPair& pair : pairs) ClassifyMotion(scene, mapper.max_error_sigmas, pair);
+  const MapReport map = Reconstruct(mapper, pairs, context, scene);
   const std::vector<std::string> findings = DescribePanoramas(scene, pairs, photos.usable);
   for (const std::string& finding : findings) context.progress->Warn(finding);
-  if (map.num_posed < 2) ThrowNothingPosed(pairs, findings);
+  if (map.num_registered < 2) ThrowNothingRegistered(pairs, findings);
   const GeoreferenceResult georeference = Georeference(options, mapper, photos, context, scene);
-  map.unposed = ExplainUnposed(mapper, pairs, scene);
-  for (const auto& [photo, why] : map.unposed) {
+  const std::map<int, std::string> unregistered = ExplainUnregistered(mapper, pairs, scene);
+  for (const auto& [photo, why] : unregistered) {
     context.progress->Warn(fmt::format("{}: not placed: {}", scene.photos[photo].name, why));
   }
-  Write(photos, scene, map, georeference, findings, context);
+  Write({photos.captures, photos.capture_of_photo, scene, unregistered, georeference.residuals,
+         georeference.prior_outliers},
+        georeference.georef, findings, context);
 }
 
 }  // namespace stucco

@@ -3,6 +3,7 @@
 #include "calib/choose_pairs.h"
 
 #include <algorithm>
+#include <cassert>
 #include <optional>
 #include <set>
 
@@ -69,6 +70,7 @@ std::vector<int> PairsPerPhoto(const PhotoPairs& pairs, size_t num_photos) {
 
 PairChoice ChoosePairs(const CalibOptions& options, const PhotoSet& set,
                        const std::vector<Features>& features) {
+  assert(features.size() == set.photos.size());
   const PhotoPairs& guided = set.guidance.pairs;
   const int count = static_cast<int>(set.photos.size());
   const bool by_plan = !guided.empty() && count > kExhaustiveWithPlan;

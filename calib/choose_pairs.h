@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "calib/calibrate.h"
 #include "calib/features.h"
+#include "calib/options.h"
 #include "calib/photo_set.h"
 
 namespace stucco {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -187,8 +188,9 @@ class ReducedSystem {
 }  // namespace
 
 std::vector<Eigen::VectorXd> IntrinsicsSigma(const Scene& scene, int max_photos) {
-  const int posed = NumPosed(scene);
-  if (posed < 2 || posed > max_photos) return {};
+  assert(IsConsistent(scene));
+  const int registered = NumRegistered(scene);
+  if (registered < 2 || registered > max_photos) return {};
   ReducedSystem system(scene);
   for (const SceneTrack& track : scene.tracks) system.AddTrack(track);
   return system.Solve();

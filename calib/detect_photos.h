@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "calib/calibrate.h"
 #include "calib/features.h"
+#include "calib/options.h"
 #include "calib/photo_set.h"
 #include "calib/wall_features.h"
 #include "survey/captures.h"

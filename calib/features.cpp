@@ -3,6 +3,7 @@
 #include "calib/features.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -79,6 +80,7 @@ std::vector<int> SelectSpread(const std::vector<Keypoint>& keypoints,
 }
 
 Features DetectFeatures(const Image& image, ImageSize full, const FeatureOptions& options) {
+  assert(image.channels == 3);
   const cv::Mat rgb(image.height_px, image.width_px, CV_8UC3,
                     const_cast<uint8_t*>(image.data.data()));
   cv::Mat gray;

@@ -33,9 +33,9 @@ struct FeatureOptions {
   int max_features = 8192;
 };
 
-// `image` is the photo scaled down so that its longer side is at most max_image_px; keypoints are
-// scaled back to `full`. When there are more than max_features, the strongest of every part of the
-// image are kept, so that all of the image takes part.
+// Requires an image of three channels. It is the photo scaled down so that its longer side is at
+// most max_image_px; keypoints are scaled back to `full`. When there are more than max_features,
+// the strongest of every part of the image are kept, so that all of the image takes part.
 Features DetectFeatures(const Image& image, ImageSize full, const FeatureOptions& options);
 
 // Checkpoint format; throws Error (kBadInput) on anything that does not fit.

@@ -4,6 +4,7 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace stucco {
@@ -33,6 +34,7 @@ double Inequality(const Eigen::Matrix3d& fundamental, double focal, const Eigen:
 
 std::optional<double> FocalFromFundamentals(const std::vector<FocalEvidence>& pairs, int width_px,
                                             int height_px) {
+  assert(width_px > 0 && height_px > 0);
   if (pairs.empty()) return std::nullopt;
   const double side = std::max(width_px, height_px);
   const Eigen::Vector2d center(width_px / 2.0, height_px / 2.0);

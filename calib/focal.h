@@ -18,6 +18,7 @@ struct FocalEvidence {
 // pairs of its photos: with the right focal length K' F K has two equal singular values (Mendonca &
 // Cipolla 1999). Minimises the weighted sum over all pairs on a logarithmic scale from 0.4 to 4
 // times the longer side. Nothing when the pairs do not agree on a clear minimum.
+// Requires sizes above 0.
 std::optional<double> FocalFromFundamentals(const std::vector<FocalEvidence>& pairs, int width_px,
                                             int height_px);
 

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <random>
 #include <set>
@@ -138,6 +139,7 @@ std::vector<int> AgreeingPhotos(const Scene& scene, const std::vector<int>& phot
 
 std::optional<Georef> FrameFromPositions(const std::vector<const CapturedPhoto*>& captures,
                                          Scene& scene) {
+  assert(captures.size() == scene.photos.size());
   Georef georef;
   georef.frame = "enu";
   georef.metric = true;
@@ -204,6 +206,7 @@ void Transform(const Similarity& new_from_old, Scene& scene) {
 
 std::optional<Eigen::Vector3d> UpFromGimbal(const std::vector<const CapturedPhoto*>& captures,
                                             const Scene& scene) {
+  assert(captures.size() == scene.photos.size());
   constexpr double kRadians = M_PI / 180;
   std::vector<Eigen::Vector3d> ups;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

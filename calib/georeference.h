@@ -32,16 +32,16 @@ struct PriorFit {
 // Robust similarity from camera centres to position priors: RANSAC over triples, least squares on
 // the inliers. When the cameras are so much on a line that the positions' own uncertainty leaves
 // the turn about it undetermined, `up` (in the scene's frame) takes its place, and without it only
-// the scale holds. Nothing when fewer than three posed photos have positions, when half of these
-// contradict the others, or when they are too close together even for a scale.
+// the scale holds. Nothing when fewer than three registered photos have positions, when half of
+// these contradict the others, or when they are too close together even for a scale.
 std::optional<PriorFit> FitToPriors(const Scene& scene, const std::optional<Eigen::Vector3d>& up);
 
 // Moves poses and points.
 void Transform(const Similarity& new_from_old, Scene& scene);
 
 // Direction away from the ground in the scene's frame from the gimbal's pitch and roll (yaw is not
-// needed); nothing when fewer than two posed photos have gimbal angles or they disagree by more
-// than 15 degrees.
+// needed); nothing when fewer than two registered photos have gimbal angles or they disagree by
+// more than 15 degrees.
 std::optional<Eigen::Vector3d> UpFromGimbal(const std::vector<const CapturedPhoto*>& captures,
                                             const Scene& scene);
 

@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
-#include "calib/adjust.h"
-#include "calib/groups.h"
 #include "calib/resect.h"
 #include "calib/triangulate.h"
+#include "survey/disjoint_sets.h"
 #include "survey/error.h"
 
 namespace stucco {
@@ -18,13 +18,13 @@ namespace {
 constexpr int kLocalPhotos = 8;         // adjusted together with a new photo
 constexpr double kGlobalGrowth = 1.15;  // more photos than at the last adjustment of everything
 constexpr int kMaxRounds = 6;
-constexpr int kLeastSeedPoints = 30;
+constexpr int kLeastInitialPoints = 30;
 constexpr int kMaxAttempts = 3;      // to place a photo
 constexpr size_t kCompared = 20;     // candidates for the next photo
 constexpr size_t kSureMatches = 30;  // tie two photos into one component
 
 TriangulateOptions ForTriangulation(const MapperOptions& options) {
-  return {.max_misfit = options.max_misfit, .min_angle_rad = options.min_angle_rad};
+  return {.max_error_sigmas = options.max_error_sigmas, .min_angle_rad = options.min_angle_rad};
 }
 
 void Reset(const Scene& start, Scene& scene) {
@@ -41,8 +41,8 @@ int TriangulateMissing(const MapperOptions& options, Scene& scene) {
   return added;
 }
 
-// Lets a newly posed photo take part: its keypoints join the points they agree with, and tracks
-// that had too few photos so far are triangulated.
+// Lets a newly registered photo take part: its keypoints join the points they agree with, and
+// tracks that had too few photos so far are triangulated.
 void ConnectPhoto(const MapperOptions& options, int photo, Scene& scene) {
   for (const int index : scene.tracks_of_photo[photo]) {
     if (index < 0) continue;
@@ -53,7 +53,8 @@ void ConnectPhoto(const MapperOptions& options, int photo, Scene& scene) {
     }
     for (SceneElement& element : track.elements) {
       if (element.photo != photo) continue;
-      element.used = Misfit(scene, element, *track.position) < options.max_misfit;
+      element.used =
+          ReprojectionErrorInSigmas(scene, element, *track.position) < options.max_error_sigmas;
     }
   }
 }
@@ -63,24 +64,25 @@ void CompleteTracks(const MapperOptions& options, Scene& scene) {
   for (SceneTrack& track : scene.tracks) {
     if (!track.position) continue;
     for (SceneElement& element : track.elements) {
-      element.used = Misfit(scene, element, *track.position) < options.max_misfit;
+      element.used =
+          ReprojectionErrorInSigmas(scene, element, *track.position) < options.max_error_sigmas;
     }
   }
 }
 
-bool StartFrom(const MapperOptions& options, const Seed& seed, Scene& scene) {
-  scene.photos[seed.first].pose = Pose{};
-  scene.photos[seed.second].pose = seed.relative.second_from_first;
+bool StartFrom(const MapperOptions& options, const InitialPair& pair, Scene& scene) {
+  scene.photos[pair.first].pose = Pose{};
+  scene.photos[pair.second].pose = pair.relative.second_from_first;
   TriangulateMissing(options, scene);
   AdjustOptions adjust;
-  adjust.variable_photos = {seed.second};
+  adjust.variable_photos = {pair.second};
   adjust.refine = RefineIntrinsics::kNone;
   adjust.threads = options.threads;
   if (!Adjust(adjust, scene).usable) return false;
-  FilterScene(options, options.max_misfit, scene);
-  const int points = NumUsedObservations(scene, seed.second);
-  return scene.photos[seed.first].pose && scene.photos[seed.second].pose &&
-         points >= kLeastSeedPoints;
+  FilterScene(options, scene);
+  const int points = NumUsedObservations(scene, pair.second);
+  return scene.photos[pair.first].pose && scene.photos[pair.second].pose &&
+         points >= kLeastInitialPoints;
 }
 
 // The new photo and those that share most points with it.
@@ -106,7 +108,7 @@ void AdjustEverything(const MapperOptions& options, Scene& scene) {
   adjust.threads = options.threads;
   adjust.max_iterations = 30;
   Adjust(adjust, scene);
-  FilterScene(options, options.max_misfit, scene);
+  FilterScene(options, scene);
   CompleteTracks(options, scene);
   TriangulateMissing(options, scene);
 }
@@ -114,8 +116,8 @@ void AdjustEverything(const MapperOptions& options, Scene& scene) {
 void AdjustAround(const MapperOptions& options, int photo, Scene& scene) {
   AdjustOptions adjust;
   adjust.variable_photos = Neighbourhood(scene, photo);
-  // With every posed photo variable nothing would hold the frame.
-  if (static_cast<int>(adjust.variable_photos.size()) >= NumPosed(scene)) {
+  // With every registered photo variable nothing would hold the frame.
+  if (static_cast<int>(adjust.variable_photos.size()) >= NumRegistered(scene)) {
     adjust.variable_photos.erase(adjust.variable_photos.begin());
   }
   adjust.refine = RefineIntrinsics::kNone;
@@ -136,8 +138,8 @@ struct Attempts {
   std::vector<bool> refused;
 };
 
-// The unposed photo with the best view of the points so far; -1 when none sees enough. Only the
-// photos that see most points are compared by how these spread over the picture.
+// The photo without a pose that has the best view of the points so far; -1 when none sees enough.
+// Only the photos that see most points are compared by how these spread over the picture.
 int NextPhoto(const MapperOptions& options, const Scene& scene, const Attempts& attempts) {
   std::vector<std::pair<int, int>> candidates;  // (-points, photo)
   for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
@@ -161,8 +163,8 @@ int NextPhoto(const MapperOptions& options, const Scene& scene, const Attempts& 
 }
 
 // Gives a photo a pose when enough of what it should see agrees on one.
-bool Place(const MapperOptions& options, int photo, Scene& scene) {
-  const double limit_px = 2 * options.max_misfit * scene.photos[photo].keypoint_sigma_px;
+bool Register(const MapperOptions& options, int photo, Scene& scene) {
+  const double limit_px = 2 * options.max_error_sigmas * scene.photos[photo].keypoint_sigma_px;
   const auto resection = Resect(scene, photo, limit_px, options.min_inliers);
   // A pose that explains only a small part of what the photo should see is a wrong one.
   if (!resection || resection->num_inliers < 0.2 * resection->num_points) return false;
@@ -172,7 +174,7 @@ bool Place(const MapperOptions& options, int photo, Scene& scene) {
 }
 
 void Grow(const MapperOptions& options, const StageContext& context, Scene& scene) {
-  int posed_at_last_global = NumPosed(scene);
+  int registered_at_last_global = NumRegistered(scene);
   Attempts attempts(scene.photos.size());
   bool grew = false;  // since photos were last forgiven
   while (true) {
@@ -186,11 +188,11 @@ void Grow(const MapperOptions& options, const StageContext& context, Scene& scen
       continue;
     }
     ++attempts.count[photo];
-    if (Place(options, photo, scene)) {
-      const int posed = NumPosed(scene);
-      if (posed <= 6 || posed >= posed_at_last_global * kGlobalGrowth) {
+    if (Register(options, photo, scene)) {
+      const int registered = NumRegistered(scene);
+      if (registered <= 6 || registered >= registered_at_last_global * kGlobalGrowth) {
         AdjustEverything(options, scene);
-        posed_at_last_global = NumPosed(scene);
+        registered_at_last_global = NumRegistered(scene);
       } else {
         AdjustAround(options, photo, scene);
       }
@@ -204,8 +206,8 @@ void Grow(const MapperOptions& options, const StageContext& context, Scene& scen
   }
 }
 
-std::string WhyUnposed(const MapperOptions& options, const Scene& scene,
-                       const std::vector<VerifiedPair>& pairs, int photo) {
+std::string WhyUnregistered(const MapperOptions& options, const Scene& scene,
+                            const std::vector<VerifiedPair>& pairs, int photo) {
   size_t num_pairs = 0;
   size_t best = 0;
   size_t rotations = 0;
@@ -231,14 +233,14 @@ std::string WhyUnposed(const MapperOptions& options, const Scene& scene,
       NumVisiblePoints(scene, photo), options.min_inliers, best);
 }
 
-int FilterPoints(const MapperOptions& options, double max_misfit, Scene& scene) {
+int FilterPoints(const MapperOptions& options, Scene& scene) {
   int dropped = 0;
   for (SceneTrack& track : scene.tracks) {
     if (!track.position) continue;
     int used = 0;
     for (SceneElement& element : track.elements) {
       if (!element.used) continue;
-      if (Misfit(scene, element, *track.position) < max_misfit) {
+      if (ReprojectionErrorInSigmas(scene, element, *track.position) < options.max_error_sigmas) {
         ++used;
       } else {
         element.used = false;
@@ -266,10 +268,10 @@ bool DropWeakPoses(const MapperOptions& options, Scene& scene) {
 
 }  // namespace
 
-int FilterScene(const MapperOptions& options, double max_misfit, Scene& scene) {
-  int dropped = FilterPoints(options, max_misfit, scene);
+int FilterScene(const MapperOptions& options, Scene& scene) {
+  int dropped = FilterPoints(options, scene);
   // A photo that goes takes observations from points that other photos may then see too little of.
-  while (DropWeakPoses(options, scene)) dropped += FilterPoints(options, max_misfit, scene);
+  while (DropWeakPoses(options, scene)) dropped += FilterPoints(options, scene);
   return dropped;
 }
 
@@ -298,7 +300,7 @@ void Settle(const MapperOptions& options, bool use_priors, const StageContext& c
     CompleteTracks(options, scene);
     TriangulateMissing(options, scene);
     const AdjustReport report = Adjust(ForEverything(options, use_priors, scene), scene);
-    FilterScene(options, options.max_misfit, scene);
+    FilterScene(options, scene);
     const double noise = MeasureNoise(scene);
     const bool same_observations =
         std::abs(report.num_observations - last_observations) <= 0.001 * report.num_observations;
@@ -319,7 +321,7 @@ AdjustReport RefineAll(const MapperOptions& options, bool use_priors, const Stag
   adjust.max_iterations = 100;
   adjust.tolerance = 1e-6;
   const AdjustReport report = Adjust(adjust, scene);
-  FilterScene(options, options.max_misfit, scene);
+  FilterScene(options, scene);
   return report;
 }
 
@@ -333,16 +335,16 @@ struct Component {
 
 // Largest first.
 std::vector<Component> Components(size_t num_photos, const std::vector<VerifiedPair>& pairs) {
-  Groups groups(num_photos);
+  DisjointSets groups(num_photos);
   for (const VerifiedPair& pair : pairs) {
     if (pair.pair.matches.size() < kSureMatches) continue;
     groups.Join(pair.pair.first, pair.pair.second);
   }
   std::vector<Component> components(num_photos);
-  for (size_t i = 0; i < num_photos; ++i) ++components[groups.Of(static_cast<int>(i))].num_photos;
+  for (size_t i = 0; i < num_photos; ++i) ++components[groups.Find(static_cast<int>(i))].num_photos;
   for (const VerifiedPair& pair : pairs) {
     if (pair.pair.matches.size() < kSureMatches) continue;
-    components[groups.Of(pair.pair.first)].pairs.push_back(pair);
+    components[groups.Find(pair.pair.first)].pairs.push_back(pair);
   }
   std::erase_if(components, [](const Component& c) { return c.num_photos < 2; });
   std::stable_sort(components.begin(), components.end(),
@@ -356,55 +358,59 @@ struct GrowInput {
   const Scene& start;
 };
 
-// Grows from seeds of a component until one explains most of it. Keeps the largest result in
-// `best`; returns the number of seeds tried.
+// Grows from initial pairs of a component until one explains most of it. Keeps the largest result
+// in `best`; returns the number of pairs tried.
 int GrowComponent(const GrowInput& input, const Component& component, Scene& scene, Scene& best) {
   const MapperOptions& options = input.options;
-  std::vector<bool> posed(scene.photos.size(), false);  // from any seed so far
+  std::vector<bool> registered(scene.photos.size(), false);  // from any pair so far
   int num_tried = 0;
-  for (const Seed& seed :
-       FindSeeds(input.start, component.pairs, options.max_misfit, options.max_seeds)) {
-    if (posed[seed.first] && posed[seed.second]) continue;  // it would give the same again
+  for (const InitialPair& pair : FindInitialPairs(
+           input.start, component.pairs, options.max_error_sigmas, options.max_initial_pairs)) {
+    if (registered[pair.first] && registered[pair.second])
+      continue;  // it would give the same again
     ++num_tried;
     Reset(input.start, scene);
-    if (!StartFrom(options, seed, scene)) continue;
+    if (!StartFrom(options, pair, scene)) continue;
     Grow(options, input.context, scene);
-    for (size_t i = 0; i < posed.size(); ++i) posed[i] = posed[i] || scene.photos[i].pose;
-    if (NumPosed(scene) > NumPosed(best)) best = scene;
-    if (NumPosed(scene) >= 0.9 * component.num_photos) break;
+    for (size_t i = 0; i < registered.size(); ++i) {
+      registered[i] = registered[i] || scene.photos[i].pose;
+    }
+    if (NumRegistered(scene) > NumRegistered(best)) best = scene;
+    if (NumRegistered(scene) >= 0.9 * component.num_photos) break;
   }
   return num_tried;
 }
 
 }  // namespace
 
-std::map<int, std::string> ExplainUnposed(const MapperOptions& options,
-                                          const std::vector<VerifiedPair>& pairs,
-                                          const Scene& scene) {
-  std::map<int, std::string> unposed;
+std::map<int, std::string> ExplainUnregistered(const MapperOptions& options,
+                                               const std::vector<VerifiedPair>& pairs,
+                                               const Scene& scene) {
+  std::map<int, std::string> why;
   for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
-    if (!scene.photos[i].pose) unposed[i] = WhyUnposed(options, scene, pairs, i);
+    if (!scene.photos[i].pose) why[i] = WhyUnregistered(options, scene, pairs, i);
   }
-  return unposed;
+  return why;
 }
 
 MapReport Reconstruct(const MapperOptions& options, const std::vector<VerifiedPair>& pairs,
                       const StageContext& context, Scene& scene) {
+  assert(IsConsistent(scene) && scene.tracks_of_photo.size() == scene.photos.size());
   const Scene start = scene;
   Scene best = scene;
   MapReport report;
   context.progress->Begin("placing photos", scene.photos.size());
   for (const Component& component : Components(scene.photos.size(), pairs)) {
-    if (component.num_photos <= NumPosed(best)) break;  // the largest comes first
-    report.num_seeds_tried += GrowComponent({options, context, start}, component, scene, best);
+    if (component.num_photos <= NumRegistered(best)) break;  // the largest comes first
+    report.num_initial_pairs_tried +=
+        GrowComponent({options, context, start}, component, scene, best);
   }
   scene = std::move(best);
-  if (NumPosed(scene) >= 2) {
+  if (NumRegistered(scene) >= 2) {
     Settle(options, false, context, scene);
     Grow(options, context, scene);  // photos that only fit now
   }
-  report.num_posed = NumPosed(scene);
-  report.unposed = ExplainUnposed(options, pairs, scene);
+  report.num_registered = NumRegistered(scene);
   return report;
 }
 

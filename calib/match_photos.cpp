@@ -11,6 +11,7 @@
 
 #include "calib/choose_pairs.h"
 #include "calib/descriptors.h"
+#include "calib/matches.h"
 #include "survey/files.h"
 #include "survey/parallel.h"
 

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "calib/calibrate.h"
 #include "calib/detect_photos.h"
+#include "calib/initial_pair.h"
+#include "calib/options.h"
 #include "calib/photo_set.h"
-#include "calib/seed.h"
 #include "survey/stage.h"
 
 namespace stucco {

@@ -3,6 +3,7 @@
 #include "calib/matches.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "calib/best_two.h"
 #include "calib/descriptors.h"
@@ -22,9 +23,22 @@ __attribute__((target_clones("arch=haswell", "default"))) int32_t Largest(const 
   return largest;
 }
 
+// BestTwo of each column of a block, as vectors, so that one row is offered to many at once.
+struct Columns {
+  explicit Columns(int count) : best(count, -1), second(count, -1), index(count, -1) {}
+
+  std::vector<int32_t> best;
+  std::vector<int32_t> second;
+  std::vector<int32_t> index;
+};
+
 // Offers one row of products to all columns.
 __attribute__((target_clones("arch=haswell", "default"))) void OfferToColumns(
-    const int32_t* products, int row, int count, int32_t* best, int32_t* second, int32_t* index) {
+    const int32_t* products, int row, Columns& columns) {
+  const int count = static_cast<int>(columns.best.size());
+  int32_t* best = columns.best.data();
+  int32_t* second = columns.second.data();
+  int32_t* index = columns.index.data();
   for (int c = 0; c < count; ++c) {
     const int32_t product = products[c];
     const bool better = product > best[c];
@@ -39,26 +53,27 @@ __attribute__((target_clones("arch=haswell", "default"))) void OfferToColumns(
 
 std::vector<Match> MatchDescriptors(const std::vector<int16_t>& first,
                                     const std::vector<int16_t>& second, double ratio) {
+  assert(first.size() % kDescriptorSize == 0 && second.size() % kDescriptorSize == 0);
   const int num_first = static_cast<int>(first.size() / kDescriptorSize);
   const int num_second = static_cast<int>(second.size() / kDescriptorSize);
   std::vector<BestTwo> of_first(num_first);
   std::vector<BestTwo> of_second(num_second);
   std::vector<int32_t> products(kBlock);
   for (int begin = 0; begin < num_second; begin += kBlock) {
-    const int columns = std::min(kBlock, num_second - begin);
+    const int width = std::min(kBlock, num_second - begin);
     const int16_t* block = second.data() + static_cast<size_t>(begin) * kDescriptorSize;
-    std::vector<int32_t> best(columns, -1);
-    std::vector<int32_t> next(columns, -1);
-    std::vector<int32_t> index(columns, -1);
+    Columns columns(width);
     for (int row = 0; row < num_first; ++row) {
-      DotProducts(first.data() + static_cast<size_t>(row) * kDescriptorSize, block, columns,
+      DotProducts(first.data() + static_cast<size_t>(row) * kDescriptorSize, block, width,
                   products.data());
-      OfferToColumns(products.data(), row, columns, best.data(), next.data(), index.data());
+      OfferToColumns(products.data(), row, columns);
       BestTwo& mine = of_first[row];
-      if (Largest(products.data(), columns) <= mine.second) continue;
-      for (int c = 0; c < columns; ++c) mine.Offer(products[c], begin + c);
+      if (Largest(products.data(), width) <= mine.second) continue;
+      for (int c = 0; c < width; ++c) mine.Offer(products[c], begin + c);
     }
-    for (int c = 0; c < columns; ++c) of_second[begin + c] = {best[c], next[c], index[c]};
+    for (int c = 0; c < width; ++c) {
+      of_second[begin + c] = {columns.best[c], columns.second[c], columns.index[c]};
+    }
   }
   return MutualMatches(of_first, of_second, ratio);
 }

@@ -3,6 +3,7 @@
 #include "calib/pairs.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <set>
 #include <tuple>
@@ -73,6 +74,7 @@ void AddMostAlike(int photo, const std::vector<std::vector<float>>& signatures, 
 std::vector<std::pair<int, int>> SelectPairs(
     const PairOptions& options, const std::vector<std::optional<Eigen::Vector3d>>& positions,
     const std::vector<std::vector<float>>& signatures) {
+  assert(signatures.size() == positions.size());
   const int count = static_cast<int>(positions.size());
   std::set<std::pair<int, int>> pairs;
   for (int a = 0; a < count; ++a) {
@@ -102,6 +104,7 @@ std::vector<std::pair<int, int>> MostAlike(const std::vector<std::vector<float>>
 }
 
 std::vector<float> TrainVocabulary(const std::vector<int16_t>& samples, int count) {
+  assert(samples.size() % kDescriptorSize == 0);
   const size_t num_samples = samples.size() / kDescriptorSize;
   if (num_samples == 0) return {};
   std::vector<float> words;
@@ -133,6 +136,7 @@ std::vector<float> TrainVocabulary(const std::vector<int16_t>& samples, int coun
 }
 
 std::vector<float> Signature(const Features& features, const std::vector<float>& words) {
+  assert(words.size() % kDescriptorSize == 0);
   std::vector<int16_t> rows = UnitDescriptors(features);
   const size_t count = features.size();
   if (count == 0 || words.empty()) return {};

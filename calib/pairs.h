@@ -19,7 +19,7 @@ struct PairOptions {
 
 // Pairs (a, b), a < b, ascending, that are worth matching: all of a small set; else each photo's
 // nearest by position where both have one, the most similar by appearance, and those that follow
-// it.
+// it. Positions and signatures are by photo.
 std::vector<std::pair<int, int>> SelectPairs(
     const PairOptions& options, const std::vector<std::optional<Eigen::Vector3d>>& positions,
     const std::vector<std::vector<float>>& signatures);

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cassert>
 #include <optional>
 
 #include "survey/georef.h"
@@ -71,13 +72,15 @@ std::vector<int> WithoutOverlap(const Scene& scene, const std::vector<VerifiedPa
 std::vector<std::string> DescribePanoramas(const Scene& scene,
                                            const std::vector<VerifiedPair>& pairs,
                                            const std::vector<const CapturedPhoto*>& captures) {
+  assert(captures.size() == scene.photos.size());
   const std::vector<int> lonely = WithoutOverlap(scene, pairs);
   std::vector<std::string> findings;
   for (const std::vector<int>& group : RotationGroups(scene, pairs)) {
     const std::vector<std::string> more = RecordedThere(scene, captures, lonely, group);
-    const bool all_posed =
+    const bool all_registered =
         std::ranges::all_of(group, [&](int photo) { return scene.photos[photo].pose.has_value(); });
-    if (all_posed && more.empty()) continue;  // others gave them depth, as at a hover of a plan
+    if (all_registered && more.empty())
+      continue;  // others gave them depth, as at a hover of a plan
     std::vector<std::string> names;
     for (const int photo : group) names.push_back(scene.photos[photo].name);
     std::string text = fmt::format(

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "calib/initial_pair.h"
 #include "calib/scene.h"
-#include "calib/seed.h"
 #include "survey/captures.h"
 
 namespace stucco {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "calib/expect/guidance.h"
+#include "calib/guidance.h"
 #include "survey/captures.h"
 
 namespace stucco {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
@@ -62,6 +63,7 @@ std::vector<int> InliersOf(const Correspondences& all, const Pose& pose, double 
 
 std::optional<Resection> Resect(const Scene& scene, int photo, double max_error_px,
                                 int min_inliers) {
+  assert(scene.tracks_of_photo.size() == scene.photos.size());
   const Correspondences all = Collect(scene, photo);
   if (static_cast<int>(all.points.size()) < std::max(4, min_inliers)) return std::nullopt;
   const double max_error = max_error_px / scene.CameraOf(photo).FocalX() * kFocal;

@@ -17,7 +17,7 @@ struct Resection {
 
 // Pose of a photo from the points its keypoints show: P3P in USAC (MAGSAC score), refined on the
 // inliers. Nothing when fewer than `min_inliers` agree within `max_error_px` (full-resolution
-// pixels).
+// pixels). These three require a scene whose tracks are indexed (IndexTracks).
 std::optional<Resection> Resect(const Scene& scene, int photo, double max_error_px,
                                 int min_inliers);
 

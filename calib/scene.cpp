@@ -7,6 +7,40 @@
 #include <limits>
 
 namespace stucco {
+namespace {
+
+bool HasCamera(const Scene& scene, const ScenePhoto& photo) {
+  return photo.camera >= 0 && static_cast<size_t>(photo.camera) < scene.cameras.size();
+}
+
+// One per photo at most.
+bool HasKeypoints(const Scene& scene, const SceneTrack& track) {
+  std::vector<int> photos;
+  for (const SceneElement& element : track.elements) {
+    if (element.photo < 0 || static_cast<size_t>(element.photo) >= scene.photos.size())
+      return false;
+    const ScenePhoto& photo = scene.photos[element.photo];
+    if (element.keypoint < 0 || static_cast<size_t>(element.keypoint) >= photo.keypoints.size()) {
+      return false;
+    }
+    photos.push_back(element.photo);
+  }
+  std::ranges::sort(photos);
+  return std::ranges::adjacent_find(photos) == photos.end();
+}
+
+bool IsIndexed(const Scene& scene) {
+  if (scene.tracks_of_photo.size() != scene.photos.size()) return false;
+  for (size_t i = 0; i < scene.photos.size(); ++i) {
+    const std::vector<int>& tracks = scene.tracks_of_photo[i];
+    if (tracks.size() != scene.photos[i].keypoints.size()) return false;
+    const int num_tracks = static_cast<int>(scene.tracks.size());
+    if (std::ranges::any_of(tracks, [&](int t) { return t < -1 || t >= num_tracks; })) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 double ReprojectionError(const Scene& scene, const SceneElement& element,
                          const Eigen::Vector3d& point) {
@@ -17,11 +51,20 @@ double ReprojectionError(const Scene& scene, const SceneElement& element,
   return (*pixel - photo.keypoints[element.keypoint]).norm();
 }
 
-double Misfit(const Scene& scene, const SceneElement& element, const Eigen::Vector3d& point) {
+double ReprojectionErrorInSigmas(const Scene& scene, const SceneElement& element,
+                                 const Eigen::Vector3d& point) {
   return ReprojectionError(scene, element, point) / scene.photos[element.photo].keypoint_sigma_px;
 }
 
-int NumPosed(const Scene& scene) {
+bool IsConsistent(const Scene& scene) {
+  return std::ranges::all_of(scene.photos,
+                             [&](const ScenePhoto& photo) { return HasCamera(scene, photo); }) &&
+         std::ranges::all_of(scene.tracks,
+                             [&](const SceneTrack& track) { return HasKeypoints(scene, track); }) &&
+         (scene.tracks_of_photo.empty() || IsIndexed(scene));
+}
+
+int NumRegistered(const Scene& scene) {
   return static_cast<int>(std::count_if(scene.photos.begin(), scene.photos.end(),
                                         [](const ScenePhoto& p) { return p.pose.has_value(); }));
 }

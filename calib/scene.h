@@ -14,7 +14,8 @@
 
 namespace stucco {
 
-// The working state of structure from motion. Photos, cameras and tracks are addressed by index.
+// The working state of structure from motion. Photos, cameras and tracks are addressed by index. A
+// photo with a pose is called registered, as in COLMAP.
 
 struct SceneCamera {
   Camera intrinsics;  // model OPENCV or FULL_OPENCV or PINHOLE; changes while calibrating
@@ -65,13 +66,19 @@ struct Scene {
 double ReprojectionError(const Scene& scene, const SceneElement& element,
                          const Eigen::Vector3d& point);
 
-// The same in standard deviations of the photo's keypoints, which is what limits are stated in:
-// photos of different sizes are detected at different scales.
-double Misfit(const Scene& scene, const SceneElement& element, const Eigen::Vector3d& point);
+// The same over the standard deviation of the photo's keypoints, which is what limits are stated
+// in: photos of different sizes are detected at different scales.
+double ReprojectionErrorInSigmas(const Scene& scene, const SceneElement& element,
+                                 const Eigen::Vector3d& point);
 
-int NumPosed(const Scene& scene);
+// Whether every index of the scene leads somewhere: cameras of photos, keypoints of tracks, at most
+// one per photo, and the tracks of keypoints where Scene::tracks_of_photo is filled (IndexTracks).
+// What works on a scene requires it; O(n log n), for assertions where a stage's steps meet.
+bool IsConsistent(const Scene& scene);
 
-// Elements in posed photos that agree with their track's point.
+int NumRegistered(const Scene& scene);
+
+// Elements in registered photos that agree with their track's point.
 int NumUsedObservations(const Scene& scene, int photo);
 
 // Largest angle between the rays of the used elements, in radians.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <set>
 
 #include "calib/adjust.h"
@@ -28,22 +29,22 @@ double Coverage(const Camera& camera, const RegisteredImage& photo) {
 }
 
 CalibratedPhoto SummarizePhoto(const SummaryInput& input, const Reconstruction& reconstruction,
-                               const RegisteredImage& posed, int index) {
+                               const RegisteredImage& registered, int index) {
   CalibratedPhoto photo;
-  photo.path = posed.name;
-  const Camera& camera = reconstruction.cameras.at(posed.camera);
+  photo.path = registered.name;
+  const Camera& camera = reconstruction.cameras.at(registered.camera);
   double sum = 0;
-  for (const Observation& o : posed.observations) {
+  for (const Observation& o : registered.observations) {
     const auto pixel =
-        camera.Project(posed.cam_from_world * reconstruction.points.at(o.point).position);
+        camera.Project(registered.cam_from_world * reconstruction.points.at(o.point).position);
     if (pixel) sum += (*pixel - o.pixel).norm();
   }
-  photo.observations = static_cast<int>(posed.observations.size());
+  photo.observations = static_cast<int>(registered.observations.size());
   photo.reprojection_error_px = photo.observations > 0 ? sum / photo.observations : 0;
   photo.prior_residual_m = input.priors.distance_m[index];
   photo.prior_outlier = std::find(input.prior_outliers.begin(), input.prior_outliers.end(),
                                   index) != input.prior_outliers.end();
-  photo.coverage = Coverage(camera, posed);
+  photo.coverage = Coverage(camera, registered);
   return photo;
 }
 
@@ -69,17 +70,18 @@ CalibratedCamera SummarizeCamera(const CapturedCamera& captured, const SceneCame
 }  // namespace
 
 Reconstruction ToReconstruction(const Scene& scene, const std::vector<uint32_t>& photo_ids) {
+  assert(photo_ids.size() == scene.photos.size());
   Reconstruction result;
   for (size_t i = 0; i < scene.photos.size(); ++i) {
     const ScenePhoto& photo = scene.photos[i];
     if (!photo.pose) continue;
     const Camera& camera = scene.CameraOf(static_cast<int>(i));
     result.cameras[camera.id] = camera;
-    RegisteredImage& posed = result.photos[PhotoId{photo_ids[i]}];
-    posed.id = PhotoId{photo_ids[i]};
-    posed.camera = camera.id;
-    posed.name = photo.name;
-    posed.cam_from_world = *photo.pose;
+    RegisteredImage& registered = result.photos[PhotoId{photo_ids[i]}];
+    registered.id = PhotoId{photo_ids[i]};
+    registered.camera = camera.id;
+    registered.name = photo.name;
+    registered.cam_from_world = *photo.pose;
   }
   uint64_t next = 1;
   for (const SceneTrack& track : scene.tracks) {
@@ -94,10 +96,10 @@ Reconstruction ToReconstruction(const Scene& scene, const std::vector<uint32_t>&
     for (const SceneElement& element : track.elements) {
       if (!element.used) continue;
       const ScenePhoto& photo = scene.photos[element.photo];
-      RegisteredImage& posed = result.photos.at(PhotoId{photo_ids[element.photo]});
+      RegisteredImage& registered = result.photos.at(PhotoId{photo_ids[element.photo]});
       if (point.track.empty()) point.rgb = photo.colors[element.keypoint];
-      point.track.push_back({posed.id, static_cast<uint32_t>(posed.observations.size())});
-      posed.observations.push_back({photo.keypoints[element.keypoint], point.id});
+      point.track.push_back({registered.id, static_cast<uint32_t>(registered.observations.size())});
+      registered.observations.push_back({photo.keypoints[element.keypoint], point.id});
       error += ReprojectionError(scene, element, point.position);
     }
     point.error_px = error / static_cast<double>(point.track.size());
@@ -106,10 +108,20 @@ Reconstruction ToReconstruction(const Scene& scene, const std::vector<uint32_t>&
   return result;
 }
 
-Calibration Summarize(const SummaryInput& input) {
+std::vector<uint32_t> PhotoIds(const SummaryInput& input) {
   std::vector<uint32_t> ids;
-  for (const int capture : input.capture_of_photo)
+  for (const int capture : input.capture_of_photo) {
     ids.push_back(static_cast<uint32_t>(capture) + 1);
+  }
+  return ids;
+}
+
+Calibration Summarize(const SummaryInput& input) {
+  assert(IsConsistent(input.scene));
+  assert(input.capture_of_photo.size() == input.scene.photos.size());
+  assert(input.captures.cameras.size() == input.scene.cameras.size());
+  assert(input.priors.distance_m.size() == input.scene.photos.size());
+  const std::vector<uint32_t> ids = PhotoIds(input);
   const Reconstruction reconstruction = ToReconstruction(input.scene, ids);
   Calibration result;
   result.photos_total = static_cast<int>(input.captures.photos.size());
@@ -120,12 +132,12 @@ Calibration Summarize(const SummaryInput& input) {
   result.prior_rms_horizontal_m = input.priors.rms_horizontal_m;
   result.prior_rms_vertical_m = input.priors.rms_vertical_m;
   for (size_t i = 0; i < input.scene.photos.size(); ++i) {
-    const auto posed = reconstruction.photos.find(PhotoId{ids[i]});
-    if (posed == reconstruction.photos.end()) continue;
+    const auto registered = reconstruction.photos.find(PhotoId{ids[i]});
+    if (registered == reconstruction.photos.end()) continue;
     result.photos.push_back(
-        SummarizePhoto(input, reconstruction, posed->second, static_cast<int>(i)));
+        SummarizePhoto(input, reconstruction, registered->second, static_cast<int>(i)));
   }
-  for (const auto& [photo, why] : input.map.unposed) {
+  for (const auto& [photo, why] : input.unregistered) {
     result.unposed.push_back({input.scene.photos[photo].name, why});
   }
   for (const CapturedPhoto& photo : input.captures.photos) {

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "calib/georeference.h"
-#include "calib/mapper.h"
 #include "calib/scene.h"
 #include "survey/calibration.h"
 #include "survey/captures.h"
@@ -14,19 +15,24 @@
 
 namespace stucco {
 
-// The scene as COLMAP keeps it: only posed photos, only keypoints that belong to a point. Photo ids
-// are `photo_ids`, camera ids those of the scene's cameras.
+// The scene as COLMAP keeps it: only registered photos, only keypoints that belong to a point.
+// `photo_ids` are by photo of the scene, camera ids those of the scene's cameras.
 Reconstruction ToReconstruction(const Scene& scene, const std::vector<uint32_t>& photo_ids);
 
 struct SummaryInput {
   const Captures& captures;
   const std::vector<int>& capture_of_photo;  // scene photo -> index into captures.photos
   const Scene& scene;
-  const MapReport& map;
+  const std::map<int, std::string>& unregistered;  // photos of the scene without a pose, and why
   const PriorResiduals& priors;
   const std::vector<int>& prior_outliers;
 };
 
+// Photo ids of the result by photo of the scene: the place in captures.json, counted from 1.
+std::vector<uint32_t> PhotoIds(const SummaryInput& input);
+
+// Requires cameras and photos of the scene that are those of the captures, and positions' residuals
+// by photo.
 Calibration Summarize(const SummaryInput& input);
 
 }  // namespace stucco

@@ -3,8 +3,11 @@
 #include "calib/tracks.h"
 
 #include <algorithm>
+#include <cassert>
+#include <iterator>
 #include <map>
-#include <numeric>
+
+#include "survey/disjoint_sets.h"
 
 namespace stucco {
 namespace {
@@ -12,52 +15,53 @@ namespace {
 // Nodes are keypoints of all photos; every set knows the photos in it.
 class TrackForest {
  public:
-  explicit TrackForest(const std::vector<size_t>& num_keypoints) : offsets_(1, 0) {
-    for (const size_t count : num_keypoints) offsets_.push_back(offsets_.back() + count);
-    parent_.resize(offsets_.back());
-    std::iota(parent_.begin(), parent_.end(), size_t{0});
-    photos_.resize(parent_.size());
+  explicit TrackForest(const std::vector<size_t>& num_keypoints)
+      : offsets_(Offsets(num_keypoints)), sets_(offsets_.back()), photos_(offsets_.back()) {}
+
+  int Node(int photo, int keypoint) const {
+    assert(keypoint >= 0 && offsets_[photo] + keypoint < offsets_[photo + 1]);
+    return static_cast<int>(offsets_[photo]) + keypoint;
   }
 
-  size_t Node(int photo, int keypoint) const { return offsets_[photo] + keypoint; }
-
-  SceneElement Element(size_t node) const {
-    const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), node);
+  SceneElement Element(int node) const {
+    const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), static_cast<size_t>(node));
     const int photo = static_cast<int>(next - offsets_.begin()) - 1;
-    return {photo, static_cast<int>(node - offsets_[photo]), false};
+    return {photo, node - static_cast<int>(offsets_[photo]), false};
   }
 
-  size_t Root(size_t node) {
-    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
-    return node;
-  }
+  int Root(int node) { return sets_.Find(node); }
 
-  void Join(size_t a, size_t b) {
-    size_t root_a = Root(a);
-    size_t root_b = Root(b);
-    if (root_a == root_b) return;
-    std::vector<int> photos_a = PhotosOf(root_a);
-    std::vector<int> photos_b = PhotosOf(root_b);
+  void Join(int a, int b) {
+    const auto [low, high] = std::minmax({Root(a), Root(b)});
+    if (low == high) return;
+    const std::vector<int> photos_low = PhotosOf(low);
+    const std::vector<int> photos_high = PhotosOf(high);
     std::vector<int> merged;
-    std::merge(photos_a.begin(), photos_a.end(), photos_b.begin(), photos_b.end(),
+    std::merge(photos_low.begin(), photos_low.end(), photos_high.begin(), photos_high.end(),
                std::back_inserter(merged));
     if (std::adjacent_find(merged.begin(), merged.end()) != merged.end()) return;
-    if (root_b < root_a) std::swap(root_a, root_b);
-    parent_[root_b] = root_a;
-    photos_[root_a] = std::move(merged);
-    photos_[root_b] = {};
+    sets_.Join(low, high);
+    photos_[low] = std::move(merged);
+    photos_[high] = {};
   }
 
-  size_t size() const { return parent_.size(); }
-  bool IsSingle(size_t root) const { return photos_[root].empty(); }
+  int size() const { return static_cast<int>(sets_.size()); }
+  bool IsSingle(int root) const { return photos_[root].empty(); }
 
  private:
-  std::vector<int> PhotosOf(size_t root) const {
+  // Of the first keypoint of each photo, and their number.
+  static std::vector<size_t> Offsets(const std::vector<size_t>& num_keypoints) {
+    std::vector<size_t> offsets(1, 0);
+    for (const size_t count : num_keypoints) offsets.push_back(offsets.back() + count);
+    return offsets;
+  }
+
+  std::vector<int> PhotosOf(int root) const {
     return photos_[root].empty() ? std::vector<int>{Element(root).photo} : photos_[root];
   }
 
   std::vector<size_t> offsets_;
-  std::vector<size_t> parent_;
+  DisjointSets sets_;
   std::vector<std::vector<int>> photos_;  // of a root with more than one keypoint, ascending
 };
 
@@ -74,9 +78,9 @@ std::vector<SceneTrack> BuildTracks(const std::vector<size_t>& num_keypoints,
       forest.Join(forest.Node(pair.first, match.first), forest.Node(pair.second, match.second));
     }
   }
-  std::map<size_t, SceneTrack> by_root;
-  for (size_t node = 0; node < forest.size(); ++node) {
-    const size_t root = forest.Root(node);
+  std::map<int, SceneTrack> by_root;
+  for (int node = 0; node < forest.size(); ++node) {
+    const int root = forest.Root(node);
     if (!forest.IsSingle(root)) by_root[root].elements.push_back(forest.Element(node));
   }
   std::vector<SceneTrack> tracks;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "calib/matches.h"
+#include "calib/match.h"
 #include "calib/scene.h"
 
 namespace stucco {
@@ -19,6 +19,7 @@ struct PhotoPair {
 // Joins matches to tracks (union-find). Pairs with many matches go first, and a match that would
 // put two keypoints of one photo into the same track is refused, so that one wrong match cannot
 // glue two tracks together. Tracks and their elements come in ascending order of (photo, keypoint).
+// Requires matches of keypoints that there are, and no more keypoints than an int can number.
 std::vector<SceneTrack> BuildTracks(const std::vector<size_t>& num_keypoints,
                                     std::vector<PhotoPair> pairs);
 

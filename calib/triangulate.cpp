@@ -48,10 +48,10 @@ std::optional<Eigen::Vector3d> ClosestPoint(const Ray& a, const Ray& b) {
 
 std::vector<int> AgreeingElements(const Scene& scene, const SceneTrack& track,
                                   const std::vector<Ray>& rays, const Eigen::Vector3d& point,
-                                  double max_misfit) {
+                                  double max_error_sigmas) {
   std::vector<int> agreeing;
   for (const Ray& ray : rays) {
-    if (Misfit(scene, track.elements[ray.element], point) < max_misfit) {
+    if (ReprojectionErrorInSigmas(scene, track.elements[ray.element], point) < max_error_sigmas) {
       agreeing.push_back(ray.element);
     }
   }
@@ -111,7 +111,7 @@ bool TriangulateTrack(const Scene& scene, const TriangulateOptions& options, Sce
       if (pair++ % stride != 0 || rays[i].direction.dot(rays[j].direction) > max_cos) continue;
       const auto point = ClosestPoint(rays[i], rays[j]);
       if (!point) continue;
-      auto agreeing = AgreeingElements(scene, track, rays, *point, options.max_misfit);
+      auto agreeing = AgreeingElements(scene, track, rays, *point, options.max_error_sigmas);
       if (agreeing.size() <= best.size()) continue;
       best = std::move(agreeing);
       best_point = *point;
@@ -119,7 +119,7 @@ bool TriangulateTrack(const Scene& scene, const TriangulateOptions& options, Sce
   }
   if (best.size() < 2) return false;
   const Eigen::Vector3d refined = Refine(rays, best, best_point);
-  auto agreeing = AgreeingElements(scene, track, rays, refined, options.max_misfit);
+  auto agreeing = AgreeingElements(scene, track, rays, refined, options.max_error_sigmas);
   if (refined.allFinite() && agreeing.size() >= best.size()) {
     best = std::move(agreeing);
     best_point = refined;

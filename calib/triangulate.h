@@ -17,7 +17,7 @@ std::optional<Eigen::Vector3d> TriangulateTwoRays(const Eigen::Vector2d& first,
                                                   const Pose& second_from_first);
 
 struct TriangulateOptions {
-  double max_misfit = 4;  // standard deviations of the keypoints
+  double max_error_sigmas = 4;  // standard deviations of the keypoints
   double min_angle_rad = 0.026;
 };
 

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <opencv2/calib3d.hpp>
@@ -82,6 +83,10 @@ std::optional<PairGeometry> VerifyPair(const std::vector<Eigen::Vector2d>& first
                                        const std::vector<Eigen::Vector2d>& second,
                                        const std::vector<Match>& matches,
                                        const VerifyOptions& options) {
+  assert(std::ranges::all_of(matches, [&](const Match& match) {
+    return static_cast<size_t>(match.first) < first.size() &&
+           static_cast<size_t>(match.second) < second.size();
+  }));
   if (static_cast<int>(matches.size()) < options.min_inliers) return std::nullopt;
   std::vector<Eigen::Vector2d> a;
   std::vector<Eigen::Vector2d> b;
@@ -149,6 +154,7 @@ std::optional<PairGeometry> DeserializePair(std::string_view bytes) {
 std::optional<RelativePose> EstimateRelativePose(const std::vector<Eigen::Vector2d>& first,
                                                  const std::vector<Eigen::Vector2d>& second,
                                                  double max_error) {
+  assert(first.size() == second.size());
   if (first.size() < 8) return std::nullopt;
   // OpenCV's USAC works in pixels: an arbitrary focal length keeps its thresholds in a sane range.
   constexpr double kFocal = 1000;
@@ -198,6 +204,7 @@ std::optional<RelativePose> EstimateRelativePose(const std::vector<Eigen::Vector
 int CountRotationInliers(const std::vector<Eigen::Vector2d>& first,
                          const std::vector<Eigen::Vector2d>& second, double max_error, int seed) {
   constexpr int kRounds = 200;
+  assert(first.size() == second.size());
   const int count = static_cast<int>(first.size());
   if (count < 2) return 0;
   std::vector<Eigen::Vector3d> a(count);

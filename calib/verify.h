@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "calib/matches.h"
+#include "calib/match.h"
 #include "survey/camera.h"
 #include "survey/pose.h"
 
@@ -30,7 +30,8 @@ struct PairGeometry {
 };
 
 // Robust fundamental matrix (USAC, MAGSAC++ score, Barath et al. 2020) and homography. Nothing when
-// fewer than min_inliers matches agree with either. Works without knowing the cameras.
+// fewer than min_inliers matches agree with either. Works without knowing the cameras. Requires
+// matches of the given points.
 std::optional<PairGeometry> VerifyPair(const std::vector<Eigen::Vector2d>& first,
                                        const std::vector<Eigen::Vector2d>& second,
                                        const std::vector<Match>& matches,
@@ -45,6 +46,8 @@ struct RelativePose {
   int num_inliers = 0;
   double median_angle_rad = 0;  // between the rays of the inliers
 };
+
+// Both of these require as many rays of the first photo as of the second.
 
 // Essential matrix from rays (x/z, y/z) by USAC, decomposed with the cheirality test. `max_error`
 // is in units of the rays. Nothing when fewer than 8 rays agree.

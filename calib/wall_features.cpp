@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <opencv2/core.hpp>
@@ -11,7 +12,7 @@
 
 #include "calib/best_two.h"
 #include "calib/descriptors.h"
-#include "calib/project_inside.h"
+#include "calib/expect/project_inside.h"
 
 namespace stucco {
 namespace {
@@ -109,6 +110,10 @@ bool IsSure(const BestTwo& match) {
   return match.second >= 0 || DescriptorAngle(match.best) < kLonelyAngle_rad;
 }
 
+[[maybe_unused]] bool IsWhole(const WallKeypoints& keypoints) {
+  return keypoints.descriptors.size() == keypoints.places.size() * kDescriptorSize;
+}
+
 // Keypoints in the order of their places along the wall.
 struct AlongOrder {
   std::vector<int> index;
@@ -181,6 +186,7 @@ std::vector<OnWall> PlacesOnWall(const Features& features, const Camera& camera,
 
 std::vector<Match> MatchOnWall(const WallKeypoints& first, const WallKeypoints& second,
                                double reach_m, double ratio) {
+  assert(IsWhole(first) && IsWhole(second));
   const AlongOrder columns = SortAlong(second);
   std::vector<BestTwo> of_first(first.places.size());
   std::vector<BestTwo> of_second(second.places.size());

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "calib/features.h"
-#include "calib/matches.h"
+#include "calib/match.h"
 #include "survey/camera.h"
 #include "survey/image.h"
 #include "survey/plan.h"
@@ -37,11 +37,11 @@ struct OnWall {
 Features DetectOnWall(const Image& image, const Camera& camera, const WallView& view,
                       int max_features);
 
-// Where the keypoints lie on the wall; they must come from DetectOnWall with the same view.
+// Where the keypoints lie on the wall, if they come from DetectOnWall with the same view.
 std::vector<OnWall> PlacesOnWall(const Features& features, const Camera& camera,
                                  const WallView& view);
 
-// Keypoints of one photo on one wall.
+// Keypoints of one photo on one wall, as many of both.
 struct WallKeypoints {
   std::vector<int16_t> descriptors;  // as UnitDescriptors gives them
   std::vector<OnWall> places;

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -148,6 +149,7 @@ std::vector<std::string> ApplyPriorCamera(std::span<const double> prior, bool fi
       continue;
     }
     auto& params = camera.intrinsics.params;
+    assert(params.size() >= prior.size());
     std::fill(params.begin(), params.end(), 0.0);
     std::copy(prior.begin(), prior.end(), params.begin());
     camera.focal_source = "option";

@@ -25,7 +25,8 @@ std::vector<CapturedCamera> GroupCameras(std::vector<PhotoRecord>& records);
 // Replaces the intrinsics of the cameras that a known camera can belong to (fx fy cx cy, or these
 // and k1 k2 p1 p2, in pixels of the full photo): those whose middle third holds its principal
 // point. Returns the labels of the cameras it does not fit. Throws Error (kUsage) on a wrong number
-// of values or values no camera has, and where it fits no camera at all.
+// of values or values no camera has, and where it fits no camera at all. Requires OPENCV cameras,
+// as GroupCameras makes them.
 std::vector<std::string> ApplyPriorCamera(std::span<const double> prior, bool fixed,
                                           std::vector<CapturedCamera>& cameras);
 

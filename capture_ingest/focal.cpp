@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -123,6 +124,7 @@ double FocalFromTable(const Tags& tags, int width_px, int height_px) {
 
 std::optional<Camera> CameraFromDewarpData(std::string_view text, int width_px, int height_px,
                                            double scale) {
+  assert(width_px > 0 && height_px > 0);
   const size_t semicolon = text.find(';');
   if (semicolon != std::string_view::npos) text.remove_prefix(semicolon + 1);
   const auto values = ParseNumbers(text);
@@ -148,6 +150,7 @@ std::optional<Camera> CameraFromDewarpData(std::string_view text, int width_px, 
 }
 
 InitialCamera InitialIntrinsics(const Tags& tags, int width_px, int height_px) {
+  assert(width_px > 0 && height_px > 0);
   if (auto calibrated = FromDewarpData(tags, width_px, height_px)) return *calibrated;
   const std::pair<double, const char*> guesses[] = {
       {FocalFrom35mm(tags, width_px, height_px), "exif_35mm"},

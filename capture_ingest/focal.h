@@ -19,7 +19,8 @@ struct InitialCamera {
 
 // The first of: DJI's dewarp data or calibrated focal length, the 35 mm equivalent, the focal plane
 // resolution, the table of sensors, 1.2 times the longer side. Values that would mean a field of
-// view no camera has are passed over. The camera's id is not set.
+// view no camera has are passed over. The camera's id is not set. Requires sizes above 0, as does
+// the next.
 InitialCamera InitialIntrinsics(const Tags& tags, int width_px, int height_px);
 
 // "2022-06-08;fx,fy,cx,cy,k1,k2,p1,p2,k3" in pixels, the principal point from the image centre,

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-#include "evaluate/attempt.h"
+#include "evaluate/figures/attempt.h"
 #include "evaluate/geometry/cloud.h"
 #include "evaluate/geometry/compare_proxy.h"
 #include "evaluate/geometry/part_near.h"
@@ -137,7 +137,7 @@ class Evaluator {
 
   void MeasureCloud(const SceneShape& shape) {
     evaluation_.dense = CompareCloud(request_.survey / kCloudFile, *truth_from_world_, shape.index,
-                                     shape.wanted, tolerance(), threads());
+                                     shape.wanted, {tolerance(), threads()});
   }
 
   void MeasureMesh(const SceneShape& shape) {
@@ -146,7 +146,7 @@ class Evaluator {
     Surface mesh = SurfaceOf(simulate::ReadScene(request_.survey / kMeshFile, reading));
     for (Vector3d& vertex : mesh.vertices) vertex = *truth_from_world_ * vertex;
     evaluation_.mesh = CompareSurface(SurfaceIndex(std::move(mesh)), shape.index, shape.wanted,
-                                      tolerance(), threads());
+                                      {tolerance(), threads()});
   }
 
   void MeasureProxy(const SceneShape& shape) {

@@ -5,19 +5,10 @@
 #include <filesystem>
 #include <string>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
+#include "evaluate/request.h"
 
 namespace stucco::evaluate {
-
-struct EvaluateRequest {
-  std::filesystem::path survey;       // with whatever stages have results
-  std::filesystem::path scene;        // a scene folder with truth
-  std::filesystem::path flight;       // survey folder with truth/flight.json; empty: `survey`
-  std::filesystem::path output;       // evaluation.json, facades.csv, evaluation.html, pictures/
-  std::filesystem::path lpips_model;  // ONNX; empty: LPIPS is not measured
-  double tolerance_m = 0.1;
-  int threads = 1;
-};
 
 // Measures every result of the survey against the truth. What a stage has not made yet, or what
 // cannot be read, is not measured and noted. Throws Error (kBadInput) where the scene or the flight

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "evaluate/attempt.h"
+#include "evaluate/figures/attempt.h"
+#include "evaluate/figures/means.h"
 #include "evaluate/geometry/seen.h"
 #include "evaluate/geometry/surface.h"
-#include "evaluate/means.h"
 #include "evaluate/picture/compare_textures.h"
 #include "evaluate/picture/page_pictures.h"
 #include "survey/survey_folder.h"

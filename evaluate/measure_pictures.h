@@ -4,7 +4,8 @@
 
 #include <span>
 
-#include "evaluate/evaluate.h"
+#include "evaluate/figures/evaluation.h"
+#include "evaluate/request.h"
 #include "evaluate/truth.h"
 #include "simulate/scene/scene.h"
 #include "survey/pose.h"

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
 
 namespace stucco::evaluate {
 

@@ -7,7 +7,8 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
+
+#include "survey/disjoint_sets.h"
 
 namespace stucco {
 namespace {
@@ -123,11 +124,6 @@ class Cutter {
   std::map<EdgeKey, int> line_of_edge_;
 };
 
-int Root(std::vector<int>& parent, int i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
 // Boundary of the union as directed edges, the inside on the left.
 struct Border {
   int from, to, component;
@@ -236,21 +232,18 @@ double AreaOf(const Polygon2& polygon) {
 
 std::vector<IndexPolygon> UnionOfIndices(const Arrangement& arrangement,
                                          const std::vector<bool>& inside) {
-  std::vector<int> parent(arrangement.faces.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets components(arrangement.faces.size());
   const auto in = [&](int face) { return face >= 0 && inside[face]; };
   for (const auto& edge : arrangement.edges) {
-    if (!in(edge.left) || !in(edge.right)) continue;
-    const int a = Root(parent, edge.left), b = Root(parent, edge.right);
-    parent[std::max(a, b)] = std::min(a, b);
+    if (in(edge.left) && in(edge.right)) components.Join(edge.left, edge.right);
   }
   std::vector<Border> borders;
   for (const auto& edge : arrangement.edges) {
     if (in(edge.left) == in(edge.right)) continue;
     if (in(edge.left)) {
-      borders.push_back({edge.from, edge.to, Root(parent, edge.left)});
+      borders.push_back({edge.from, edge.to, components.Find(edge.left)});
     } else {
-      borders.push_back({edge.to, edge.from, Root(parent, edge.right)});
+      borders.push_back({edge.to, edge.from, components.Find(edge.right)});
     }
   }
   std::vector<Ring> holes;

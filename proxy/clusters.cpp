@@ -6,35 +6,27 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "proxy/ground.h"
+#include "survey/disjoint_sets.h"
 
 namespace stucco {
 namespace {
 
 using Cell = std::pair<int, int>;
 
-int Root(std::vector<int>& parent, int i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
 // Connected components of the cells, diagonal neighbours included: cell -> label.
 std::map<Cell, int> LabelCells(const std::map<Cell, int>& cells) {
-  std::vector<int> parent(cells.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets components(cells.size());
   for (const auto& [cell, index] : cells) {
     for (const auto& [dx, dy] : {Cell{1, 0}, Cell{0, 1}, Cell{1, 1}, Cell{1, -1}}) {
       const auto next = cells.find({cell.first + dx, cell.second + dy});
-      if (next == cells.end()) continue;
-      const int a = Root(parent, index), b = Root(parent, next->second);
-      parent[std::max(a, b)] = std::min(a, b);
+      if (next != cells.end()) components.Join(index, next->second);
     }
   }
   std::map<Cell, int> labels;
-  for (const auto& [cell, index] : cells) labels[cell] = Root(parent, index);
+  for (const auto& [cell, index] : cells) labels[cell] = components.Find(index);
   return labels;
 }
 

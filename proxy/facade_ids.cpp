@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -249,6 +250,7 @@ std::vector<std::vector<int>> MatchWalls(const std::vector<Segment2d>& walls,
 }
 
 FacadeNaming NameFacades(const Plan& plan, const Georef& georef, Proxy& proxy) {
+  assert(georef.frame == "enu");
   std::vector<Facet*> facets;
   std::vector<Segment2d> walls;
   for (Building& building : proxy.buildings) {

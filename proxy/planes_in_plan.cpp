@@ -3,6 +3,7 @@
 #include "proxy/planes_in_plan.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -105,6 +106,7 @@ bool PlanesInPlan::Continues(int plane, int other) const {
 }
 
 int PlanesInPlan::Nearest(int plane, std::span<const int> others) const {
+  assert(!others.empty());
   int best = others.front();
   double nearest = std::numeric_limits<double>::infinity();
   const Cell from = cells_[plane][cells_[plane].size() / 2];

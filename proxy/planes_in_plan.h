@@ -28,7 +28,7 @@ class PlanesInPlan {
   bool IsLowest(int plane) const;
   // Whether the other plane's points next to this one lie at its height.
   bool Continues(int plane, int other) const;
-  // Of `others`, which must not be empty, the one nearest to the plane in plan.
+  // Of `others` the one nearest to the plane in plan. Requires at least one.
   int Nearest(int plane, std::span<const int> others) const;
 
  private:

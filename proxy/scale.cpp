@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -62,6 +63,7 @@ double LocalNoise(const Samples& samples, const GridIndex& index, size_t i, doub
 }  // namespace
 
 CloudScale MeasureScale(const Samples& samples) {
+  assert(samples.size() >= 4);
   CloudScale scale;
   const Eigen::Vector3d size = SizeOfMiddle(samples);
   scale.extent = size.norm();

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include "proxy/min_cut.h"
 #include "proxy/solid_cells.h"
+#include "survey/disjoint_sets.h"
 
 namespace stucco {
 namespace {
@@ -40,26 +40,21 @@ std::vector<bool> CutCells(const Partition& partition, const CellEvidence& evide
   return CheapestLabels(nodes, links);
 }
 
-int Root(std::vector<int>& parent, int i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-// Cells with one label that touch in faces get one number; the world around the box is one more
-// empty cell.
+// Cells with one label that touch in faces get one number, that of the last of them; the world
+// around the box is one more empty cell.
 std::vector<int> PartsOf(const Partition& partition, const std::vector<bool>& inside) {
   const int world = static_cast<int>(inside.size());
-  std::vector<int> parent(inside.size() + 1);
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets parts(inside.size() + 1);
   const auto label = [&](int cell) { return cell < world && inside[cell]; };
   for (const auto& face : partition.faces) {
     const int a = face.below < 0 ? world : face.below, b = face.above < 0 ? world : face.above;
-    if (label(a) != label(b)) continue;
-    const int ra = Root(parent, a), rb = Root(parent, b);
-    parent[std::min(ra, rb)] = std::max(ra, rb);
+    if (label(a) == label(b)) parts.Join(a, b);
   }
-  for (int i = 0; i <= world; ++i) parent[i] = Root(parent, i);
-  return parent;
+  std::vector<int> last(inside.size() + 1);
+  for (int i = 0; i <= world; ++i) last[parts.Find(i)] = i;
+  std::vector<int> part_of(inside.size() + 1);
+  for (int i = 0; i <= world; ++i) part_of[i] = last[parts.Find(i)];
+  return part_of;
 }
 
 // Fills cavities and keeps the largest solid part.

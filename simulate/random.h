@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -38,8 +39,11 @@ class Random {
   // In [0, 1).
   double Unit() { return static_cast<double>(Next() >> 11) * 0x1p-53; }
   double Uniform(double from, double to) { return from + (to - from) * Unit(); }
-  // In [0, count), count > 0. The modulo favours small numbers by less than count / 2^64.
-  int Index(int count) { return static_cast<int>(Next() % static_cast<uint64_t>(count)); }
+  // In [0, count). Requires count > 0. The modulo favours small numbers by less than count / 2^64.
+  int Index(int count) {
+    assert(count > 0);
+    return static_cast<int>(Next() % static_cast<uint64_t>(count));
+  }
   int Integer(int from, int to) { return from + Index(to - from + 1); }  // both inclusive
   bool Chance(double probability) { return Unit() < probability; }
   // Standard normal (Box and Muller, 1958).

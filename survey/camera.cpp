@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 
@@ -17,6 +18,7 @@ struct ModelInfo {
   CameraModel model;
   std::string_view name;
   std::span<const std::string_view> parameters;
+  std::span<const ParameterKind> kinds;
 };
 
 constexpr std::array<std::string_view, 3> kSimplePinholeNames = {"f", "cx", "cy"};
@@ -28,13 +30,31 @@ constexpr std::array<std::string_view, 8> kOpenCvNames = {"fx", "fy", "cx", "cy"
 constexpr std::array<std::string_view, 12> kFullOpenCvNames = {"fx", "fy", "cx", "cy", "k1", "k2",
                                                                "p1", "p2", "k3", "k4", "k5", "k6"};
 
+using enum ParameterKind;
+constexpr std::array kOneFocalKinds = {kFocalLength, kPrincipalPoint, kPrincipalPoint, kRadial,
+                                       kRadial};
+constexpr std::array kTwoFocalKinds = {kFocalLength, kFocalLength, kPrincipalPoint, kPrincipalPoint,
+                                       kRadial,      kRadial,      kTangential,     kTangential,
+                                       kRational,    kRational,    kRational,       kRational};
+
+// Of the models with as many focal lengths each is the beginning of the next.
+template <size_t kAll, size_t kCount>
+constexpr std::span<const ParameterKind> FirstKinds(
+    const std::array<ParameterKind, kAll>& kinds,
+    const std::array<std::string_view, kCount>& /*names*/) {
+  return std::span(kinds).template first<kCount>();
+}
+
 constexpr std::array<ModelInfo, 6> kModels = {{
-    {CameraModel::kSimplePinhole, "SIMPLE_PINHOLE", kSimplePinholeNames},
-    {CameraModel::kPinhole, "PINHOLE", kPinholeNames},
-    {CameraModel::kSimpleRadial, "SIMPLE_RADIAL", kSimpleRadialNames},
-    {CameraModel::kRadial, "RADIAL", kRadialNames},
-    {CameraModel::kOpenCv, "OPENCV", kOpenCvNames},
-    {CameraModel::kFullOpenCv, "FULL_OPENCV", kFullOpenCvNames},
+    {CameraModel::kSimplePinhole, "SIMPLE_PINHOLE", kSimplePinholeNames,
+     FirstKinds(kOneFocalKinds, kSimplePinholeNames)},
+    {CameraModel::kPinhole, "PINHOLE", kPinholeNames, FirstKinds(kTwoFocalKinds, kPinholeNames)},
+    {CameraModel::kSimpleRadial, "SIMPLE_RADIAL", kSimpleRadialNames,
+     FirstKinds(kOneFocalKinds, kSimpleRadialNames)},
+    {CameraModel::kRadial, "RADIAL", kRadialNames, FirstKinds(kOneFocalKinds, kRadialNames)},
+    {CameraModel::kOpenCv, "OPENCV", kOpenCvNames, FirstKinds(kTwoFocalKinds, kOpenCvNames)},
+    {CameraModel::kFullOpenCv, "FULL_OPENCV", kFullOpenCvNames,
+     FirstKinds(kTwoFocalKinds, kFullOpenCvNames)},
 }};
 
 const ModelInfo& InfoOf(CameraModel model) {
@@ -98,12 +118,16 @@ Lens LensOf(const Camera& camera) {
     case CameraModel::kPinhole:
       return {};
     case CameraModel::kSimpleRadial:
+      assert(p.size() == 4);
       return {.k1 = p[3]};
     case CameraModel::kRadial:
+      assert(p.size() == 5);
       return {.k1 = p[3], .k2 = p[4]};
     case CameraModel::kOpenCv:
+      assert(p.size() == 8);
       return {.k1 = p[4], .k2 = p[5], .p1 = p[6], .p2 = p[7]};
     case CameraModel::kFullOpenCv:
+      assert(p.size() == 12);
       return {.k1 = p[4],
               .k2 = p[5],
               .p1 = p[6],
@@ -182,6 +206,10 @@ std::span<const std::string_view> ParameterNames(CameraModel model) {
   return InfoOf(model).parameters;
 }
 
+std::span<const ParameterKind> ParameterKinds(CameraModel model) {
+  return InfoOf(model).kinds;
+}
+
 double Camera::FocalY() const {
   return HasOneFocalLength(model) ? params[0] : params[1];
 }
@@ -219,6 +247,7 @@ bool Camera::Contains(const Eigen::Vector2d& pixel) const {
 }
 
 Camera Resized(const Camera& camera, int width_px, int height_px) {
+  assert(width_px > 0 && height_px > 0 && camera.width_px > 0 && camera.height_px > 0);
   const double scale_x = static_cast<double>(width_px) / camera.width_px;
   const double scale_y = static_cast<double>(height_px) / camera.height_px;
   Camera resized = camera;
@@ -240,14 +269,6 @@ Camera Resized(const Camera& camera, int width_px, int height_px) {
   resized.params[first] *= scale_x;
   resized.params[first + 1] *= scale_y;
   return resized;
-}
-
-Camera WithoutDistortion(const Camera& camera) {
-  Camera pinhole = camera;
-  const Eigen::Vector2d centre = camera.PrincipalPoint();
-  pinhole.model = CameraModel::kPinhole;
-  pinhole.params = {camera.FocalX(), camera.FocalY(), centre.x(), centre.y()};
-  return pinhole;
 }
 
 std::optional<std::string> FindProblem(const Camera& camera) {

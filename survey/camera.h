@@ -31,7 +31,19 @@ std::optional<CameraModel> CameraModelFromName(std::string_view name);
 std::optional<CameraModel> CameraModelFromNumber(int number);
 std::span<const std::string_view> ParameterNames(CameraModel model);  // {"fx", "fy", ...}
 
+// What a parameter is: COLMAP's focal_length_idxs, principal_point_idxs and extra_params_idxs, the
+// extra ones apart by how large they get and how well photos determine them.
+enum class ParameterKind {
+  kFocalLength,
+  kPrincipalPoint,
+  kRadial,      // k, k1, k2
+  kTangential,  // p1, p2
+  kRational,    // k3 ... k6 of FULL_OPENCV
+};
+std::span<const ParameterKind> ParameterKinds(CameraModel model);  // in the order of the names
+
 // Pixel (0.5, 0.5) is the centre of the top-left pixel. Camera frame: x right, y down, z forward.
+// What it computes requires as many parameters as the model has.
 struct Camera {
   CameraId id;
   CameraModel model = CameraModel::kPinhole;
@@ -55,11 +67,8 @@ struct Camera {
   bool Contains(const Eigen::Vector2d& pixel) const;
 };
 
-// The same lens seen through an image resized to width x height pixels.
+// The same lens seen through an image resized to width x height pixels. Requires sizes above 0.
 Camera Resized(const Camera& camera, int width_px, int height_px);
-
-// A pinhole camera without distortion with the focal lengths and size of `camera`.
-Camera WithoutDistortion(const Camera& camera);
 
 // What is wrong with a camera (size, number of parameters, not finite, focal length <= 0), or
 // nothing.

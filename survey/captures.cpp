@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
+
 #include "survey/error.h"
 #include "survey/internal/json.h"
 
@@ -85,20 +87,28 @@ static void Fields(Archive& archive, T& captures) {
   archive.Optional("views", captures.views);
 }
 
-Captures ReadCaptures(const std::filesystem::path& path) {
-  Captures captures = internal::ReadJsonFile<Captures>(path);
+// The first photo that has no camera and needs one, or whose camera is missing; null: none.
+static const CapturedPhoto* FindCameraless(const Captures& captures) {
   for (const CapturedPhoto& photo : captures.photos) {
     const bool has_camera =
         photo.camera >= 0 && static_cast<size_t>(photo.camera) < captures.cameras.size();
-    if (has_camera || (photo.camera == -1 && !photo.usable)) continue;
+    if (!has_camera && (photo.camera != -1 || photo.usable)) return &photo;
+  }
+  return nullptr;
+}
+
+Captures ReadCaptures(const std::filesystem::path& path) {
+  Captures captures = internal::ReadJsonFile<Captures>(path);
+  if (const CapturedPhoto* photo = FindCameraless(captures)) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: photo {} has camera {}, but there are {} cameras", path.string(),
-                            photo.path, photo.camera, captures.cameras.size()));
+                            photo->path, photo->camera, captures.cameras.size()));
   }
   return captures;
 }
 
 void WriteCaptures(const Captures& captures, const std::filesystem::path& path) {
+  assert(FindCameraless(captures) == nullptr);
   internal::WriteJsonFile(captures, path);
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <cassert>
 #include <limits>
 #include <string_view>
 
@@ -204,6 +205,7 @@ Reconstruction ReadColmapBinary(const std::filesystem::path& folder) {
 }  // namespace internal
 
 void WriteColmapBinary(const Reconstruction& reconstruction, const std::filesystem::path& folder) {
+  assert(!FindProblem(reconstruction));
   internal::CreateFolder(folder);
   WriteFile(folder / "cameras.bin", internal::CamerasBytes(reconstruction));
   WriteFile(folder / "images.bin", internal::PhotosBytes(reconstruction));

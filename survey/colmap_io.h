@@ -16,8 +16,8 @@ namespace stucco {
 // camera.h.
 Reconstruction ReadColmapModel(const std::filesystem::path& folder);
 
-// Creates the folder where needed. Text is written with 17 significant digits: it reads back
-// exactly.
+// Requires a reconstruction without problems (reconstruction.h). Creates the folder where needed.
+// Text is written with 17 significant digits: it reads back exactly.
 void WriteColmapText(const Reconstruction& reconstruction, const std::filesystem::path& folder);
 void WriteColmapBinary(const Reconstruction& reconstruction, const std::filesystem::path& folder);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <cassert>
 #include <iterator>
 #include <string_view>
 
@@ -216,6 +217,7 @@ Reconstruction ReadColmapText(const std::filesystem::path& folder) {
 }  // namespace internal
 
 void WriteColmapText(const Reconstruction& reconstruction, const std::filesystem::path& folder) {
+  assert(!FindProblem(reconstruction));
   internal::CreateFolder(folder);
   WriteFile(folder / "cameras.txt", internal::CamerasText(reconstruction));
   WriteFile(folder / "images.txt", internal::PhotosText(reconstruction));

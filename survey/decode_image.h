@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "survey/image.h"
+#include "survey/pixels.h"
 
 namespace stucco {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "survey/image.h"
+#include "survey/pixels.h"
 
 namespace stucco {
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -107,6 +108,7 @@ Georef ReadGeoref(const std::filesystem::path& path) {
 }
 
 void WriteGeoref(const Georef& georef, const std::filesystem::path& path) {
+  assert(!FindProblem(georef));
   internal::WriteJsonFile(georef, path);
 }
 

@@ -3,8 +3,17 @@
 #include "survey/intervals.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace stucco {
+
+bool IsSet(std::span<const Interval> intervals) {
+  for (size_t i = 0; i < intervals.size(); ++i) {
+    if (!(intervals[i].from_m < intervals[i].to_m)) return false;
+    if (i > 0 && !(intervals[i - 1].to_m <= intervals[i].from_m)) return false;
+  }
+  return true;
+}
 
 std::optional<Interval> Intersection(const Interval& a, const Interval& b) {
   const Interval common{std::max(a.from_m, b.from_m), std::min(a.to_m, b.to_m)};
@@ -13,6 +22,7 @@ std::optional<Interval> Intersection(const Interval& a, const Interval& b) {
 }
 
 Intervals Intersection(std::span<const Interval> set, const Interval& window) {
+  assert(IsSet(set));
   Intervals result;
   for (const Interval& interval : set) {
     if (const auto common = Intersection(interval, window)) result.push_back(*common);
@@ -21,6 +31,7 @@ Intervals Intersection(std::span<const Interval> set, const Interval& window) {
 }
 
 Intervals Intersection(std::span<const Interval> a, std::span<const Interval> b) {
+  assert(IsSet(a) && IsSet(b));
   Intervals result;
   size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
@@ -51,6 +62,7 @@ Intervals Union(Intervals intervals) {
 }
 
 Intervals Gaps(std::span<const Interval> set, const Interval& window) {
+  assert(IsSet(set));
   Intervals result;
   double begin = window.from_m;
   for (const Interval& interval : set) {
@@ -64,6 +76,7 @@ Intervals Gaps(std::span<const Interval> set, const Interval& window) {
 }
 
 Intervals Difference(std::span<const Interval> a, std::span<const Interval> b) {
+  assert(IsSet(a));
   Intervals result;
   for (const Interval& interval : a) {
     const Intervals gaps = Gaps(b, interval);
@@ -73,6 +86,7 @@ Intervals Difference(std::span<const Interval> a, std::span<const Interval> b) {
 }
 
 double Length(std::span<const Interval> set) {
+  assert(IsSet(set));
   double length = 0;
   for (const Interval& interval : set) length += interval.length_m();
   return length;

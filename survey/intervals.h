@@ -19,6 +19,10 @@ struct Interval {
 // A set of points on a line: disjoint intervals in ascending order, none empty.
 using Intervals = std::vector<Interval>;
 
+// Whether the intervals are such a set, which the functions below require of what they call `set`,
+// `a` and `b`.
+bool IsSet(std::span<const Interval> intervals);
+
 // The common part; nothing when it is empty or a single point.
 std::optional<Interval> Intersection(const Interval& a, const Interval& b);
 Intervals Intersection(std::span<const Interval> set, const Interval& window);

@@ -23,8 +23,7 @@
 #include "survey/error.h"
 #include "survey/files.h"
 
-namespace stucco {
-namespace internal {
+namespace stucco::internal {
 namespace {
 
 using namespace std::string_view_literals;
@@ -209,21 +208,19 @@ Image DecodeJpeg(std::string_view bytes, const std::string& name, int channels, 
   return Shrink(std::move(image), wished);
 }
 
-}  // namespace internal
-
-ImageSize ReadJpegSize(const std::filesystem::path& path) {
+ImageSize JpegSizeOf(const std::filesystem::path& path) {
   const std::string name = path.string();
   // Not ReadFile: the size is in the first kilobytes of many megabytes.
   const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-  std::array<char, internal::kSniffedBytes> start{};
+  std::array<char, kSniffedBytes> start{};
   const size_t count = file ? std::fread(start.data(), 1, start.size(), file.get()) : 0;
   if (!file || std::ferror(file.get()) != 0) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: cannot be read: {}", name,
                                                   std::generic_category().message(errno)));
   }
-  internal::CheckIsJpeg({start.data(), count}, name);
+  CheckIsJpeg({start.data(), count}, name);
   std::rewind(file.get());
-  internal::Decoder decoder(name);
+  Decoder decoder(name);
   decoder.Run([&] {
     jpeg_stdio_src(&decoder.info(), file.get());
     jpeg_read_header(&decoder.info(), TRUE);
@@ -232,8 +229,4 @@ ImageSize ReadJpegSize(const std::filesystem::path& path) {
           static_cast<int>(decoder.info().image_height)};
 }
 
-Image ReadJpeg(const std::filesystem::path& path, int channels, int max_side_px) {
-  return internal::DecodeJpeg(ReadFile(path), path.string(), channels, max_side_px);
-}
-
-}  // namespace stucco
+}  // namespace stucco::internal

@@ -5,6 +5,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "survey/error.h"
@@ -50,9 +51,12 @@ void Occluders::State::Attach(std::span<const Eigen::Vector3d> vertices,
 Occluders::Occluders(std::span<const Eigen::Vector3d> vertices,
                      std::span<const std::array<uint32_t, 3>> triangles)
     : state_(std::make_unique<State>()) {
+  assert(std::ranges::all_of(triangles,
+                             [&](const auto& t) { return std::ranges::max(t) < vertices.size(); }));
   for (const Eigen::Vector3d& vertex : vertices) state_->center += vertex;
   if (!vertices.empty()) state_->center /= static_cast<double>(vertices.size());
-  // Without a number of threads: one would hold for TBB in the whole process while the device lives.
+  // Without a number of threads: one would hold for TBB in the whole process while the device
+  // lives.
   state_->device = rtcNewDevice(nullptr);
   if (!state_->device) {
     throw Error(ErrorKind::kStageFailed, "Embree could not be started on this processor");

@@ -14,7 +14,7 @@ namespace stucco {
 // Triangles that stand in the way of lines of sight (Embree). Safe to ask from several threads.
 class Occluders {
  public:
-  // Throws Error (kStageFailed) where Embree cannot run.
+  // Requires triangles of the vertices. Throws Error (kStageFailed) where Embree cannot run.
   Occluders(std::span<const Eigen::Vector3d> vertices,
             std::span<const std::array<uint32_t, 3>> triangles);
   ~Occluders();

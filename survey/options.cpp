@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -160,32 +161,38 @@ OptionValue ParseFor(const Option& option, std::string_view text) {
 
 }  // namespace
 
+Option& OptionTable::Append(Option option) {
+  assert(Find(option.name) == nullptr);
+  return options_.emplace_back(std::move(option));
+}
+
 Option& OptionTable::Add(std::string name, int& value, int min, int max, std::string help) {
-  return options_.emplace_back(Option{std::move(name),
-                                      std::move(help),
-                                      &value,
-                                      static_cast<double>(min),
-                                      static_cast<double>(max),
-                                      {}});
+  assert(min <= max);
+  return Append(Option{std::move(name),
+                       std::move(help),
+                       &value,
+                       static_cast<double>(min),
+                       static_cast<double>(max),
+                       {}});
 }
 
 Option& OptionTable::Add(std::string name, double& value, double min, double max,
                          std::string help) {
-  return options_.emplace_back(Option{std::move(name), std::move(help), &value, min, max, {}});
+  assert(min <= max);
+  return Append(Option{std::move(name), std::move(help), &value, min, max, {}});
 }
 
 Option& OptionTable::Add(std::string name, bool& value, std::string help) {
-  return options_.emplace_back(Option{std::move(name), std::move(help), &value, 0, 0, {}});
+  return Append(Option{std::move(name), std::move(help), &value, 0, 0, {}});
 }
 
 Option& OptionTable::Add(std::string name, std::string& value, std::vector<std::string> choices,
                          std::string help) {
-  return options_.emplace_back(
-      Option{std::move(name), std::move(help), &value, 0, 0, std::move(choices)});
+  return Append(Option{std::move(name), std::move(help), &value, 0, 0, std::move(choices)});
 }
 
 Option& OptionTable::Add(std::string name, std::vector<double>& value, std::string help) {
-  return options_.emplace_back(Option{std::move(name), std::move(help), &value, 0, 0, {}});
+  return Append(Option{std::move(name), std::move(help), &value, 0, 0, {}});
 }
 
 const Option* OptionTable::Find(std::string_view name) const {

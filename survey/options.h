@@ -29,6 +29,7 @@ class OptionTable {
  public:
   explicit OptionTable(std::string section) : section_(std::move(section)) {}
 
+  // Requires a name that the table does not have yet, and a range that is not empty.
   Option& Add(std::string name, int& value, int min, int max, std::string help);
   Option& Add(std::string name, double& value, double min, double max, std::string help);
   Option& Add(std::string name, bool& value, std::string help);
@@ -43,6 +44,8 @@ class OptionTable {
   std::string Suggestion(std::string_view name) const;
 
  private:
+  Option& Append(Option option);
+
   std::string section_;
   std::vector<Option> options_;
 };

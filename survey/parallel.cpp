@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <map>
 #include <mutex>
 
@@ -35,6 +36,13 @@ void RunOn(int threads, const std::function<void()>& fn) {
   arena->execute([&] { tbb::this_task_arena::isolate(fn); });
 }
 
+[[maybe_unused]] bool WaitsForEarlierOnes(std::span<const std::vector<size_t>> before) {
+  for (size_t i = 0; i < before.size(); ++i) {
+    if (std::ranges::any_of(before[i], [i](size_t earlier) { return earlier >= i; })) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& fn) {
@@ -51,6 +59,7 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& f
 
 void ParallelInOrder(std::span<const std::vector<size_t>> before, int threads,
                      const std::function<void(size_t)>& fn) {
+  assert(WaitsForEarlierOnes(before));
   threads = Usable(threads);
   if (threads <= 1 || before.size() <= 1) {
     for (size_t i = 0; i < before.size(); ++i) fn(i);

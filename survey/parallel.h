@@ -14,8 +14,9 @@ namespace stucco {
 // depend on the number of threads are written to slots by index, never accumulated.
 void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& fn);
 
-// The same for each index of `before`, fn(i) after the calls for all indices in before[i] ended;
-// these are smaller than i. Indices that do not wait for each other run at the same time.
+// The same for each index of `before`, fn(i) after the calls for all indices in before[i] ended.
+// Requires that these are smaller than i. Indices that do not wait for each other run at the same
+// time.
 void ParallelInOrder(std::span<const std::vector<size_t>> before, int threads,
                      const std::function<void(size_t)>& fn);
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -95,6 +96,7 @@ Geodetic GeodeticFromPlan(const PlanOrigin& origin, const Eigen::Vector2d& posit
 
 Eigen::Vector2d EnuFromPlan(const PlanOrigin& origin, const Georef& georef,
                             const Eigen::Vector2d& position) {
+  assert(georef.frame == "enu");
   const Geodetic place = GeodeticFromPlan(origin, position);
   return EnuFromGeodetic(georef, place.latitude_deg, place.longitude_deg, georef.origin_height_m)
       .head<2>();

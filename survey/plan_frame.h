@@ -25,7 +25,8 @@ Eigen::Vector2d PlanFromGeodetic(const PlanOrigin& origin, const Geodetic& geode
 
 // Where a point of the plan lies east and north in the world frame of an "enu" survey. Heights stay
 // out of it: plans count them from the terrain, surveys as their photos state them, and over the
-// kilometre of a site a height of 100 m moves nothing by more than 2 cm.
+// kilometre of a site a height of 100 m moves nothing by more than 2 cm. Requires georef.frame
+// "enu".
 Eigen::Vector2d EnuFromPlan(const PlanOrigin& origin, const Georef& georef,
                             const Eigen::Vector2d& position);
 

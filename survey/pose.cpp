@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <cassert>
 
 #include "survey/error.h"
 
 namespace stucco {
 
 Similarity Similarity::Inverse() const {
+  assert(scale > 0);
   const Eigen::Quaterniond back = rotation.conjugate();
   return {1 / scale, back, -(back * translation) / scale};
 }

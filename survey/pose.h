@@ -33,15 +33,15 @@ struct Similarity {
   Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
     return scale * (rotation * point) + translation;
   }
-  Similarity Inverse() const;
+  Similarity Inverse() const;  // requires scale > 0
 };
 
 // cam_from_new for cam_from_old and new_from_old; the camera frame keeps unit scale, so that depths
 // in the new frame are `scale` times those in the old one.
 Pose Transformed(const Pose& cam_from_old, const Similarity& new_from_old);
 
-// Least-squares similarity (Umeyama 1991) with target ~ result * source, for 3 x n points.
-// Requires n >= 3 points that are not on one line; check with the caller.
+// Least-squares similarity (Umeyama 1991) with target ~ result * source, for 3 x n points that are
+// not on one line. Throws Error (kStageFailed) for fewer than three, or not as many of both.
 Similarity AlignPoints(const Eigen::Matrix3Xd& source, const Eigen::Matrix3Xd& target);
 
 }  // namespace stucco

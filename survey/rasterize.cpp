@@ -3,6 +3,7 @@
 #include "survey/rasterize.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace stucco {
@@ -22,6 +23,7 @@ void AddCrossings(const std::vector<Eigen::Vector2d>& ring, double y, std::vecto
 
 std::vector<uint8_t> RasterizeRings(std::span<const std::vector<Eigen::Vector2d>> rings,
                                     int width_px, int height_px) {
+  assert(width_px >= 0 && height_px >= 0);
   std::vector<uint8_t> mask(static_cast<size_t>(width_px) * height_px, 0);
   std::vector<double> crossings;
   // The first column whose centre is not left of x.

@@ -10,6 +10,7 @@
 namespace stucco {
 
 // 1 where a pixel's centre (column + 0.5, row + 0.5) is inside an odd number of the rings, by row.
+// Requires sizes of at least 0.
 std::vector<uint8_t> RasterizeRings(std::span<const std::vector<Eigen::Vector2d>> rings,
                                     int width_px, int height_px);
 

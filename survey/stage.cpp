@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "survey/stage.h"
 
+#include <cassert>
+
 #include "survey/error.h"
 
 namespace stucco {
@@ -33,6 +35,7 @@ void StageContext::ThrowIfCancelled() const {
 
 std::string ComputeUnit(const StageContext& context, std::string_view kind, std::string_view key,
                         const std::function<std::string()>& compute) {
+  assert(context.units != nullptr);
   context.ThrowIfCancelled();
   if (std::optional<std::string> saved = context.units->Load(kind, key)) return *std::move(saved);
   std::string bytes = compute();

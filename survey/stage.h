@@ -67,7 +67,7 @@ struct StageContext {
   void ThrowIfCancelled() const;
 };
 
-// Loads the unit, or computes and saves it.
+// Loads the unit, or computes and saves it. Requires a context with units.
 std::string ComputeUnit(const StageContext& context, std::string_view kind, std::string_view key,
                         const std::function<std::string()>& compute);
 

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "survey/utf8.h"
 
+#include <cassert>
+
 namespace stucco {
 
 size_t Utf8SequenceLength(std::string_view text) {
+  assert(!text.empty());
   const auto byte = [&](size_t i) -> unsigned { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(0);
   if (first < 0x80) return 1;

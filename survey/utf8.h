@@ -7,8 +7,8 @@
 
 namespace stucco {
 
-// Length of the well-formed sequence at the front of a text that is not empty (Unicode 15, table
-// 3-7); 0 when there is none.
+// Length of the well-formed sequence at the front of a text (Unicode 15, table 3-7); 0 when there
+// is none. Requires a text that is not empty.
 size_t Utf8SequenceLength(std::string_view text);
 
 // Whether the bytes are well-formed UTF-8 without control characters.

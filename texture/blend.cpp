@@ -3,6 +3,7 @@
 #include "texture/blend.h"
 
 #include <algorithm>
+#include <cassert>
 #include <opencv2/imgproc.hpp>
 
 #include "texture/fill.h"
@@ -56,10 +57,12 @@ void AddLayer(cv::Mat picture, cv::Mat weight, std::vector<cv::Mat>& bands) {
 
 std::vector<float> JoinLayers(std::span<const Layer> layers, const std::vector<int>& labels,
                               int width, int height) {
+  assert(labels.size() == static_cast<size_t>(width) * height);
   std::vector<float> mosaic(3 * labels.size(), 0);
   std::vector<uint8_t> known(labels.size(), 0);
   for (size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] < 0) continue;
+    assert(layers[labels[i]].valid[i]);
     std::copy_n(&layers[labels[i]].rgb[3 * i], 3, &mosaic[3 * i]);
     known[i] = 1;
   }

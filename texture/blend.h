@@ -22,9 +22,9 @@ inline constexpr int kBlendMargin = 128;
 
 // Joins layers where the labels say, each detail over a band as wide as the detail is large (Burt &
 // Adelson, "A Multiresolution Spline With Application to Image Mosaics", 1983). `labels` hold the
-// index of the layer that owns a texel, which must be valid there, or -1. Invalid parts of a layer
-// are replaced by the plain mosaic, so that nothing unseen leaks across a seam. Returns 3 values
-// per texel; where nobody owns a texel, smoothly continued colours.
+// index of the layer that owns a texel, or -1. Requires layers that are valid where they own.
+// Invalid parts of a layer are replaced by the plain mosaic, so that nothing unseen leaks across a
+// seam. Returns 3 values per texel; where nobody owns a texel, smoothly continued colours.
 std::vector<float> BlendLayers(std::span<const Layer> layers, const std::vector<int>& labels,
                                int width, int height);
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "survey/rasterize.h"
@@ -39,6 +40,7 @@ std::vector<Eigen::Vector2d> OnGrid(const std::vector<Eigen::Vector3d>& ring,
 }  // namespace
 
 TexelGrid MakeGrid(const Facet& facet, const Eigen::Vector3d& up, double texel, int max_px) {
+  assert(texel > 0 && max_px >= 1 && facet.outer.size() >= 3);
   TexelGrid grid;
   grid.normal = facet.normal.normalized();
   grid.u_axis = HorizontalAxis(grid.normal, up.normalized());

@@ -4,10 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <set>
 
-#include "calib/project_inside.h"
+#include "calib/expect/project_inside.h"
 #include "site/sightings.h"
 #include "site/site_model.h"
 #include "site/site_of_plan.h"
@@ -148,6 +149,7 @@ std::vector<WallRange> WallsOf(const ExpectedViews& views, size_t photo) {
 }  // namespace
 
 ExpectedViews ExpectViews(ExpectInput input, const StageContext& context) {
+  assert(input.poses.size() == input.cameras.size());
   const Site site = SiteOfPlan(input.plan);
   const double reach_m =
       std::clamp(kReach * std::max(input.plan.safe_altitude_m, input.plan.d_max_m), kLeastReach_m,

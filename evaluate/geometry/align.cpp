@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -73,6 +74,7 @@ Similarity LeastMedian(const Matrix3Xd& source, const Matrix3Xd& target) {
 }  // namespace
 
 std::optional<Alignment> AlignRobustly(const Matrix3Xd& source, const Matrix3Xd& target) {
+  assert(source.cols() == target.cols());
   if (!SpansAPlane(source) || !SpansAPlane(target)) return std::nullopt;
   Alignment alignment{LeastMedian(source, target), {}};
   for (int i = 0; i < kRefinements; ++i) {

@@ -18,7 +18,7 @@ struct Alignment {
 // The least-squares similarity of all points but gross errors: those more than ten times as far off
 // as the median of a fit that half of the points suffice for (least median of squares, Rousseeuw
 // 1984). Without such errors it is AlignPoints of all. Nothing for under three points or points on
-// one line.
+// one line. Requires as many of both.
 std::optional<Alignment> AlignRobustly(const Eigen::Matrix3Xd& source,
                                        const Eigen::Matrix3Xd& target);
 

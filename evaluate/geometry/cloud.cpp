@@ -106,10 +106,10 @@ std::vector<char> FoundOn(const SurfaceIndex& result, const TruthPoints& truth, 
 }
 
 PartFigures CompareCloud(const std::filesystem::path& ply, const Similarity& truth_from_world,
-                         const SceneIndex& scene, const TruthPoints& truth, double tolerance_m,
-                         int threads) {
+                         const SceneIndex& scene, const TruthPoints& truth,
+                         const CompareOptions& options) {
   const uint64_t step = ReadPlyLayout(ply).points / kMostForError + 1;
-  PointGrid grid(truth.points, tolerance_m);
+  PointGrid grid(truth.points, options.tolerance_m);
   std::vector<Vector3d> chosen;
   uint64_t number = 0;
   ForEachPoint(ply, [&](const CloudPoint& point) {
@@ -117,14 +117,14 @@ PartFigures CompareCloud(const std::filesystem::path& ply, const Similarity& tru
     grid.Mark(place);
     if (number++ % step == 0) chosen.push_back(place);
   });
-  return FiguresOf(MeasurePoints(chosen, scene, threads), truth, grid.found());
+  return FiguresOf(MeasurePoints(chosen, scene, options.threads), truth, grid.found());
 }
 
 PartFigures CompareSurface(const SurfaceIndex& result, const SceneIndex& scene,
-                           const TruthPoints& truth, double tolerance_m, int threads) {
+                           const TruthPoints& truth, const CompareOptions& options) {
   const auto points = Positions(SamplePoints(result.surface(), kSurfaceSamples, kSeed));
-  return FiguresOf(MeasurePoints(points, scene, threads), truth,
-                   FoundOn(result, truth, tolerance_m, threads));
+  return FiguresOf(MeasurePoints(points, scene, options.threads), truth,
+                   FoundOn(result, truth, options.tolerance_m, options.threads));
 }
 
 }  // namespace stucco::evaluate

@@ -25,15 +25,20 @@ inline constexpr double kGroundReachM = 15;
 std::vector<char> FoundOn(const SurfaceIndex& result, const TruthPoints& truth, double tolerance_m,
                           int threads);
 
+struct CompareOptions {
+  double tolerance_m = 0.1;  // of completeness
+  int threads = 1;
+};
+
 // A cloud that is read from disk once and never held: all its points count for completeness, every
 // n-th of them, at most two million, for the error. Empty clouds have no error and completeness 0.
 // Throws Error (kBadInput).
 PartFigures CompareCloud(const std::filesystem::path& ply, const Similarity& truth_from_world,
-                         const SceneIndex& scene, const TruthPoints& truth, double tolerance_m,
-                         int threads);
+                         const SceneIndex& scene, const TruthPoints& truth,
+                         const CompareOptions& options);
 
 // A surface in the frame of the truth.
 PartFigures CompareSurface(const SurfaceIndex& result, const SceneIndex& scene,
-                           const TruthPoints& truth, double tolerance_m, int threads);
+                           const TruthPoints& truth, const CompareOptions& options);
 
 }  // namespace stucco::evaluate

@@ -3,6 +3,7 @@
 #include "evaluate/geometry/part_figures.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 
@@ -36,6 +37,7 @@ SurfaceFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
 }  // namespace
 
 double Quantile(std::vector<double> values, double share) {
+  assert(share >= 0 && share <= 1);
   if (values.empty()) return kNotMeasured;
   const double rank = std::ceil(share * static_cast<double>(values.size()));
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
@@ -45,6 +47,7 @@ double Quantile(std::vector<double> values, double share) {
 
 PartFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
                       std::span<const char> found) {
+  assert(truth.seen.size() == truth.points.size() && found.size() == truth.points.size());
   const auto of = [&](const IsPart& is_part) { return FiguresOf(result, truth, found, is_part); };
   const auto of_class = [&](FacetClass facet_class) {
     return of([=](int group) { return group == static_cast<int>(facet_class); });

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
 #include "evaluate/geometry/surface.h"
 
 namespace stucco::evaluate {
@@ -28,11 +28,12 @@ struct ResultPoints {
 };
 
 // Figures of everything and of its parts; `found` says which of the truth's points have the result
-// nearby.
+// nearby. Requires `seen` and `found` by point of the truth.
 PartFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
                       std::span<const char> found);
 
 // The value below or at which a share of the values lies (nearest rank); not measured for none.
+// Requires a share in [0, 1].
 double Quantile(std::vector<double> values, double share);
 
 }  // namespace stucco::evaluate

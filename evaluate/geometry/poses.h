@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
 #include "simulate/flight/flight_folder.h"
 #include "survey/georef.h"
 #include "survey/pose.h"

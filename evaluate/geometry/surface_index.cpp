@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -115,6 +116,10 @@ void SurfaceIndex::State::Build() {
 
 SurfaceIndex::SurfaceIndex(Surface surface) : state_(std::make_unique<State>()) {
   state_->surface = std::move(surface);
+  assert(state_->surface.groups.size() == state_->surface.triangles.size());
+  assert(std::ranges::all_of(state_->surface.triangles, [&](const auto& triangle) {
+    return std::ranges::max(triangle) < state_->surface.vertices.size();
+  }));
   state_->Build();
 }
 SurfaceIndex::~SurfaceIndex() = default;

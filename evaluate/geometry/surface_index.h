@@ -22,6 +22,7 @@ struct NearestPlace {
 // Distances to a surface and lines of sight past it, through Embree's tree. Thread-safe.
 class SurfaceIndex {
  public:
+  // Requires triangles of the surface's vertices, each with a group.
   explicit SurfaceIndex(Surface surface);
   ~SurfaceIndex();
   SurfaceIndex(SurfaceIndex&&) noexcept;

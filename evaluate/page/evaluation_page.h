@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
 
 namespace stucco::evaluate {
 

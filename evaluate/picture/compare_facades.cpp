@@ -6,10 +6,10 @@
 #include <optional>
 #include <set>
 
-#include "evaluate/attempt.h"
+#include "evaluate/figures/attempt.h"
+#include "evaluate/figures/means.h"
 #include "evaluate/geometry/match_facets.h"
 #include "evaluate/geometry/moved.h"
-#include "evaluate/means.h"
 #include "evaluate/picture/compare_textures.h"
 #include "evaluate/picture/facade_picture.h"
 #include "evaluate/picture/lpips.h"

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
 #include "simulate/flight/flight_folder.h"
 #include "simulate/render/renderer.h"
 #include "survey/pose.h"

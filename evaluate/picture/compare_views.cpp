@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "evaluate/attempt.h"
+#include "evaluate/figures/attempt.h"
 #include "evaluate/geometry/surface.h"
 #include "evaluate/picture/compare_textures.h"
 #include "evaluate/picture/lpips.h"

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
 #include "evaluate/picture/internal/planes.h"
 #include "survey/srgb.h"
 

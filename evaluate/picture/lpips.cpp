@@ -9,7 +9,7 @@
 #include <mutex>
 #include <opencv2/dnn.hpp>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
 #include "evaluate/picture/internal/planes.h"
 #include "survey/error.h"
 #include "survey/files.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
 #include "evaluate/picture/flip.h"
 #include "evaluate/picture/lpips.h"
 #include "evaluate/picture/picture_pair.h"

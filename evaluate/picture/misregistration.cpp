@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
 #include "evaluate/picture/internal/planes.h"
 #include "survey/median.h"
 

@@ -10,7 +10,7 @@
 #include <opencv2/quality/qualitygmsd.hpp>
 #include <optional>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
 #include "evaluate/picture/internal/planes.h"
 
 namespace stucco::evaluate {

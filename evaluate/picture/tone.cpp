@@ -3,6 +3,7 @@
 #include "evaluate/picture/tone.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "simulate/flight/sensor.h"
@@ -62,6 +63,7 @@ float LightOfCode(uint8_t code) {
 
 Image Developed(std::span<const float> radiance_rgb, ImageSize size,
                 const std::array<double, 3>& gains) {
+  assert(radiance_rgb.size() == size_t{3} * size.width_px * size.height_px);
   Image image{size.width_px, size.height_px, 3, {}};
   image.data.reserve(radiance_rgb.size());
   for (size_t i = 0; i < radiance_rgb.size(); ++i) {

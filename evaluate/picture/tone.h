@@ -18,7 +18,8 @@ namespace stucco::evaluate {
 uint8_t CodeOfLight(double light);
 float LightOfCode(uint8_t code);  // of the code's middle
 
-// The picture whose light is `gains` times that of `radiance`, by channel.
+// The picture whose light is `gains` times that of `radiance`, by channel. Requires 3 values per
+// pixel.
 Image Developed(std::span<const float> radiance_rgb, ImageSize size,
                 const std::array<double, 3>& gains);
 

@@ -3,6 +3,7 @@
 #include "plan/evaluate/facade_sight.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace stucco::plan {
@@ -52,6 +53,7 @@ double FacadeSight::ScoreOf(int facade, const SeenPart& part) const {
 }
 
 Target BoxAround(const FacadeGrid& grid, int facade, std::span<const uint32_t> cells) {
+  assert(!cells.empty());
   Target out{facade, grid.Along(cells.front()), grid.Heights(cells.front())};
   for (const uint32_t cell : cells) {
     const Interval u = grid.Along(cell);

@@ -14,7 +14,7 @@
 
 namespace stucco::plan {
 
-// The target on a facade that just holds these cells, of which there is at least one.
+// The target on a facade that just holds these cells. Requires at least one.
 Target BoxAround(const FacadeGrid& grid, int facade, std::span<const uint32_t> cells);
 
 // What the photos of hovers see of facades, and what that is worth. In a SeenView, places are

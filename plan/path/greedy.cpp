@@ -4,17 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+
+#include "survey/disjoint_sets.h"
 
 namespace stucco::plan {
 namespace {
 
 using Links = std::vector<std::array<int, 2>>;  // neighbours on the path, -1: none
-
-int Root(std::vector<int>& parent, int k) {
-  while (parent[k] != k) k = parent[k] = parent[parent[k]];
-  return k;
-}
 
 Links GreedyPaths(std::span<const std::vector<TourCandidate>> candidates) {
   struct Edge {
@@ -33,14 +29,10 @@ Links GreedyPaths(std::span<const std::vector<TourCandidate>> candidates) {
     return std::tie(e.cost, e.a, e.b) < std::tie(f.cost, f.a, f.b);
   });
   Links links(candidates.size(), {-1, -1});
-  std::vector<int> parent(candidates.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets paths(candidates.size());
   for (const Edge& edge : edges) {
     if (links[edge.a][1] >= 0 || links[edge.b][1] >= 0) continue;
-    const int root_a = Root(parent, edge.a);
-    const int root_b = Root(parent, edge.b);
-    if (root_a == root_b) continue;
-    parent[root_a] = root_b;
+    if (!paths.Join(edge.a, edge.b)) continue;
     links[edge.a][links[edge.a][0] >= 0 ? 1 : 0] = edge.b;
     links[edge.b][links[edge.b][0] >= 0 ? 1 : 0] = edge.a;
   }

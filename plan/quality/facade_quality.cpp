@@ -3,6 +3,7 @@
 #include "plan/quality/facade_quality.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace stucco::plan {
@@ -21,6 +22,7 @@ double Frontality(const SeenPart& part) {
 }  // namespace
 
 double Closeness(double distance_m, double d_min, double d_max) {
+  assert(d_min < d_max);
   return std::clamp((d_max - distance_m) / (d_max - d_min), 0.0, 1.0);
 }
 
@@ -48,6 +50,7 @@ FacadeQuality QualityOfFacade(std::span<const SeenPart> parts, double union_shar
 }
 
 FacadeQuality QualityOfView(const SeenPart& part, double widest_share, double d_min, double d_max) {
+  assert(widest_share > 0);
   return {.q_s = Frontality(part),
           .q_d = Closeness(part.distance_m, d_min, d_max),
           .q_u = std::min(1.0, part.share / std::min(1.0, widest_share)),

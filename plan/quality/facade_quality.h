@@ -28,7 +28,7 @@ FacadeQuality QualityOfFacade(std::span<const SeenPart> parts, double union_shar
                               double d_max);
 
 // The terms of eq. 2 for a single view. `widest_share` is the share of the facade that a frontal
-// view at this distance could see at most, above 0.
+// view at this distance could see at most. Requires that it is above 0.
 FacadeQuality QualityOfView(const SeenPart& part, double widest_share, double d_min, double d_max);
 
 // Eq. 2: the terms of one view weighted as in the paper.

@@ -197,7 +197,7 @@ PoseErrors ComparePoses(const Scene& actual, const Scene& truth) {
   }
   const Similarity truth_from_actual = AlignPoints(from, to);
   PoseErrors errors;
-  errors.num_posed = static_cast<int>(common.size());
+  errors.num_registered = static_cast<int>(common.size());
   for (const int i : common) {
     const Pose moved = Transformed(*actual.photos[i].pose, truth_from_actual);
     const Pose& expected = *truth.photos[i].pose;

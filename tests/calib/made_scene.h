@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "calib/initial_pair.h"
 #include "calib/scene.h"
-#include "calib/seed.h"
 #include "calib/tracks.h"
 #include "survey/camera.h"
 #include "survey/pose.h"
@@ -69,7 +69,7 @@ std::vector<VerifiedPair> Verified(const Scene& scene, const std::vector<PhotoPa
 void SetTracks(const std::vector<VerifiedPair>& pairs, Scene& scene);
 
 struct PoseErrors {
-  int num_posed = 0;
+  int num_registered = 0;
   double position_m = 0;    // largest, after the best similarity
   double rotation_rad = 0;  // largest
 };

@@ -29,6 +29,7 @@ class Mapper : public testing::Test {
     pairs_ = Verified(scene_, matches);
     SetTracks(pairs_, scene_);
     const MapReport report = Reconstruct({}, pairs_, context_, scene_);
+    unregistered_ = ExplainUnregistered({}, pairs_, scene_);
     RefineAll({}, false, context_, scene_);
     return report;
   }
@@ -36,6 +37,7 @@ class Mapper : public testing::Test {
   StageContext context_;
   Scene scene_;
   std::vector<VerifiedPair> pairs_;
+  std::map<int, std::string> unregistered_;
 };
 
 void ExpectConsistent(const Scene& scene) {
@@ -58,9 +60,9 @@ void ExpectConsistent(const Scene& scene) {
 TEST_F(Mapper, PlacesEveryPhoto) {
   const Scene truth = MakeScene({.num_photos = 10, .num_points = 350, .noise_px = 0.5});
   const MapReport report = Run(truth, MatchesOf(truth, 0.15, 1));
-  EXPECT_EQ(report.num_posed, 10);
-  EXPECT_TRUE(report.unposed.empty());
-  EXPECT_GE(report.num_seeds_tried, 1);
+  EXPECT_EQ(report.num_registered, 10);
+  EXPECT_TRUE(unregistered_.empty());
+  EXPECT_GE(report.num_initial_pairs_tried, 1);
   const PoseErrors errors = ComparePoses(scene_, truth);
   EXPECT_LT(errors.position_m, 0.05);  // 20 m away, half a pixel is 1 cm
   EXPECT_LT(errors.rotation_rad, 0.003);
@@ -71,7 +73,7 @@ TEST_F(Mapper, PlacesEveryPhoto) {
 TEST_F(Mapper, IsNearlyExactOnCleanMatches) {
   const Scene truth = MakeScene({.num_photos = 6, .num_points = 200});
   const MapReport report = Run(truth, MatchesOf(truth, 0, 1));
-  EXPECT_EQ(report.num_posed, 6);
+  EXPECT_EQ(report.num_registered, 6);
   EXPECT_LT(ComparePoses(scene_, truth).position_m, 2e-3);
 }
 
@@ -92,13 +94,13 @@ TEST_F(Mapper, KeepsTheLargerOfTwoGroups) {
   auto matches = MatchesOf(truth, 0, 1);
   std::erase_if(matches, [](const PhotoPair& p) { return (p.first < 3) != (p.second < 3); });
   const MapReport report = Run(truth, matches);
-  EXPECT_EQ(report.num_posed, 6);
-  EXPECT_EQ(report.unposed.size(), 3u);
+  EXPECT_EQ(report.num_registered, 6);
+  EXPECT_EQ(unregistered_.size(), 3u);
   for (int i = 0; i < 9; ++i) {
     EXPECT_EQ(scene_.photos[i].pose.has_value(), i >= 3);
-    EXPECT_EQ(report.unposed.contains(i), i < 3);
+    EXPECT_EQ(unregistered_.contains(i), i < 3);
   }
-  EXPECT_NE(report.unposed.at(0).find("only 0 of its keypoints"), std::string::npos);
+  EXPECT_NE(unregistered_.at(0).find("only 0 of its keypoints"), std::string::npos);
   EXPECT_LT(ComparePoses(scene_, truth).position_m, 0.05);
   ExpectConsistent(scene_);
 }
@@ -114,9 +116,9 @@ TEST_F(Mapper, FindsTheLargerGroupBehindManyMatches) {
     if (!in_first(pair.first)) pair.matches.resize(std::min<size_t>(pair.matches.size(), 90));
   }
   const MapReport report = Run(truth, matches);
-  EXPECT_EQ(report.num_posed, 12);
-  EXPECT_EQ(report.unposed.size(), 10u);
-  EXPECT_LE(report.num_seeds_tried, 2);
+  EXPECT_EQ(report.num_registered, 12);
+  EXPECT_EQ(unregistered_.size(), 10u);
+  EXPECT_LE(report.num_initial_pairs_tried, 2);
 }
 
 // A photo whose keypoints agree on a pose loosely, so that it is placed and dropped again, must not
@@ -128,7 +130,7 @@ TEST_F(Mapper, EndsWithPhotosThatFitLoosely) {
     pixel += Eigen::Vector2d(random.Gauss(5), random.Gauss(5));
   }
   const MapReport report = Run(truth, MatchesOf(truth, 0, 1));
-  EXPECT_GE(report.num_posed, 7);
+  EXPECT_GE(report.num_registered, 7);
   ExpectConsistent(scene_);
 }
 
@@ -137,30 +139,30 @@ TEST_F(Mapper, SaysWhichPhotosOverlapWithNothing) {
   auto matches = MatchesOf(truth, 0, 1);
   std::erase_if(matches, [](const PhotoPair& p) { return p.first == 4 || p.second == 4; });
   const MapReport report = Run(truth, matches);
-  EXPECT_EQ(report.num_posed, 5);
-  ASSERT_TRUE(report.unposed.contains(4));
-  EXPECT_NE(report.unposed.at(4).find("overlaps with no other photo"), std::string::npos);
+  EXPECT_EQ(report.num_registered, 5);
+  ASSERT_TRUE(unregistered_.contains(4));
+  EXPECT_NE(unregistered_.at(4).find("overlaps with no other photo"), std::string::npos);
 }
 
 TEST_F(Mapper, PlacesNothingWhenNothingMatches) {
   const Scene truth = MakeScene({.num_photos = 4, .num_points = 100});
   const MapReport report = Run(truth, {});
-  EXPECT_EQ(report.num_posed, 0);
-  EXPECT_EQ(report.unposed.size(), 4u);
-  EXPECT_EQ(report.num_seeds_tried, 0);
+  EXPECT_EQ(report.num_registered, 0);
+  EXPECT_EQ(unregistered_.size(), 4u);
+  EXPECT_EQ(report.num_initial_pairs_tried, 0);
 }
 
 TEST_F(Mapper, InventsNoDepthFromOnePlace) {
   const Scene truth = MakeScene({.num_photos = 6, .arc_rad = 0, .noise_px = 0.5});
   const MapReport report = Run(truth, MatchesOf(truth, 0, 1));
-  EXPECT_EQ(report.num_posed, 0);
-  ASSERT_EQ(report.unposed.size(), 6u);
-  EXPECT_NE(report.unposed.at(2).find("rotation only"), std::string::npos);
+  EXPECT_EQ(report.num_registered, 0);
+  ASSERT_EQ(unregistered_.size(), 6u);
+  EXPECT_NE(unregistered_.at(2).find("rotation only"), std::string::npos);
 }
 
 TEST_F(Mapper, WorksWithTwoPhotos) {
   const Scene truth = MakeScene({.num_photos = 2, .arc_rad = 0.4, .noise_px = 0.3});
-  EXPECT_EQ(Run(truth, MatchesOf(truth, 0, 1)).num_posed, 2);
+  EXPECT_EQ(Run(truth, MatchesOf(truth, 0, 1)).num_registered, 2);
   ExpectConsistent(scene_);
 }
 
@@ -198,20 +200,20 @@ TEST_F(Mapper, StopsWhenAsked) {
 
 TEST(FilterScene, DropsWhatDoesNotFit) {
   Scene scene = MakeScene({.num_photos = 5, .num_points = 120, .seen_share = 1});
-  EXPECT_EQ(FilterScene({}, 4, scene), 0);
+  EXPECT_EQ(FilterScene({}, scene), 0);
   const auto track = std::find_if(scene.tracks.begin(), scene.tracks.end(),
                                   [](const SceneTrack& t) { return t.elements.size() == 5; });
   ASSERT_NE(track, scene.tracks.end());
   const SceneElement& e = track->elements[2];
   scene.photos[e.photo].keypoints[e.keypoint].x() += 9;
-  EXPECT_EQ(FilterScene({}, 4, scene), 1);
+  EXPECT_EQ(FilterScene({}, scene), 1);
   EXPECT_FALSE(track->elements[2].used);
   EXPECT_TRUE(track->position);
   // All but one gone: the point goes too.
   for (const int i : {0, 1, 3}) {
     scene.photos[track->elements[i].photo].keypoints[track->elements[i].keypoint].y() -= 50;
   }
-  EXPECT_EQ(FilterScene({}, 4, scene), 4);
+  EXPECT_EQ(FilterScene({}, scene), 4);
   EXPECT_FALSE(track->position);
 }
 
@@ -220,9 +222,9 @@ TEST(FilterScene, MeasuresInStandardDeviations) {
   SceneElement& element = scene.tracks[0].elements[0];
   scene.photos[element.photo].keypoints[element.keypoint].x() += 9;
   scene.photos[element.photo].keypoint_sigma_px = 3;
-  EXPECT_EQ(FilterScene({}, 4, scene), 0);
+  EXPECT_EQ(FilterScene({}, scene), 0);
   scene.photos[element.photo].keypoint_sigma_px = 2;
-  EXPECT_EQ(FilterScene({}, 4, scene), 1);
+  EXPECT_EQ(FilterScene({}, scene), 1);
 }
 
 TEST(FilterScene, DropsPosesThatLittleHolds) {
@@ -230,15 +232,15 @@ TEST(FilterScene, DropsPosesThatLittleHolds) {
   for (size_t k = 12; k < scene.photos[2].keypoints.size(); ++k) {
     scene.photos[2].keypoints[k].x() += 30;
   }
-  FilterScene({}, 4, scene);
+  FilterScene({}, scene);
   EXPECT_FALSE(scene.photos[2].pose);
-  EXPECT_EQ(NumPosed(scene), 4);
+  EXPECT_EQ(NumRegistered(scene), 4);
   ExpectConsistent(scene);
 }
 
 TEST(FilterScene, DropsPointsUnderSmallAngles) {
   Scene scene = MakeScene({.num_photos = 4, .num_points = 60});
-  FilterScene({.min_angle_rad = 3}, 4, scene);
+  FilterScene({.min_angle_rad = 3}, scene);
   for (const SceneTrack& track : scene.tracks) EXPECT_FALSE(track.position);
 }
 

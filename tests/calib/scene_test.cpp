@@ -28,7 +28,7 @@ TEST(Scene, MeasuresReprojectionErrors) {
 
 TEST(Scene, CountsPosesAndObservations) {
   Scene scene = MakeScene({.num_photos = 4, .num_points = 40});
-  EXPECT_EQ(NumPosed(scene), 4);
+  EXPECT_EQ(NumRegistered(scene), 4);
   const int all = static_cast<int>(scene.photos[1].keypoints.size());
   EXPECT_EQ(NumUsedObservations(scene, 1), all);
   const int track = scene.tracks_of_photo[1][0];
@@ -39,7 +39,7 @@ TEST(Scene, CountsPosesAndObservations) {
   scene.tracks_of_photo[1][2] = -1;
   EXPECT_EQ(NumUsedObservations(scene, 1), all - 3);
   scene.photos[0].pose.reset();
-  EXPECT_EQ(NumPosed(scene), 3);
+  EXPECT_EQ(NumRegistered(scene), 3);
 }
 
 TEST(Scene, FindsTheLargestAngleOfUsedRays) {
@@ -60,6 +60,32 @@ TEST(Scene, FindsTheLargestAngleOfUsedRays) {
   EXPECT_NEAR(LargestRayAngle(scene, track), 0.1, 1e-9);
   track.elements[1].used = false;
   EXPECT_NEAR(LargestRayAngle(scene, track), 0, 1e-9);
+}
+
+TEST(Scene, IsConsistentWhenAllIndicesLeadSomewhere) {
+  const Scene good = MakeScene({.num_photos = 3, .num_points = 40});
+  EXPECT_TRUE(IsConsistent(good));
+  EXPECT_TRUE(IsConsistent({}));
+  Scene bad = good;
+  bad.photos[1].camera = 1;
+  EXPECT_FALSE(IsConsistent(bad));
+  bad = good;
+  bad.tracks[0].elements[0].photo = 3;
+  EXPECT_FALSE(IsConsistent(bad));
+  bad = good;
+  bad.tracks[0].elements[0].keypoint = -1;
+  EXPECT_FALSE(IsConsistent(bad));
+  bad = good;
+  bad.tracks[0].elements.push_back(bad.tracks[0].elements[0]);
+  EXPECT_FALSE(IsConsistent(bad));
+  bad = good;
+  bad.tracks_of_photo[2][0] = static_cast<int>(bad.tracks.size());
+  EXPECT_FALSE(IsConsistent(bad));
+  bad = good;
+  bad.photos[2].keypoints.emplace_back(1, 1);  // not in tracks_of_photo
+  EXPECT_FALSE(IsConsistent(bad));
+  bad.tracks_of_photo.clear();  // not filled
+  EXPECT_TRUE(IsConsistent(bad));
 }
 
 }  // namespace

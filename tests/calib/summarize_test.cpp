@@ -15,12 +15,12 @@ struct Case {
   Captures captures;
   std::vector<int> capture_of_photo;
   Scene scene;
-  MapReport map;
+  std::map<int, std::string> unregistered;
   PriorResiduals priors;
   std::vector<int> outliers;
 
   Calibration Summary() const {
-    return Summarize({captures, capture_of_photo, scene, map, priors, outliers});
+    return Summarize({captures, capture_of_photo, scene, unregistered, priors, outliers});
   }
 };
 
@@ -46,8 +46,7 @@ Case MakeCase() {
     if (photo.usable) c.capture_of_photo.push_back(i);
     c.captures.photos.push_back(photo);
   }
-  c.map.num_posed = 3;
-  c.map.unposed[3] = "it overlaps with no other photo";
+  c.unregistered[3] = "it overlaps with no other photo";
   c.priors.distance_m = {0.5, 1.5, 30, -1};
   c.priors.rms_horizontal_m = 0.8;
   c.priors.rms_vertical_m = 0.9;
@@ -171,7 +170,7 @@ TEST(Summarize, NamesWhatThePhotosDoNotDetermine) {
                        .arc_rad = 0.1,
                        .noise_px = 0.2});
   c.capture_of_photo = {0, 2};
-  c.map = {};
+  c.unregistered = {};
   c.priors.distance_m = {-1, -1};
   c.outliers = {};
   const auto held = c.Summary().cameras.at(0).held;

@@ -110,5 +110,9 @@ TEST(IndexTracks, FindsTheTrackOfEveryKeypoint) {
   EXPECT_LE(without, scene.photos.size());
 }
 
+TEST(BuildTracksDeathTest, RequiresKeypointsThatThereAre) {
+  EXPECT_DEATH(BuildTracks({2, 2}, {{0, 1, {{2, 0}}}}), "keypoint");
+}
+
 }  // namespace
 }  // namespace stucco::test

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "calib/descriptors.h"
+#include "calib/matches.h"
 #include "tests/calib/expect/made_site.h"
 #include "tests/calib/made_scene.h"
 

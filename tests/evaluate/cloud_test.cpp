@@ -42,7 +42,7 @@ class Clouds : public ::testing::Test {
     for (Vector3d& position : cloud.positions) position = frame.Inverse() * position;
     const auto path = std::filesystem::path(::testing::TempDir()) / "evaluate_cloud.ply";
     WritePly(cloud, path);
-    return CompareCloud(path, frame, scene_, truth_, tolerance_m, 2);
+    return CompareCloud(path, frame, scene_, truth_, {tolerance_m, 2});
   }
 
   SurfaceIndex houses_{BuildingSurface(MadeTruth())};
@@ -146,16 +146,16 @@ TEST_F(Clouds, AnEmptyCloudHasNoErrorAndNothing) {
 }
 
 TEST_F(Clouds, ADamagedFileIsAnError) {
-  EXPECT_THROW(CompareCloud("/nowhere/cloud.ply", {}, scene_, truth_, 0.1, 1), Error);
+  EXPECT_THROW(CompareCloud("/nowhere/cloud.ply", {}, scene_, truth_, {0.1, 1}), Error);
 }
 
 TEST_F(Clouds, ASurfaceIsMeasuredTheSameWay) {
-  SurfaceFigures figures = CompareSurface(houses_, scene_, truth_, 0.1, 2).all;
+  SurfaceFigures figures = CompareSurface(houses_, scene_, truth_, {0.1, 2}).all;
   EXPECT_NEAR(figures.error95_m, 0, 1e-12);
   EXPECT_EQ(figures.completeness, 1);
   Surface lifted = houses_.surface();
   for (Vector3d& vertex : lifted.vertices) vertex.z() += 0.3;
-  figures = CompareSurface(SurfaceIndex(lifted), scene_, truth_, 0.1, 2).all;
+  figures = CompareSurface(SurfaceIndex(lifted), scene_, truth_, {0.1, 2}).all;
   EXPECT_NEAR(figures.error95_m, 0.3, 1e-9);  // the roofs; walls slide in themselves
   // Walls but for their lowest 0.2 m, no roof but a rim of 0.1 m, which the walls now cross.
   const double rims = (80 - 9.8 * 7.8) + (64 - 7.8 * 7.8);

@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/quality/qualityssim.hpp>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
 #include "survey/error.h"
 #include "tests/evaluate/made_pictures.h"
 

@@ -138,11 +138,27 @@ TEST(Camera, ResizedKeepsTheModelWhenAxesScaleAlike) {
   EXPECT_EQ(Resized(AllModels()[3], 800, 601).model, CameraModel::kOpenCv);
 }
 
-TEST(Camera, WithoutDistortionKeepsFocalLengthsAndCentre) {
-  const Camera pinhole = WithoutDistortion(AllModels()[2]);
-  EXPECT_EQ(pinhole.model, CameraModel::kPinhole);
-  EXPECT_EQ(pinhole.params, (std::vector<double>{1000, 1000, 800, 600}));
-  EXPECT_EQ(pinhole.width_px, 1600);
+TEST(Camera, SaysWhatEachParameterIs) {
+  for (const Camera& camera : AllModels()) {
+    const auto names = ParameterNames(camera.model);
+    const auto kinds = ParameterKinds(camera.model);
+    ASSERT_EQ(kinds.size(), names.size()) << Name(camera.model);
+    for (size_t i = 0; i < names.size(); ++i) {
+      const bool is_late = names[i].size() == 2 && names[i][1] >= '3';  // k3 ... k6
+      const ParameterKind expected = names[i].starts_with("f")   ? ParameterKind::kFocalLength
+                                     : names[i].starts_with("c") ? ParameterKind::kPrincipalPoint
+                                     : names[i].starts_with("p") ? ParameterKind::kTangential
+                                     : is_late                   ? ParameterKind::kRational
+                                                                 : ParameterKind::kRadial;
+      EXPECT_EQ(kinds[i], expected) << Name(camera.model) << " " << names[i];
+    }
+  }
+}
+
+TEST(CameraDeathTest, RequiresTheParametersOfItsModel) {
+  Camera camera = AllModels()[4];
+  camera.params.pop_back();
+  EXPECT_DEATH(camera.Distort({0.1, 0.2}), "p.size\\(\\) == 8");
 }
 
 TEST(Camera, FindsProblems) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "survey/files.h"
+#include "survey/image.h"
 #include "tests/survey/support.h"
 
 namespace stucco {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace stucco {
@@ -22,6 +23,22 @@ TEST(Intervals, GapsAreTheRestOfTheWindow) {
 
 TEST(Intervals, TouchingIntervalsHaveNothingInCommon) {
   EXPECT_FALSE(Intersection(Interval{0, 1}, Interval{1, 2}).has_value());
+}
+
+TEST(Intervals, AreASetWhenTheyAreDisjointAscendingAndNotEmpty) {
+  EXPECT_TRUE(IsSet(Intervals{}));
+  EXPECT_TRUE(IsSet(Intervals{{1, 2}, {2, 3}, {5, 6}}));
+  EXPECT_FALSE(IsSet(Intervals{{1, 3}, {2, 4}}));
+  EXPECT_FALSE(IsSet(Intervals{{5, 6}, {1, 2}}));
+  EXPECT_FALSE(IsSet(Intervals{{1, 1}}));
+  EXPECT_FALSE(IsSet(Intervals{{0, std::nan("")}}));
+}
+
+TEST(IntervalsDeathTest, RequireSets) {
+  const Intervals crossing{{1, 3}, {2, 4}};
+  EXPECT_DEATH(Gaps(crossing, {0, 10}), "IsSet");
+  EXPECT_DEATH(Intersection(Intervals{{0, 9}}, crossing), "IsSet");
+  EXPECT_DEATH(Length(crossing), "IsSet");
 }
 
 // Against membership of random points.

@@ -165,5 +165,12 @@ TEST(EditDistance, CountsSlips) {
   EXPECT_EQ(EditDistance("flaw", "lawn"), 2);
 }
 
+TEST(OptionsDeathTest, RequireNamesOfTheirOwn) {
+  OptionTable table("calib");
+  bool value = false;
+  table.Add("fast", value, "Fast.");
+  EXPECT_DEATH(table.Add("fast", value, "Fast, too."), "Find");
+}
+
 }  // namespace
 }  // namespace stucco

@@ -130,5 +130,10 @@ TEST(ParallelInOrder, RethrowsAndCallsNothingThatWaitsForTheFailed) {
   }
 }
 
+TEST(ParallelInOrderDeathTest, RequiresOrder) {
+  const std::vector<std::vector<size_t>> before = {{1}, {}};
+  EXPECT_DEATH(ParallelInOrder(before, 1, [](size_t) {}), "WaitsForEarlierOnes");
+}
+
 }  // namespace
 }  // namespace stucco

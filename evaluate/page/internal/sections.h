@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
 
 namespace stucco::evaluate::internal {
 

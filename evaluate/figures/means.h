@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
 
 namespace stucco::evaluate {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/seed.h"
+#include "calib/initial_pair.h"
 
 #include <gtest/gtest.h>
 
@@ -80,25 +80,25 @@ TEST(RotationGroups, PosesAtDifferentPlacesSpeakAgainstARotation) {
   EXPECT_EQ(RotationGroups(Blank(truth), pairs), all);
 }
 
-TEST(FindSeeds, PrefersManyMatchesUnderAGoodAngle) {
+TEST(FindInitialPairs, PrefersManyMatchesUnderAGoodAngle) {
   const Scene scene = MakeScene({.num_photos = 6, .arc_rad = 1.0, .noise_px = 0.3});
-  const auto seeds = FindSeeds(scene, Verified(scene, MatchesOf(scene, 0.1, 1)), 4, 4);
-  ASSERT_EQ(seeds.size(), 4u);
-  for (const Seed& seed : seeds) {
-    EXPECT_LT(seed.first, seed.second);
-    EXPECT_GT(seed.relative.median_angle_rad, 0.1);
+  const auto found = FindInitialPairs(scene, Verified(scene, MatchesOf(scene, 0.1, 1)), 4, 4);
+  ASSERT_EQ(found.size(), 4u);
+  for (const InitialPair& pair : found) {
+    EXPECT_LT(pair.first, pair.second);
+    EXPECT_GT(pair.relative.median_angle_rad, 0.1);
     const Pose expected =
-        *scene.photos[seed.second].pose * scene.photos[seed.first].pose->Inverse();
-    EXPECT_LT(seed.relative.second_from_first.rotation.angularDistance(expected.rotation), 0.02);
-    EXPECT_GT(seed.relative.second_from_first.translation.dot(expected.translation.normalized()),
+        *scene.photos[pair.second].pose * scene.photos[pair.first].pose->Inverse();
+    EXPECT_LT(pair.relative.second_from_first.rotation.angularDistance(expected.rotation), 0.02);
+    EXPECT_GT(pair.relative.second_from_first.translation.dot(expected.translation.normalized()),
               0.99);
   }
 }
 
-TEST(FindSeeds, TakesNoRotations) {
+TEST(FindInitialPairs, TakesNoRotations) {
   const Scene scene = Panorama(0.3);
-  EXPECT_TRUE(FindSeeds(scene, Verified(scene, MatchesOf(scene, 0, 1)), 4, 8).empty());
-  EXPECT_TRUE(FindSeeds(scene, {}, 4, 8).empty());
+  EXPECT_TRUE(FindInitialPairs(scene, Verified(scene, MatchesOf(scene, 0, 1)), 4, 8).empty());
+  EXPECT_TRUE(FindInitialPairs(scene, {}, 4, 8).empty());
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/seed.h"
+#include "calib/initial_pair.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "calib/groups.h"
+#include "survey/disjoint_sets.h"
 #include "survey/median.h"
 
 namespace stucco {
@@ -18,7 +18,8 @@ constexpr double kGoodAngle = 12 * M_PI / 180;
 constexpr double kLeastAngle = 2 * M_PI / 180;
 constexpr double kClearParallax = 0.5 * M_PI / 180;
 constexpr int kLeastInliers = 30;
-// Pairs with most matches that are tried first, and pairs tried when these give too few seeds.
+// Pairs with most matches that are tried first, and pairs tried when these give too few initial
+// ones.
 constexpr size_t kBestPairs = 40;
 constexpr size_t kOtherPairs = 200;
 
@@ -28,7 +29,7 @@ struct RayPairs {
   double max_error = 0;  // in units of the rays
 };
 
-RayPairs RaysOf(const Scene& scene, const PhotoPair& pair, double max_misfit) {
+RayPairs RaysOf(const Scene& scene, const PhotoPair& pair, double max_error_sigmas) {
   RayPairs rays;
   const Camera& camera_a = scene.CameraOf(pair.first);
   const Camera& camera_b = scene.CameraOf(pair.second);
@@ -41,7 +42,7 @@ RayPairs RaysOf(const Scene& scene, const PhotoPair& pair, double max_misfit) {
   }
   const double sigma_a = scene.photos[pair.first].keypoint_sigma_px / camera_a.FocalX();
   const double sigma_b = scene.photos[pair.second].keypoint_sigma_px / camera_b.FocalX();
-  rays.max_error = max_misfit * (sigma_a + sigma_b) / 2;
+  rays.max_error = max_error_sigmas * (sigma_a + sigma_b) / 2;
   return rays;
 }
 
@@ -61,24 +62,24 @@ bool HasParallax(const Scene& scene, const PhotoPair& pair) {
   return angles.size() >= kLeastInliers && *Median(std::move(angles)) > kClearParallax;
 }
 
-struct ScoredSeed {
+struct ScoredPair {
   double score = 0;
-  Seed seed;
+  InitialPair pair;
 };
 
-std::optional<ScoredSeed> Score(const Scene& scene, const VerifiedPair& candidate,
-                                double max_misfit) {
-  const RayPairs rays = RaysOf(scene, candidate.pair, max_misfit);
+std::optional<ScoredPair> Score(const Scene& scene, const VerifiedPair& candidate,
+                                double max_error_sigmas) {
+  const RayPairs rays = RaysOf(scene, candidate.pair, max_error_sigmas);
   const auto relative = EstimateRelativePose(rays.first, rays.second, rays.max_error);
   if (!relative || relative->num_inliers < kLeastInliers) return std::nullopt;
   if (relative->median_angle_rad < kLeastAngle) return std::nullopt;
   const double angle = std::min(1.0, relative->median_angle_rad / kGoodAngle);
-  return ScoredSeed{relative->num_inliers * angle,
+  return ScoredPair{relative->num_inliers * angle,
                     {candidate.pair.first, candidate.pair.second, *relative}};
 }
 
 // Pairs that may start a reconstruction, those with most matches first.
-std::vector<const VerifiedPair*> SeedCandidates(const std::vector<VerifiedPair>& pairs) {
+std::vector<const VerifiedPair*> InitialCandidates(const std::vector<VerifiedPair>& pairs) {
   std::vector<const VerifiedPair*> candidates;
   for (const VerifiedPair& pair : pairs) {
     if (!pair.rotation_only && pair.pair.matches.size() >= kLeastInliers)
@@ -96,13 +97,13 @@ std::vector<const VerifiedPair*> SeedCandidates(const std::vector<VerifiedPair>&
 
 }  // namespace
 
-void ClassifyMotion(const Scene& scene, double max_misfit, VerifiedPair& pair) {
+void ClassifyMotion(const Scene& scene, double max_error_sigmas, VerifiedPair& pair) {
   pair.rotation_only = false;
   // A rotation is a homography: without one that most matches agree with there is nothing to look
   // for.
   const int count = static_cast<int>(pair.pair.matches.size());
   if (pair.geometry.num_homography < 0.6 * count) return;
-  const RayPairs rays = RaysOf(scene, pair.pair, max_misfit);
+  const RayPairs rays = RaysOf(scene, pair.pair, max_error_sigmas);
   // Twice the tolerance: the focal length may still be a guess, which bends a rotation by some
   // pixels.
   const int by_rotation = CountRotationInliers(rays.first, rays.second, 2 * rays.max_error,
@@ -113,23 +114,24 @@ void ClassifyMotion(const Scene& scene, double max_misfit, VerifiedPair& pair) {
 std::vector<std::vector<int>> RotationGroups(const Scene& scene,
                                              const std::vector<VerifiedPair>& pairs) {
   const int num_photos = static_cast<int>(scene.photos.size());
-  Groups groups(scene.photos.size());
+  DisjointSets groups(scene.photos.size());
   for (const VerifiedPair& pair : pairs) {
     if (!pair.rotation_only || HasParallax(scene, pair.pair)) continue;
     groups.Join(pair.pair.first, pair.pair.second);
   }
   std::vector<std::vector<int>> members(num_photos);
-  for (int photo = 0; photo < num_photos; ++photo) members[groups.Of(photo)].push_back(photo);
+  for (int photo = 0; photo < num_photos; ++photo) members[groups.Find(photo)].push_back(photo);
   std::erase_if(members, [](const std::vector<int>& m) { return m.size() < 3; });
   return members;
 }
 
-std::vector<Seed> FindSeeds(const Scene& scene, const std::vector<VerifiedPair>& pairs,
-                            double max_misfit, int max_seeds) {
-  const std::vector<const VerifiedPair*> candidates = SeedCandidates(pairs);
-  std::vector<ScoredSeed> scored;
+std::vector<InitialPair> FindInitialPairs(const Scene& scene,
+                                          const std::vector<VerifiedPair>& pairs,
+                                          double max_error_sigmas, int max_initial_pairs) {
+  const std::vector<const VerifiedPair*> candidates = InitialCandidates(pairs);
+  std::vector<ScoredPair> scored;
   const auto try_candidate = [&](const VerifiedPair& candidate) {
-    if (auto seed = Score(scene, candidate, max_misfit)) scored.push_back(*seed);
+    if (auto pair = Score(scene, candidate, max_error_sigmas)) scored.push_back(*pair);
   };
   const size_t num_best = std::min(candidates.size(), kBestPairs);
   for (size_t i = 0; i < num_best; ++i) try_candidate(*candidates[i]);
@@ -137,16 +139,16 @@ std::vector<Seed> FindSeeds(const Scene& scene, const std::vector<VerifiedPair>&
   // down, evenly.
   const size_t step = (candidates.size() - num_best) / kOtherPairs + 1;
   for (size_t i = num_best; i < candidates.size(); i += step) {
-    if (static_cast<int>(scored.size()) >= max_seeds) break;
+    if (static_cast<int>(scored.size()) >= max_initial_pairs) break;
     try_candidate(*candidates[i]);
   }
   std::stable_sort(scored.begin(), scored.end(),
                    [](const auto& a, const auto& b) { return a.score > b.score; });
-  std::vector<Seed> seeds;
-  for (const ScoredSeed& each : scored) {
-    if (static_cast<int>(seeds.size()) < max_seeds) seeds.push_back(each.seed);
+  std::vector<InitialPair> best;
+  for (const ScoredPair& each : scored) {
+    if (static_cast<int>(best.size()) < max_initial_pairs) best.push_back(each.pair);
   }
-  return seeds;
+  return best;
 }
 
 }  // namespace stucco

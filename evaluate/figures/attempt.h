@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/figures/evaluation.h"
 
 namespace stucco::evaluate {
 

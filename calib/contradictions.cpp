@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/expect/contradictions.h"
+#include "calib/contradictions.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <optional>
 
-#include "calib/groups.h"
+#include "survey/disjoint_sets.h"
 
 namespace stucco {
 namespace {
@@ -109,7 +110,7 @@ std::vector<bool> Believed(const std::vector<VerifiedPair>& pairs,
 // Keeps of the pairs to drop those between groups of photos that nothing else ties together: two
 // flights whose records do not fit each other are still one survey.
 void KeepTies(const std::vector<VerifiedPair>& pairs, size_t num_photos, std::vector<bool>& drop) {
-  Groups groups(num_photos);
+  DisjointSets groups(num_photos);
   std::vector<size_t> dropped;
   for (size_t i = 0; i < pairs.size(); ++i) {
     if (pairs[i].pair.matches.size() < kSureMatches) continue;
@@ -120,10 +121,10 @@ void KeepTies(const std::vector<VerifiedPair>& pairs, size_t num_photos, std::ve
     }
   }
   std::vector<int> size(num_photos, 0);
-  for (size_t i = 0; i < num_photos; ++i) ++size[groups.Of(static_cast<int>(i))];
+  for (size_t i = 0; i < num_photos; ++i) ++size[groups.Find(static_cast<int>(i))];
   for (const size_t i : dropped) {
-    const int a = groups.Of(pairs[i].pair.first);
-    const int b = groups.Of(pairs[i].pair.second);
+    const int a = groups.Find(pairs[i].pair.first);
+    const int b = groups.Find(pairs[i].pair.second);
     drop[i] = a == b || std::min(size[a], size[b]) < kLeastGroup;
   }
 }
@@ -132,6 +133,7 @@ void KeepTies(const std::vector<VerifiedPair>& pairs, size_t num_photos, std::ve
 
 int DropContradictions(const ExpectedViews& views, const Scene& scene,
                        std::vector<VerifiedPair>& pairs) {
+  assert(views.poses.size() == scene.photos.size());
   std::vector<Verdict> verdicts;
   for (const VerifiedPair& pair : pairs) verdicts.push_back(JudgePair(views, scene, pair.pair));
   const std::vector<bool> believed = Believed(pairs, verdicts, scene.photos.size());

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "calib/expect/expected_views.h"
+#include "calib/initial_pair.h"
 #include "calib/scene.h"
-#include "calib/seed.h"
 
 namespace stucco {
 
@@ -15,8 +15,8 @@ namespace stucco {
 // shows is looked up on the site and looked for in the other, within what positions and gimbal
 // angles are good to. A photo that more pairs speak against than for is believed more than its
 // record: its pairs stay. So do pairs between groups of five photos and more that no other pairs
-// tie together. Uses keypoints and cameras of the scene; cameras with a guessed focal length say
-// nothing. Returns the number of pairs taken out.
+// tie together. Uses keypoints and cameras of the scene, whose photos are those of the
+// views; cameras with a guessed focal length say nothing. Returns the number of pairs taken out.
 int DropContradictions(const ExpectedViews& views, const Scene& scene,
                        std::vector<VerifiedPair>& pairs);
 

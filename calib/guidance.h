@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "calib/calibrate.h"
 #include "calib/expect/expected_views.h"
+#include "calib/options.h"
 #include "calib/wall_features.h"
 #include "survey/captures.h"
 #include "survey/stage.h"

@@ -20,26 +20,27 @@ struct VerifiedPair {
   bool rotation_only = false;
 };
 
-// Sets `rotation_only`, with the cameras as the scene has them. Matches count within `max_misfit`
-// standard deviations of the keypoints.
-void ClassifyMotion(const Scene& scene, double max_misfit, VerifiedPair& pair);
+// Sets `rotation_only`, with the cameras as the scene has them. Matches count within
+// `max_error_sigmas` standard deviations of the keypoints.
+void ClassifyMotion(const Scene& scene, double max_error_sigmas, VerifiedPair& pair);
 
 // Groups of at least three photos tied together by rotation-only pairs: panoramas from one point.
-// Pairs whose photos the scene has posed at clearly different places (more than half a degree apart
-// as seen from what both show) do not count: over a distant or flat scene a small step looks like a
-// rotation. Each group ascending, groups by their first photo.
+// Pairs whose photos the scene has registered at clearly different places (more than half a degree
+// apart as seen from what both show) do not count: over a distant or flat scene a small step looks
+// like a rotation. Each group ascending, groups by their first photo.
 std::vector<std::vector<int>> RotationGroups(const Scene& scene,
                                              const std::vector<VerifiedPair>& pairs);
 
-struct Seed {
+struct InitialPair {
   int first = 0;
   int second = 0;
   RelativePose relative;
 };
 
 // Pairs to start from, best first: many matches under a good angle that no rotation explains.
-// At most `max_seeds`.
-std::vector<Seed> FindSeeds(const Scene& scene, const std::vector<VerifiedPair>& pairs,
-                            double max_misfit, int max_seeds);
+// At most `max_initial_pairs`.
+std::vector<InitialPair> FindInitialPairs(const Scene& scene,
+                                          const std::vector<VerifiedPair>& pairs,
+                                          double max_error_sigmas, int max_initial_pairs);
 
 }  // namespace stucco
