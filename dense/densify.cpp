@@ -11,17 +11,18 @@
 #include <opencv2/core/utility.hpp>
 #include <vector>
 
-#include "dense/cache.h"
-#include "dense/depth_map.h"
 #include "dense/fuse.h"
 #include "dense/outliers.h"
 #include "dense/patch_match.h"
 #include "dense/sources.h"
+#include "dense/speckles.h"
 #include "dense/view.h"
 #include "survey/captures.h"
 #include "survey/colmap_io.h"
+#include "survey/depth_map.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/lru_cache.h"
 #include "survey/parallel.h"
 #include "survey/survey_folder.h"
 
@@ -99,7 +100,7 @@ class Densifier {
            PinholeLevels(*photo.camera, photo.posed->cam_from_world, options_.max_image_px, 1)[0],
            photo.sources});
     }
-    LruCache<DepthMap> maps(
+    LruCache<int, DepthMap> maps(
         context_.memory_limit_bytes / 4, [this](int i) { return LoadFinalMap(i); }, MapBytes);
     FuseOptions fuse;
     fuse.min_consistent = options_.min_consistent;
@@ -255,8 +256,8 @@ class Densifier {
   Reconstruction reconstruction_;
   std::map<PhotoId, SourceChoice> choices_;
   std::vector<Photo> photos_;
-  LruCache<ViewPyramid> views_;
-  LruCache<DepthMap> maps_;
+  LruCache<int, ViewPyramid> views_;
+  LruCache<int, DepthMap> maps_;
   std::vector<std::string> final_maps_;  // keys
 };
 

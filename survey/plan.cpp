@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/internal/json.h"
 #include "survey/internal/plan_check.h"
+#include "survey/numbers.h"
 
 namespace stucco {
 namespace {
@@ -29,9 +29,6 @@ constexpr std::array<std::pair<ViewKind, std::string_view>, 5> kKinds = {{
 
 // Files carry millimetres and thousandths of a degree: far below what a drone can hold, and the
 // same bytes where two machines differ in the last bits.
-double RoundTo(double value, double unit_inverse) {
-  return std::round(value * unit_inverse) / unit_inverse + 0.0;  // + 0.0 makes -0 a 0
-}
 double Metres(double value) {
   return RoundTo(value, 1e3);
 }
