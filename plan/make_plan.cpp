@@ -16,8 +16,8 @@
 #include "plan/evaluate/target_all.h"
 #include "plan/path/flights.h"
 #include "plan/planar/planar_views.h"
-#include "plan/quality/intervals.h"
 #include "survey/error.h"
+#include "survey/intervals.h"
 
 namespace stucco::plan {
 namespace {

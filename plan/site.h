@@ -7,15 +7,10 @@
 #include <vector>
 
 #include "plan/map/terrain.h"
+#include "survey/geometry2d.h"
 #include "survey/plan.h"
 
 namespace stucco::plan {
-
-// Corners in order, the first not repeated.
-using Ring = std::vector<Eigen::Vector2d>;
-struct Polygon {
-  std::vector<Ring> rings;  // outer counter-clockwise, then holes clockwise
-};
 
 // A building, or a part of one with a height of its own.
 struct Footprint {

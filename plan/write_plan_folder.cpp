@@ -4,6 +4,7 @@
 #include "plan/mission/mission.h"
 #include "plan/output/preview.h"
 #include "survey/files.h"
+#include "survey/plan_io.h"
 
 namespace stucco::plan {
 

@@ -3,11 +3,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "survey/intervals.h"
 
 namespace stucco {
 
@@ -21,14 +22,6 @@ enum class ViewKind {
 };
 std::string_view Name(ViewKind kind);  // "dipping", "dipping_foot", "nadir", "oblique", "surface"
 std::optional<ViewKind> ViewKindFromName(std::string_view name);
-
-// From..to in metres along something; to >= from.
-struct Interval {
-  double from_m = 0;
-  double to_m = 0;
-  double length_m() const { return to_m - from_m; }
-  bool operator==(const Interval&) const = default;
-};
 
 // The part of a facade that a view is meant to paint: along it from `a`, and in height (z).
 struct PlannedTarget {
@@ -135,10 +128,5 @@ struct Plan {
   std::vector<PlannedView> views;  // in order of capture
   std::vector<PlannedFlight> flights;
 };
-
-// plan/plan.json; docs/formats.md describes it for other planners. Reading checks that ids are
-// unique and that everything named exists. Throws Error (kBadInput).
-Plan ReadPlan(const std::filesystem::path& path);
-void WritePlan(const Plan& plan, const std::filesystem::path& path);
 
 }  // namespace stucco

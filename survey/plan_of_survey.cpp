@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "survey/error.h"
+#include "survey/plan_io.h"
 #include "survey/survey_folder.h"
 
 namespace stucco {

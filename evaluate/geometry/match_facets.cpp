@@ -9,35 +9,23 @@
 #include <numbers>
 
 #include "evaluate/geometry/moved.h"
+#include "survey/geometry2d.h"
 #include "survey/triangulate.h"
 
 namespace stucco::evaluate {
 namespace {
 
 using Point = Eigen::Vector2d;
-using Polygon = std::vector<Point>;
 using Triangle = std::array<Point, 3>;
 using Box = Eigen::AlignedBox2d;
 
 constexpr double kLeastOverlapM2 = 1e-4;  // facets that only touch have slivers in common
 constexpr double kLeastCosine = 1e-3;     // planes at right angles have no distance along a normal
 
-double Cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-double Area(const Polygon& polygon) {
-  double twice = 0;
-  for (size_t i = 1; i + 1 < polygon.size(); ++i) {
-    twice += Cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
-  }
-  return twice / 2;
-}
-
 // What of a convex polygon lies left of the line from a to b (Sutherland & Hodgman, "Reentrant
 // Polygon Clipping", 1974).
-Polygon ClippedLeftOf(const Polygon& polygon, const Point& a, const Point& b) {
-  Polygon kept;
+Ring ClippedLeftOf(const Ring& polygon, const Point& a, const Point& b) {
+  Ring kept;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const Point& from = polygon[i];
     const Point& to = polygon[(i + 1) % polygon.size()];
@@ -51,8 +39,8 @@ Polygon ClippedLeftOf(const Polygon& polygon, const Point& a, const Point& b) {
   return kept;
 }
 
-Polygon Intersection(const Triangle& a, const Triangle& b) {
-  Polygon common(a.begin(), a.end());
+Ring Intersection(const Triangle& a, const Triangle& b) {
+  Ring common(a.begin(), a.end());
   for (size_t i = 0; i < 3 && !common.empty(); ++i) {
     common = ClippedLeftOf(common, b[i], b[(i + 1) % 3]);
   }
@@ -150,10 +138,10 @@ FacetOverlap Overlap(const Facet& a, const Facet& b) {
     const Box box = BoxOf(triangle);
     for (size_t j = 0; j < of_b.size(); ++j) {
       if (!box.intersects(boxes[j])) continue;
-      const Polygon common = Intersection(triangle, of_b[j]);
+      const Ring common = Intersection(triangle, of_b[j]);
       for (size_t i = 1; i + 1 < common.size(); ++i) {
-        const Polygon piece = {common[0], common[i], common[i + 1]};
-        const double area = Area(piece);
+        const Ring piece = {common[0], common[i], common[i + 1]};
+        const double area = SignedArea(piece);
         const Eigen::Vector3d middle = sheet.Up((piece[0] + piece[1] + piece[2]) / 3);
         overlap.area_m2 += area;
         moment += area * std::abs((b.offset - b.normal.dot(middle)) / cosine);

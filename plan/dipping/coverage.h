@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "plan/quality/intervals.h"
+#include "survey/intervals.h"
 
 namespace stucco::plan {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "plan/quality/intervals.h"
 #include "plan/site.h"
+#include "survey/intervals.h"
 
 namespace stucco::plan {
 

@@ -8,8 +8,8 @@
 
 #include "plan/dipping/level.h"
 #include "plan/quality/facade_quality.h"
-#include "plan/quality/intervals.h"
 #include "plan/site.h"
+#include "survey/intervals.h"
 
 namespace stucco::plan {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/polygons.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan::internal {
 namespace {
@@ -27,7 +27,7 @@ void KeepFarthest(const Ring& ring, size_t first, size_t last, double tolerance,
     double farthest = tolerance;
     size_t split = from;
     for (size_t i = from + 1; i < to; ++i) {
-      const double distance = DistanceToSegment(ring[i], ring[from], ring[to % ring.size()]);
+      const double distance = Distance(Segment2d{ring[from], ring[to % ring.size()]}, ring[i]);
       if (distance > farthest) {
         farthest = distance;
         split = i;
@@ -191,7 +191,7 @@ void Noder::AddPassed(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
     const Eigen::Vector2d& corner = corners[index];
     if (corner == a || corner == b) continue;
     const double t = (corner - a).dot(b - a) / (b - a).squaredNorm();
-    if (!(t > 0 && t < 1) || DistanceToSegment(corner, a, b) > tolerance_m_) continue;
+    if (!(t > 0 && t < 1) || Distance(Segment2d{a, b}, corner) > tolerance_m_) continue;
     passed.emplace_back(t, index);
   }
   std::sort(passed.begin(), passed.end());

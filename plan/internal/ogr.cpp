@@ -8,8 +8,8 @@
 
 #include <algorithm>
 
-#include "plan/polygons.h"
 #include "survey/error.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan::internal {
 namespace {

@@ -7,7 +7,7 @@
 #include "plan/internal/noding.h"
 #include "plan/internal/ogr.h"
 #include "plan/map/facades.h"
-#include "plan/polygons.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan::internal {
 namespace {

@@ -16,7 +16,7 @@
 #include "plan/internal/ogr.h"
 #include "plan/internal/outlines.h"
 #include "plan/map/facades.h"
-#include "plan/polygons.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 namespace {
@@ -320,7 +320,7 @@ void DropIdleCorners(std::vector<Footprint>& footprints) {
         constexpr double kStraight = 0.999;  // a bend that snapping makes, not one of a round wall
         const double ahead = (ring[i] - last).normalized().dot((next - ring[i]).normalized());
         const bool idle = uses.at(ring[i]) == 1 && ahead > kStraight &&
-                          DistanceToSegment(ring[i], last, next) <= kSnap_m;
+                          Distance(Segment2d{last, next}, ring[i]) <= kSnap_m;
         if (!idle) kept.push_back(ring[i]);
       }
       if (kept.size() >= 3) ring = std::move(kept);

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "plan/internal/box_grid.h"
-#include "plan/polygons.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 namespace {
@@ -38,7 +38,7 @@ bool IsStraight(const Eigen::Vector2d& before, const Eigen::Vector2d& corner,
                 const Eigen::Vector2d& after) {
   constexpr double kAhead = 0.98;
   return (corner - before).normalized().dot((after - corner).normalized()) > kAhead &&
-         DistanceToSegment(corner, before, after) <= kSnap_m;
+         Distance(Segment2d{before, after}, corner) <= kSnap_m;
 }
 
 std::vector<Edge> EdgesOf(const std::vector<Footprint>& footprints) {
@@ -65,9 +65,7 @@ Interval Shared(const Edge& edge, const Edge& other) {
   const Eigen::Vector2d v = other.b - other.a;
   constexpr double kOpposite = -0.98;  // walls that meet at more than 11 degrees only touch
   if (!(u.dot(v) < kOpposite * v.norm())) return {};
-  const auto offset = [&](const Eigen::Vector2d& p) {
-    return u.x() * (p - edge.a).y() - u.y() * (p - edge.a).x();
-  };
+  const auto offset = [&](const Eigen::Vector2d& p) { return Cross(u, p - edge.a); };
   // Offsets change linearly along `other`: cut it down to |offset| <= tolerance.
   const double start = offset(other.a);
   const double change = offset(other.b) - start;

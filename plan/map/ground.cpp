@@ -7,7 +7,7 @@
 #include <map>
 #include <numbers>
 
-#include "plan/polygons.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 namespace {

@@ -10,8 +10,8 @@
 #include <regex>
 
 #include "plan/internal/box_grid.h"
-#include "plan/polygons.h"
 #include "survey/error.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 namespace {

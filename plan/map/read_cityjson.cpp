@@ -13,9 +13,9 @@
 
 #include "plan/internal/attributes.h"
 #include "plan/internal/ogr.h"
-#include "plan/polygons.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan::internal {
 namespace {

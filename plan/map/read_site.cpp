@@ -19,8 +19,8 @@
 #include "plan/map/home.h"
 #include "plan/map/read_dem.h"
 #include "plan/map/read_map.h"
-#include "plan/polygons.h"
 #include "survey/error.h"
+#include "survey/geometry2d.h"
 #include "survey/median.h"
 #include "survey/plan_frame.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "plan/polygons.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 namespace {
@@ -27,10 +27,6 @@ void Crossings(const Polygon& polygon, double y, std::vector<double>& out) {
     }
   }
   std::ranges::sort(out);
-}
-
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 // Counter-clockwise convex hull (Andrew's monotone chain, 1979).
@@ -83,13 +79,14 @@ std::vector<Cell> CellsNear(const Polygon& polygon, double size_m, double reach_
     for (size_t i = 0; i < ring.size(); ++i) {
       const Eigen::Vector2d& a = ring[i];
       const Eigen::Vector2d& b = ring[(i + 1) % ring.size()];
+      const Segment2d edge{a, b};
       const Eigen::Vector2d low = a.cwiseMin(b).array() - reach_m;
       const Eigen::Vector2d high = a.cwiseMax(b).array() + reach_m;
       for (int32_t row = CellOf(low.y(), size_m); row <= CellOf(high.y(), size_m); ++row) {
         for (int32_t column = CellOf(low.x(), size_m); column <= CellOf(high.x(), size_m);
              ++column) {
           const Cell cell{row, column};
-          if (DistanceToSegment(CenterOf(cell, size_m), a, b) <= reach_m) out.push_back(cell);
+          if (Distance(edge, CenterOf(cell, size_m)) <= reach_m) out.push_back(cell);
         }
       }
     }

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "plan/model/cells.h"
-#include "plan/polygons.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 namespace {

@@ -10,9 +10,9 @@
 #include <numbers>
 
 #include "plan/model/cells.h"
-#include "plan/polygons.h"
 #include "plan/space/obstacles.h"
 #include "survey/error.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 namespace {

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "plan/polygons.h"
 #include "survey/error.h"
+#include "survey/geometry2d.h"
 #include "survey/parallel.h"
 
 namespace stucco::plan {

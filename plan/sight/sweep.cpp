@@ -8,6 +8,8 @@
 #include <cmath>
 #include <set>
 
+#include "survey/geometry2d.h"
+
 namespace stucco::plan::internal {
 namespace {
 
@@ -139,8 +141,8 @@ class Sweeper {
     if (at == wall.a) return 0;
     if (at == wall.b) return length;
     const Vector2d along = wall.b - wall.a, ray = at - p_, to_a = wall.a - p_;
-    const double turn = ray.x() * along.y() - ray.y() * along.x();
-    const double t = (to_a.x() * ray.y() - to_a.y() * ray.x()) / turn;
+    const double turn = Cross(ray, along);
+    const double t = Cross(to_a, ray) / turn;
     return std::clamp(t, 0.0, 1.0) * length;  // clamp takes care of a turn of 0 but not of NaN
   }
 

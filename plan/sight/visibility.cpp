@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "plan/sight/internal/sweep.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 namespace {
@@ -15,10 +16,6 @@ using Eigen::Vector2d;
 
 constexpr double kCellM = 25;
 constexpr int kMaxCells = 1 << 22;
-
-double Cross(const Vector2d& u, const Vector2d& v) {
-  return u.x() * v.y() - u.y() * v.x();
-}
 
 // The part of the wall within `radius_m` of p, in metres from a.
 std::optional<Interval> WithinRadius(const Wall& wall, const Vector2d& p, double radius_m) {

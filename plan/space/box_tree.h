@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "plan/space/plane.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 
@@ -31,14 +31,14 @@ struct Box2 {
   }
   // False only when every point of the segment is farther than `radius` (a separating axis among
   // x, y and the segment's normal).
-  bool MayTouch(const Segment2& segment, double radius) const {
+  bool MayTouch(const Segment2d& segment, double radius) const {
     const Eigen::Vector2d low = segment.a.cwiseMin(segment.b);
     const Eigen::Vector2d high = segment.a.cwiseMax(segment.b);
     if (low.x() > max.x() + radius || high.x() < min.x() - radius) return false;
     if (low.y() > max.y() + radius || high.y() < min.y() - radius) return false;
     const Eigen::Vector2d d = segment.b - segment.a;
     const Eigen::Vector2d half = 0.5 * (max - min);
-    const double offset = std::abs(Cross(d, Eigen::Vector2d(0.5 * (min + max) - segment.a)));
+    const double offset = std::abs(Cross(d, 0.5 * (min + max) - segment.a));
     const double reach = std::abs(d.x()) * half.y() + std::abs(d.y()) * half.x();
     return offset <= reach + radius * d.norm() * (1 + 1e-12);
   }

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "plan/space/plane.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "plan/site.h"
-#include "plan/space/plane.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 

@@ -17,7 +17,7 @@ constexpr double kClimbSlack_m = 2e-3;
 // (distance along the track, height) of points that the path may not pass below.
 using Profile = std::vector<Vector2d>;
 
-void AddCrossings(const Obstacles& obstacles, const Segment2& segment, const Interval& levels,
+void AddCrossings(const Obstacles& obstacles, const Segment2d& segment, const Interval& levels,
                   double start_m, Profile& profile) {
   std::vector<Crossing> crossings;
   const double radius = obstacles.site().d_min_m + kSafetyMargin_m + kClimbSlack_m;
@@ -31,7 +31,7 @@ void AddCrossings(const Obstacles& obstacles, const Segment2& segment, const Int
 }
 
 // Over each piece the floor is a parabola; the three points that control it (Bezier) enclose it.
-void AddFloor(const Site& site, const Segment2& segment, double start_m, Profile& profile) {
+void AddFloor(const Site& site, const Segment2d& segment, double start_m, Profile& profile) {
   if (site.terrain.IsFlat()) return;
   const double length = (segment.b - segment.a).norm();
   const auto floor = [&](double t) {
@@ -58,8 +58,8 @@ Profile PullTight(Profile profile) {
   profile.push_back(last);
   Profile hull;
   for (const Vector2d& point : profile) {
-    while (hull.size() > 1 && Cross(Vector2d(hull.back() - hull[hull.size() - 2]),
-                                    Vector2d(point - hull.back())) >= 0) {
+    while (hull.size() > 1 &&
+           Cross(hull.back() - hull[hull.size() - 2], point - hull.back()) >= 0) {
       hull.pop_back();
     }
     hull.push_back(point);
@@ -99,7 +99,7 @@ std::vector<Vector3d> Lift(const Obstacles& obstacles, const Track& track, doubl
   Profile profile{{0, track.start_z}};
   std::vector<double> at{0};
   for (size_t k = 0; k + 1 < track.points.size(); ++k) {
-    const Segment2 segment{track.points[k], track.points[k + 1]};
+    const Segment2d segment{track.points[k], track.points[k + 1]};
     if (levels.to_m > levels.from_m) {
       AddCrossings(obstacles, segment, levels, at.back(), profile);
     }

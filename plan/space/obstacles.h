@@ -45,7 +45,7 @@ class Obstacles {
 // Calls fn(t0, t1) for pieces of the line from p to q (0..1, in order) over each of which the
 // terrain is a polynomial of degree two, until it returns false; returns whether none did.
 template <typename Fn>
-bool ForTerrainPieces(const Terrain& terrain, const Segment2& line, const Fn& fn) {
+bool ForTerrainPieces(const Terrain& terrain, const Segment2d& line, const Fn& fn) {
   const Eigen::Vector2d from = (line.a - terrain.corner) / terrain.step_m;
   const Eigen::Vector2d d = (line.b - line.a) / terrain.step_m;
   const Eigen::Vector2i size(terrain.columns, terrain.rows);

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "plan/space/part_near.h"
+
 namespace stucco::plan {
 
 using Eigen::Vector2d;
@@ -15,7 +17,7 @@ void Prisms::Add(const Polygon& outline, double top_m) {
   std::vector<Box2> boxes;
   for (const Ring& ring : outline.rings) {
     for (size_t k = 0; k < ring.size(); ++k) {
-      const Segment2 edge{ring[k], ring[(k + 1) % ring.size()]};
+      const Segment2d edge{ring[k], ring[(k + 1) % ring.size()]};
       prism.edges.push_back(edge);
       boxes.emplace_back();
       boxes.back().Add(edge.a);
@@ -43,16 +45,16 @@ bool Prisms::Prism::Contains(const Vector2d& position) const {
                position.x() <= box.max.x();
       },
       [&](int k) {
-        const Segment2& e = edges[k];
+        const Segment2d& e = edges[k];
         if ((e.a.y() > position.y()) == (e.b.y() > position.y())) return false;
-        const double side = Cross(Vector2d(e.b - e.a), Vector2d(position - e.a));
+        const double side = Cross(e.b - e.a, position - e.a);
         if ((e.b.y() > e.a.y()) == (side > 0)) inside = !inside;
         return false;
       });
   return inside;
 }
 
-bool Prisms::Prism::IsNear(const Segment2& segment, double radius) const {
+bool Prisms::Prism::IsNear(const Segment2d& segment, double radius) const {
   const double squared = radius * radius;
   return tree.Any([&](const Box2& box) { return box.MayTouch(segment, radius); },
                   [&](int k) { return SquaredDistance(segment, edges[k]) < squared; }) ||
@@ -60,13 +62,13 @@ bool Prisms::Prism::IsNear(const Segment2& segment, double radius) const {
 }
 
 bool Prisms::Touches(const Vector3d& p, const Vector3d& q, double radius) const {
-  const Segment2 whole{p.head<2>(), q.head<2>()};
+  const Segment2d whole{p.head<2>(), q.head<2>()};
   return tree_.Any([&](const Box2& box) { return box.MayTouch(whole, radius); },
                    [&](int k) {
                      const Prism& prism = prisms_[k];
                      const double top = prism.top_m;
                      if (p.z() >= top && q.z() >= top) return false;
-                     Segment2 below = whole;
+                     Segment2d below = whole;
                      if (p.z() >= top || q.z() >= top) {
                        const double t = (top - p.z()) / (q.z() - p.z());
                        (p.z() >= top ? below.a : below.b) = whole.a + t * (whole.b - whole.a);
@@ -86,7 +88,7 @@ double Prisms::Distance(const Vector2d& position, double z) const {
       return true;
     }
     prism.tree.Any(nearer, [&](int e) {
-      squared = std::min(squared, SquaredDistance(position, prism.edges[e]));
+      squared = std::min(squared, SquaredDistance(prism.edges[e], position));
       return false;
     });
     return false;
@@ -96,7 +98,7 @@ double Prisms::Distance(const Vector2d& position, double z) const {
 
 double Prisms::TopWithin(const Vector2d& position, double radius) const {
   double top = -std::numeric_limits<double>::infinity();
-  const Segment2 point{position, position};
+  const Segment2d point{position, position};
   tree_.Any([&](const Box2& box) { return box.MayTouch(point, radius); },
             [&](int k) {
               const Prism& prism = prisms_[k];
@@ -106,7 +108,7 @@ double Prisms::TopWithin(const Vector2d& position, double radius) const {
   return top;
 }
 
-void Prisms::FindCrossings(const Segment2& segment, double above_m, double radius,
+void Prisms::FindCrossings(const Segment2d& segment, double above_m, double radius,
                            std::vector<Crossing>& crossings) const {
   tree_.Any([&](const Box2& box) { return box.MayTouch(segment, radius); },
             [&](int k) {

@@ -37,19 +37,19 @@ class Prisms {
 
   // The prisms higher than `above_m` that the segment crosses or passes nearer than `radius`, each
   // with one interval that holds all its parts there.
-  void FindCrossings(const Segment2& segment, double above_m, double radius,
+  void FindCrossings(const Segment2d& segment, double above_m, double radius,
                      std::vector<Crossing>& crossings) const;
 
   bool empty() const { return prisms_.empty(); }
 
  private:
   struct Prism {
-    std::vector<Segment2> edges;
+    std::vector<Segment2d> edges;
     BoxTree tree;
     double top_m = 0;
 
     bool Contains(const Eigen::Vector2d& position) const;
-    bool IsNear(const Segment2& segment, double radius) const;
+    bool IsNear(const Segment2d& segment, double radius) const;
   };
 
   std::vector<Prism> prisms_;

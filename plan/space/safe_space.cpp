@@ -91,7 +91,7 @@ std::vector<int> SafeSpace::NodesWithin(const Query& query) const {
       query.bound_m < kInfinity
           ? 0.5 * std::sqrt(std::max(query.bound_m * query.bound_m - distance * distance, 0.0))
           : kInfinity;
-  const Segment2 axis{query.start, query.end};
+  const Segment2d axis{query.start, query.end};
   const double half_length = query.bound_m < kInfinity ? 0.5 * query.bound_m : kInfinity;
   const double reach = std::max(half_width, half_length - 0.5 * distance);
   tree_.Any([&](const Box2& box) { return reach == kInfinity || box.MayTouch(axis, reach); },

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "plan/space/plane.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::simulate {
 namespace {
@@ -41,8 +41,8 @@ std::vector<double> Crossings(const GroundGrid& grid, const Vector2d& a, const V
     const auto [column, row] = CellAt(grid, (from + to) / 2);
     const Vector2d low(grid.x[column], grid.y[row]);
     const Vector2d diagonal = Vector2d(grid.x[column + 1], grid.y[row + 1]) - low;
-    const double before = plan::Cross(diagonal, from - low);
-    const double after = plan::Cross(diagonal, to - low);
+    const double before = Cross(diagonal, from - low);
+    const double after = Cross(diagonal, to - low);
     if ((before < 0) == (after < 0)) continue;
     at.push_back(cells[i] + before / (before - after) * (cells[i + 1] - cells[i]));
   }

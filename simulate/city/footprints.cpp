@@ -7,15 +7,14 @@
 #include <cmath>
 #include <limits>
 
-#include "plan/polygons.h"
-#include "plan/space/plane.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::simulate {
 namespace {
 
 using Eigen::Vector2d;
 
-plan::Polygon Centred(plan::Ring ring, double width, double depth) {
+Polygon Centred(Ring ring, double width, double depth) {
   for (Vector2d& corner : ring) corner -= Vector2d(width / 2, depth / 2);
   return {{std::move(ring)}};
 }
@@ -25,35 +24,35 @@ bool SegmentsCross(const Vector2d& a, const Vector2d& b, const Vector2d& c, cons
                         const Vector2d& s) {
     constexpr double kTouch_m = 1e-3;
     const Vector2d u = (q - p).normalized();
-    const double left = plan::Cross(u, r - p);
-    const double right = plan::Cross(u, s - p);
+    const double left = Cross(u, r - p);
+    const double right = Cross(u, s - p);
     return (left > kTouch_m && right < -kTouch_m) || (left < -kTouch_m && right > kTouch_m);
   };
   return sides(a, b, c, d) && sides(c, d, a, b);
 }
 
 // Whether a point of `a` just inside one of its walls lies inside `b`.
-bool ReachesInto(const plan::Polygon& a, const plan::Polygon& b) {
+bool ReachesInto(const Polygon& a, const Polygon& b) {
   constexpr double kInside_m = 2e-3;
   const std::vector<OutlineEdge> edges = EdgesOf(a);
   return std::any_of(edges.begin(), edges.end(), [&](const OutlineEdge& edge) {
     const Vector2d inside = (edge.a + edge.b) / 2 - kInside_m * edge.outward();
-    return plan::Contains(b, inside) && DistanceToOutline(b, inside) > kInside_m / 2;
+    return Contains(b, inside) && DistanceToOutline(b, inside) > kInside_m / 2;
   });
 }
 
 }  // namespace
 
-plan::Polygon Rectangle(double width, double depth) {
+Polygon Rectangle(double width, double depth) {
   return Centred({{0, 0}, {width, 0}, {width, depth}, {0, depth}}, width, depth);
 }
 
-plan::Polygon LShape(double width, double depth, double wing) {
+Polygon LShape(double width, double depth, double wing) {
   return Centred({{0, 0}, {width, 0}, {width, wing}, {wing, wing}, {wing, depth}, {0, depth}},
                  width, depth);
 }
 
-plan::Polygon UShape(double width, double depth, double wing) {
+Polygon UShape(double width, double depth, double wing) {
   return Centred({{0, 0},
                   {width, 0},
                   {width, depth},
@@ -65,7 +64,7 @@ plan::Polygon UShape(double width, double depth, double wing) {
                  width, depth);
 }
 
-plan::Polygon TShape(double width, double depth, double wing) {
+Polygon TShape(double width, double depth, double wing) {
   const double left = (width - wing) / 2;
   return Centred({{0, 0},
                   {width, 0},
@@ -78,15 +77,15 @@ plan::Polygon TShape(double width, double depth, double wing) {
                  width, depth);
 }
 
-plan::Polygon CourtyardShape(double width, double depth, double wing) {
-  plan::Polygon polygon = Rectangle(width, depth);
-  plan::Ring hole = Rectangle(width - 2 * wing, depth - 2 * wing).rings[0];
+Polygon CourtyardShape(double width, double depth, double wing) {
+  Polygon polygon = Rectangle(width, depth);
+  Ring hole = Rectangle(width - 2 * wing, depth - 2 * wing).rings[0];
   std::reverse(hole.begin(), hole.end());
   polygon.rings.push_back(std::move(hole));
   return polygon;
 }
 
-plan::Polygon CrossShape(double width, double depth, double notch) {
+Polygon CrossShape(double width, double depth, double notch) {
   const double w = width;
   const double d = depth;
   const double n = notch;
@@ -105,25 +104,25 @@ plan::Polygon CrossShape(double width, double depth, double notch) {
                  w, d);
 }
 
-plan::Polygon Placed(plan::Polygon polygon, double radians, const Vector2d& position) {
+Polygon Placed(Polygon polygon, double radians, const Vector2d& position) {
   const Eigen::Rotation2Dd turn(radians);
-  for (plan::Ring& ring : polygon.rings) {
+  for (Ring& ring : polygon.rings) {
     for (Vector2d& corner : ring) corner = turn * corner + position;
   }
   return polygon;
 }
 
-plan::Polygon Mirrored(plan::Polygon polygon) {
-  for (plan::Ring& ring : polygon.rings) {
+Polygon Mirrored(Polygon polygon) {
+  for (Ring& ring : polygon.rings) {
     for (Vector2d& corner : ring) corner.x() = -corner.x();
     std::reverse(ring.begin(), ring.end());
   }
   return polygon;
 }
 
-std::vector<OutlineEdge> EdgesOf(const plan::Polygon& outline) {
+std::vector<OutlineEdge> EdgesOf(const Polygon& outline) {
   std::vector<OutlineEdge> edges;
-  for (const plan::Ring& ring : outline.rings) {
+  for (const Ring& ring : outline.rings) {
     const int start = static_cast<int>(edges.size());
     const int n = static_cast<int>(ring.size());
     for (int i = 0; i < n; ++i) {
@@ -133,31 +132,31 @@ std::vector<OutlineEdge> EdgesOf(const plan::Polygon& outline) {
   return edges;
 }
 
-double DistanceToOutline(const plan::Polygon& polygon, const Vector2d& point) {
+double DistanceToOutline(const Polygon& polygon, const Vector2d& point) {
   double least = std::numeric_limits<double>::infinity();
   for (const OutlineEdge& edge : EdgesOf(polygon)) {
-    least = std::min(least, plan::DistanceToSegment(point, edge.a, edge.b));
+    least = std::min(least, Distance(Segment2d{edge.a, edge.b}, point));
   }
   return least;
 }
 
-double Gap(const plan::Polygon& a, const plan::Polygon& b) {
+double Gap(const Polygon& a, const Polygon& b) {
   if (ReachesInto(a, b) || ReachesInto(b, a)) return -1;
   const std::vector<OutlineEdge> theirs = EdgesOf(b);
   double least = std::numeric_limits<double>::infinity();
   for (const OutlineEdge& edge : EdgesOf(a)) {
     for (const OutlineEdge& other : theirs) {
       if (SegmentsCross(edge.a, edge.b, other.a, other.b)) return -1;
-      least = std::min({least, plan::DistanceToSegment(edge.a, other.a, other.b),
-                        plan::DistanceToSegment(other.a, edge.a, edge.b)});
+      least = std::min({least, Distance(Segment2d{other.a, other.b}, edge.a),
+                        Distance(Segment2d{edge.a, edge.b}, other.a)});
     }
   }
   return least;
 }
 
-plan::Ring Offset(const plan::Ring& ring, const std::vector<double>& distances) {
+Ring Offset(const Ring& ring, const std::vector<double>& distances) {
   const size_t n = ring.size();
-  plan::Ring moved;
+  Ring moved;
   for (size_t i = 0; i < n; ++i) {
     const size_t before = (i + n - 1) % n;
     const Vector2d u = (ring[i] - ring[before]).normalized();

@@ -5,29 +5,29 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "plan/site.h"
 #include "simulate/random.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::simulate {
 
 // Outlines around the origin, x east, y north: the outer ring counter-clockwise, holes clockwise,
 // no corner on a straight wall. Sizes in metres.
-plan::Polygon Rectangle(double width, double depth);
+Polygon Rectangle(double width, double depth);
 // Wings of one width along the south and the west side.
-plan::Polygon LShape(double width, double depth, double wing);
+Polygon LShape(double width, double depth, double wing);
 // Open to the north.
-plan::Polygon UShape(double width, double depth, double wing);
+Polygon UShape(double width, double depth, double wing);
 // A bar along the south with a wing to the north in its middle.
-plan::Polygon TShape(double width, double depth, double wing);
+Polygon TShape(double width, double depth, double wing);
 // Closed around a courtyard.
-plan::Polygon CourtyardShape(double width, double depth, double wing);
+Polygon CourtyardShape(double width, double depth, double wing);
 // A rectangle without its four corners: the usual residential tower.
-plan::Polygon CrossShape(double width, double depth, double notch);
+Polygon CrossShape(double width, double depth, double notch);
 
 // Turned by `radians` counter-clockwise, then moved.
-plan::Polygon Placed(plan::Polygon polygon, double radians, const Eigen::Vector2d& position);
+Polygon Placed(Polygon polygon, double radians, const Eigen::Vector2d& position);
 // Mirrored in x; the rings keep their senses.
-plan::Polygon Mirrored(plan::Polygon polygon);
+Polygon Mirrored(Polygon polygon);
 
 // A wall of an outline, which is its right side. Corners and edges are counted over the rings: edge
 // i starts at corner i.
@@ -43,16 +43,16 @@ struct OutlineEdge {
     return {u.y(), -u.x()};
   }
 };
-std::vector<OutlineEdge> EdgesOf(const plan::Polygon& outline);
+std::vector<OutlineEdge> EdgesOf(const Polygon& outline);
 
 // The smallest distance between a point, inside or outside, and the outline.
-double DistanceToOutline(const plan::Polygon& polygon, const Eigen::Vector2d& point);
+double DistanceToOutline(const Polygon& polygon, const Eigen::Vector2d& point);
 // The smallest distance between two outlines, negative where their interiors meet by more than a
 // millimetre; walls in common count as distance zero.
-double Gap(const plan::Polygon& a, const plan::Polygon& b);
+double Gap(const Polygon& a, const Polygon& b);
 
 // Every edge moved to its right by its own distance (outwards for positive ones), corners where the
 // moved edges meet.
-plan::Ring Offset(const plan::Ring& ring, const std::vector<double>& distances);
+Ring Offset(const Ring& ring, const std::vector<double>& distances);
 
 }  // namespace stucco::simulate

@@ -11,11 +11,11 @@
 #include <functional>
 #include <map>
 
-#include "plan/polygons.h"
 #include "simulate/city/footprints.h"
 #include "simulate/city/internal/loops.h"
 #include "simulate/paint/paint.h"
 #include "simulate/random.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::simulate {
 namespace {
@@ -348,7 +348,7 @@ std::vector<Facet> SlopeFacets(const Town& town, const GroundGrid& grid) {
         const bool hidden =
             std::any_of(town.houses.begin(), town.houses.end(), [&](const House& house) {
               return std::all_of(half.begin(), half.end(), [&](const Vector3d& corner) {
-                return plan::Contains(house.outline, corner.head<2>());
+                return Contains(house.outline, corner.head<2>());
               });
             });
         if (!hidden) facets.push_back(ExactFacet(FacetClass::kGround, half, {}));
@@ -359,22 +359,22 @@ std::vector<Facet> SlopeFacets(const Town& town, const GroundGrid& grid) {
 }
 
 // The outlines of houses that touch as one; clockwise loops are courtyards between them.
-std::vector<plan::Ring> HouseLoops(const Town& town) {
-  std::vector<plan::Ring> rings;
+std::vector<Ring> HouseLoops(const Town& town) {
+  std::vector<Ring> rings;
   for (const House& house : town.houses) {
     rings.insert(rings.end(), house.outline.rings.begin(), house.outline.rings.end());
   }
   return internal::JoinLoops(rings);
 }
 
-std::vector<plan::Ring> LevelLoops(const Town& town, const GroundGrid& grid, double raise) {
+std::vector<Ring> LevelLoops(const Town& town, const GroundGrid& grid, double raise) {
   const GroundBuilder builder(town, grid);
-  std::vector<plan::Ring> cells;
+  std::vector<Ring> cells;
   for (int row = 0; row < grid.rows(); ++row) {
     for (int column = 0; column < grid.columns(); ++column) {
       const int patch = builder.PatchOf(column, row);
       if (!IsTown(town, patch) || RaiseOf(town, patch) != raise) continue;
-      plan::Ring ring;
+      Ring ring;
       for (const Vector3d& corner : builder.Cell(column, row)) ring.push_back(corner.head<2>());
       cells.push_back(std::move(ring));
     }
@@ -382,24 +382,24 @@ std::vector<plan::Ring> LevelLoops(const Town& town, const GroundGrid& grid, dou
   return internal::JoinLoops(cells);
 }
 
-Loop AtHeight(plan::Ring ring, double z) {
+Loop AtHeight(Ring ring, double z) {
   Loop loop;
   for (const Vector2d& corner : ring) loop.emplace_back(corner.x(), corner.y(), z);
   return loop;
 }
 
 std::vector<Facet> LevelFacets(const Town& town, const GroundGrid& grid) {
-  std::map<double, std::vector<plan::Ring>> levels;
+  std::map<double, std::vector<Ring>> levels;
   for (const GroundPatch& patch : town.ground) levels[patch.raise_m];
   for (auto& [raise, loops] : levels) loops = LevelLoops(town, grid, raise);
   // Houses stand at z = 0; their outlines are rings of that level with the ground outside.
-  for (plan::Ring ring : HouseLoops(town)) {
+  for (Ring ring : HouseLoops(town)) {
     std::reverse(ring.begin(), ring.end());
     levels[0].push_back(std::move(ring));
   }
   std::vector<Facet> facets;
   for (const auto& [raise, loops] : levels) {
-    for (const plan::Polygon& polygon : internal::PolygonsOf(loops)) {
+    for (const Polygon& polygon : internal::PolygonsOf(loops)) {
       std::vector<Loop> holes;
       for (size_t i = 1; i < polygon.rings.size(); ++i) {
         holes.push_back(AtHeight(polygon.rings[i], raise));

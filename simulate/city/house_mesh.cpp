@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/space/plane.h"
 #include "simulate/city/design_wall.h"
 #include "simulate/city/footprints.h"
 #include "simulate/city/roof_mesh.h"
 #include "simulate/city/wall_mesh.h"
 #include "simulate/paint/paint.h"
 #include "simulate/random.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::simulate {
 namespace {
@@ -204,7 +204,7 @@ class HouseBuilder {
     const int first = at_end ? edge : edges[edge].before;
     const int second = edges[first].after;
     const bool free = !house_.party[first] && !house_.party[second];
-    return free && plan::Cross(edges[first].along(), edges[second].along()) > 0;
+    return free && Cross(edges[first].along(), edges[second].along()) > 0;
   }
 
   void AddRoof(const Solid::Face& face, int number) {

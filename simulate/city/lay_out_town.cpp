@@ -43,7 +43,7 @@ void Turn(Town& town) {
 void Settle(const Relief& relief, House& house) {
   double low = relief.HeightAt(house.outline.rings[0][0]);
   double high = low;
-  for (const plan::Ring& ring : house.outline.rings) {
+  for (const Ring& ring : house.outline.rings) {
     for (size_t i = 0; i < ring.size(); ++i) {
       constexpr int kSteps = 8;
       for (int k = 0; k < kSteps; ++k) {

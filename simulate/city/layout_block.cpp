@@ -49,7 +49,7 @@ House MakeTenement(Random& random) {
   return house;
 }
 
-void AddTenement(plan::Polygon outline, const std::vector<Vector2d>& streets, Random& random,
+void AddTenement(Polygon outline, const std::vector<Vector2d>& streets, Random& random,
                  Town& town) {
   House house = MakeTenement(random);
   house.outline = std::move(outline);

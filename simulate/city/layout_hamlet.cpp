@@ -20,14 +20,13 @@ double Within(const Range& range, Random& random) {
   return random.Uniform(range.from, range.to);
 }
 
-plan::Polygon RandomRectangle(const Range& widths, const Range& depths, Random& random) {
+Polygon RandomRectangle(const Range& widths, const Range& depths, Random& random) {
   const double depth = Within(depths, random);
   const double width = Within(widths, random);
   return Rectangle(width, depth);
 }
 
-plan::Polygon RandomLShape(const Range& widths, const Range& depths, const Range& wings,
-                           Random& random) {
+Polygon RandomLShape(const Range& widths, const Range& depths, const Range& wings, Random& random) {
   const double wing = Within(wings, random);
   const double depth = Within(depths, random);
   const double width = Within(widths, random);
@@ -73,7 +72,7 @@ void AddHomes(const std::vector<Vector2d>& places, double least_gap_m, Random& r
   const int shift = random.Index(3);
   for (size_t i = 0; i < places.size(); ++i) {
     House house = MakeHome(static_cast<int>(i + shift) % 3, random);
-    const plan::Polygon outline = house.outline;
+    const Polygon outline = house.outline;
     const double quarter = std::numbers::pi / 2 * random.Index(4);
     // The neighbours were placed first; a calmer place each time ends at the middle of its lot,
     // which is free.

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-plan::Polygon TowerOutline(Random& random) {
+Polygon TowerOutline(Random& random) {
   const double width = random.Uniform(17, 24);
   const double depth = random.Uniform(14, 20);
   switch (random.Index(4)) {
@@ -55,7 +55,7 @@ Town LayOutAsia(Random random) {
     for (int column = -1; column <= 1; ++column) {
       if (row * column != 0 && random.Chance(0.15)) continue;
       House house = MakeTower(random);
-      plan::Polygon outline = TowerOutline(random);
+      Polygon outline = TowerOutline(random);
       if (random.Chance(0.5)) outline = Mirrored(std::move(outline));
       const double aside = random.Uniform(-1, 1);
       const double ahead = random.Uniform(-1, 1);

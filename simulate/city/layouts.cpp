@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "plan/polygons.h"
 #include "simulate/city/footprints.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::simulate::internal {
 
@@ -39,7 +39,7 @@ void MarkPartyWalls(std::vector<House>& houses) {
   }
 }
 
-bool KeepsApart(const plan::Polygon& outline, const std::vector<House>& houses, double least_m) {
+bool KeepsApart(const Polygon& outline, const std::vector<House>& houses, double least_m) {
   return std::all_of(houses.begin(), houses.end(),
                      [&](const House& house) { return Gap(outline, house.outline) >= least_m; });
 }
@@ -60,7 +60,7 @@ void PlantTrees(const Grove& grove, Random& random, Town& town) {
     const bool free =
         std::all_of(town.houses.begin(), town.houses.end(),
                     [&](const House& house) {
-                      return !plan::Contains(house.outline, tree.position) &&
+                      return !Contains(house.outline, tree.position) &&
                              DistanceToOutline(house.outline, tree.position) > RoomFor(tree);
                     }) &&
         std::all_of(town.trees.begin(), town.trees.end(), [&](const Tree& other) {

@@ -32,8 +32,8 @@ PitchedRoof Eaves(const Edges& edges) {
   return roof;
 }
 
-CGAL::Polygon_with_holes_2<Kernel> ToCgal(const plan::Polygon& outline) {
-  const auto ring = [](const plan::Ring& corners) {
+CGAL::Polygon_with_holes_2<Kernel> ToCgal(const Polygon& outline) {
+  const auto ring = [](const Ring& corners) {
     CGAL::Polygon_2<Kernel> polygon;
     for (const Vector2d& corner : corners) polygon.push_back({corner.x(), corner.y()});
     return polygon;
@@ -51,7 +51,7 @@ int FindOrAdd(const Vector3d& point, size_t first, std::vector<Vector3d>& vertic
   return static_cast<int>(vertices.size()) - 1;
 }
 
-PitchedRoof HippedRoof(const plan::Polygon& outline, const Edges& edges, double slope) {
+PitchedRoof HippedRoof(const Polygon& outline, const Edges& edges, double slope) {
   const auto skeleton = CGAL::create_interior_straight_skeleton_2(ToCgal(outline), Kernel());
   if (!skeleton) throw Error(ErrorKind::kStageFailed, "a footprint has no straight skeleton");
   PitchedRoof roof = Eaves(edges);
@@ -131,13 +131,13 @@ PitchedRoof GabledRectangle(const Edges& edges, int edge, double slope) {
   return roof;
 }
 
-bool IsRectangle(const plan::Polygon& outline, const Edges& edges) {
+bool IsRectangle(const Polygon& outline, const Edges& edges) {
   return outline.rings.size() == 1 && edges.size() == 4 && EndsWing(edges, 0) && EndsWing(edges, 1);
 }
 
 }  // namespace
 
-PitchedRoof MakePitchedRoof(const plan::Polygon& outline, RoofShape shape, double slope,
+PitchedRoof MakePitchedRoof(const Polygon& outline, RoofShape shape, double slope,
                             const std::vector<bool>& gables) {
   const Edges edges = EdgesOf(outline);
   const auto wanted = std::find(gables.begin(), gables.end(), true);

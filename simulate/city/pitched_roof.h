@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "plan/site.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::simulate {
 
@@ -28,7 +28,7 @@ struct PitchedRoof {
 // wall, which keeps the planes of the slopes. `gables` names edges that become gables in any case
 // where they end such a wing; for a rectangle two opposite ones say how its ridge runs, otherwise
 // it runs along the longer side.
-PitchedRoof MakePitchedRoof(const plan::Polygon& outline, RoofShape shape, double slope,
+PitchedRoof MakePitchedRoof(const Polygon& outline, RoofShape shape, double slope,
                             const std::vector<bool>& gables = {});
 
 }  // namespace stucco::simulate

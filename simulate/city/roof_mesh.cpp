@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "plan/polygons.h"
 #include "simulate/city/footprints.h"
 #include "simulate/random.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::simulate {
 namespace {
@@ -57,9 +57,9 @@ std::vector<Vector2d> OverhungPlan(const House& house, const Solid& solid) {
   for (const Vector3d& vertex : solid.vertices) plan.push_back(vertex.head<2>());
   auto eaves = plan.begin() + static_cast<int>(apex.size());  // above the corners of the floor
   auto overhang = overhangs.begin();
-  for (const plan::Ring& ring : house.outline.rings) {
+  for (const Ring& ring : house.outline.rings) {
     const auto next = overhang + static_cast<int>(ring.size());
-    const plan::Ring moved = Offset(ring, {overhang, next});
+    const Ring moved = Offset(ring, {overhang, next});
     eaves = std::copy(moved.begin(), moved.end(), eaves);
     overhang = next;
   }
@@ -113,8 +113,8 @@ void AddParapet(const House& house, const Trim& trim, CityModel& model) {
   const double low = house.eaves_m();
   const double high = low + house.parapet_m;
   const auto at = [](const Vector2d& p, double z) { return Vector3d(p.x(), p.y(), z); };
-  for (const plan::Ring& ring : house.outline.rings) {
-    const plan::Ring inner = Offset(ring, std::vector<double>(ring.size(), -kParapet_m));
+  for (const Ring& ring : house.outline.rings) {
+    const Ring inner = Offset(ring, std::vector<double>(ring.size(), -kParapet_m));
     for (size_t i = 0; i < ring.size(); ++i) {
       const size_t next = (i + 1) % ring.size();
       AddTrim(trim,
@@ -144,9 +144,9 @@ double RoofAt(const Solid& solid, const Vector2d& place) {
   double highest = solid.vertices[0].z();
   for (const Solid::Face& face : solid.faces) {
     if (face.facet_class != FacetClass::kRoof) continue;
-    plan::Ring ring;
+    Ring ring;
     for (const int corner : face.outer) ring.push_back(solid.vertices[corner].head<2>());
-    if (!plan::Contains({{ring}}, place)) continue;
+    if (!Contains({{ring}}, place)) continue;
     const Vector3d normal = NormalOf(solid, face);
     const Vector3d& corner = solid.vertices[face.outer[0]];
     const double fall = normal.head<2>().dot(place - corner.head<2>()) / normal.z();
@@ -156,7 +156,7 @@ double RoofAt(const Solid& solid, const Vector2d& place) {
 }
 
 Vector2d Along(const House& house) {
-  const plan::Ring& ring = house.outline.rings[0];
+  const Ring& ring = house.outline.rings[0];
   return (ring[1] - ring[0]).normalized();
 }
 
@@ -170,8 +170,7 @@ bool FindPlace(const House& house, double from_edge, Random& random, Vector2d& p
   }
   for (int i = 0; i < 40; ++i) {
     place = {random.Uniform(low.x(), high.x()), random.Uniform(low.y(), high.y())};
-    if (plan::Contains(house.outline, place) &&
-        DistanceToOutline(house.outline, place) > from_edge) {
+    if (Contains(house.outline, place) && DistanceToOutline(house.outline, place) > from_edge) {
       return true;
     }
   }
@@ -231,7 +230,7 @@ void AddRoofThings(const House& house, const Solid& solid, const Trim& trim, Cit
     }
     return;
   }
-  const double area = plan::Area(house.outline);
+  const double area = Area(house.outline);
   const double eaves = house.eaves_m();
   const bool large = house.use != HouseUse::kHome;
   if (large && FindPlace(house, 3, random, place)) {  // the head of the stairs

@@ -11,10 +11,10 @@
 namespace stucco::simulate {
 namespace {
 
-void AddWalls(const plan::Polygon& outline, const std::optional<PitchedRoof>& roof, int corners,
+void AddWalls(const Polygon& outline, const std::optional<PitchedRoof>& roof, int corners,
               Solid& solid) {
   int start = 0;
-  for (const plan::Ring& ring : outline.rings) {
+  for (const Ring& ring : outline.rings) {
     const int n = static_cast<int>(ring.size());
     for (int i = 0; i < n; ++i) {
       const int a = start + i;
@@ -30,7 +30,7 @@ void AddWalls(const plan::Polygon& outline, const std::optional<PitchedRoof>& ro
 }
 
 // The outline as a face, at the vertices from `first` on.
-Solid::Face Slab(const plan::Polygon& outline, int first, bool upwards) {
+Solid::Face Slab(const Polygon& outline, int first, bool upwards) {
   Solid::Face face;
   face.facet_class = upwards ? FacetClass::kRoof : FacetClass::kGround;
   for (size_t r = 0; r < outline.rings.size(); ++r) {
@@ -54,11 +54,11 @@ Loop Corners(const Solid& solid, const std::vector<int>& ring) {
   return loop;
 }
 
-Solid MakeSolid(const plan::Polygon& outline, double base_m, double eaves_m,
+Solid MakeSolid(const Polygon& outline, double base_m, double eaves_m,
                 const std::optional<PitchedRoof>& roof) {
   Solid solid;
   for (const double z : {base_m, eaves_m}) {
-    for (const plan::Ring& ring : outline.rings) {
+    for (const Ring& ring : outline.rings) {
       for (const Eigen::Vector2d& corner : ring) {
         solid.vertices.emplace_back(corner.x(), corner.y(), z);
       }

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "plan/site.h"
 #include "simulate/city/facets.h"
 #include "simulate/city/pitched_roof.h"
+#include "survey/geometry2d.h"
 #include "survey/proxy.h"
 
 namespace stucco::simulate {
@@ -30,7 +30,7 @@ struct Solid {
 Loop Corners(const Solid& solid, const std::vector<int>& ring);
 
 // Walls from `base_m` to `eaves_m` with a flat roof, or with a pitched one on top.
-Solid MakeSolid(const plan::Polygon& outline, double base_m, double eaves_m,
+Solid MakeSolid(const Polygon& outline, double base_m, double eaves_m,
                 const std::optional<PitchedRoof>& roof);
 
 // What keeps the solid from being closed: an edge that does not border exactly two faces, in

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "plan/site.h"
 #include "simulate/city/pitched_roof.h"
 #include "simulate/paint/wall_design.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::simulate {
 
@@ -19,7 +19,7 @@ enum class HouseUse { kHome, kTenement, kTower, kHall };
 struct House {
   std::string id;  // B0001
   HouseUse use = HouseUse::kHome;
-  plan::Polygon outline;
+  Polygon outline;
   std::vector<bool> party;  // by edge, counted over the rings: stands against a neighbour
   std::vector<bool> front;  // by edge: towards a street
   double base_m = 0;        // z of the walls' foot, the lowest ground under it

@@ -32,7 +32,7 @@ std::string Position(const Georef& georef, const Vector2d& corner) {
   return fmt::format("[{:.9f},{:.9f}]", geodetic.y(), geodetic.x());
 }
 
-std::string Ring(const Georef& georef, const plan::Ring& ring) {
+std::string RingText(const Georef& georef, const Ring& ring) {
   std::string text = "[";
   for (const Vector2d& corner : ring) text += Position(georef, corner) + ",";
   return text + Position(georef, ring[0]) + "]";
@@ -58,8 +58,8 @@ const char* NameOf(RoofShape roof) {
 
 std::string Feature(const House& house, const Georef& georef) {
   std::string rings;
-  for (const plan::Ring& ring : house.outline.rings) {
-    rings += (rings.empty() ? "" : ",") + Ring(georef, ring);
+  for (const Ring& ring : house.outline.rings) {
+    rings += (rings.empty() ? "" : ",") + RingText(georef, ring);
   }
   const int number = std::stoi(house.id.substr(1));
   return fmt::format(

@@ -14,6 +14,7 @@
 #include "simulate/render/renderer.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/plan_io.h"
 #include "survey/survey_folder.h"
 
 namespace stucco::simulate {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "plan/hover.h"
-#include "plan/quality/intervals.h"
 #include "plan/site.h"
 #include "plan/space/obstacles.h"
+#include "survey/intervals.h"
 
 namespace stucco::plan {
 

@@ -14,9 +14,9 @@
 
 #include "plan/internal/ogr.h"
 #include "plan/map/crs.h"
-#include "plan/polygons.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 namespace {

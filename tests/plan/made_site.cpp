@@ -11,7 +11,7 @@
 
 #include "plan/map/facades.h"
 #include "plan/map/ground.h"
-#include "plan/polygons.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan {
 namespace {

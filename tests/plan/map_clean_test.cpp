@@ -12,7 +12,7 @@
 #include "plan/map/clean.h"
 #include "plan/map/facades.h"
 #include "plan/map/ground.h"
-#include "plan/polygons.h"
+#include "survey/geometry2d.h"
 #include "tests/plan/made_site.h"
 
 namespace stucco::plan {
@@ -65,7 +65,7 @@ void ExpectClean(const CleanedMap& map) {
               const Eigen::Vector2d& p = other[i];
               const Eigen::Vector2d& q = other[(i + 1) % other.size()];
               if (corner == p || corner == q) continue;
-              EXPECT_GT(DistanceToSegment(corner, p, q), 0.03)
+              EXPECT_GT(Distance(Segment2d{p, q}, corner), 0.03)
                   << a.building << " at a wall of " << b.building;
             }
           }
@@ -109,7 +109,7 @@ TEST(Simplified, KeepsWithinTheTolerance) {
   for (const Eigen::Vector2d& corner : circle) {
     double nearest = 1;
     for (size_t i = 0; i < few.size(); ++i) {
-      nearest = std::min(nearest, DistanceToSegment(corner, few[i], few[(i + 1) % few.size()]));
+      nearest = std::min(nearest, Distance(Segment2d{few[i], few[(i + 1) % few.size()]}, corner));
     }
     EXPECT_LE(nearest, 0.05);
   }

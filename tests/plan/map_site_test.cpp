@@ -9,8 +9,8 @@
 #include "plan/map/home.h"
 #include "plan/map/read_dem.h"
 #include "plan/map/read_site.h"
-#include "plan/polygons.h"
 #include "survey/files.h"
+#include "survey/geometry2d.h"
 #include "tests/plan/made_map.h"
 #include "tests/plan/made_site.h"
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "plan/model/cells.h"
-#include "plan/polygons.h"
+#include "survey/geometry2d.h"
 #include "tests/plan/made_site.h"
 
 namespace stucco::plan {
@@ -42,8 +42,8 @@ TEST(Cells, NearAreThoseWithinReachOfABorder) {
       double nearest = 1e9;
       for (const Ring& ring : polygon.rings) {
         for (size_t i = 0; i < ring.size(); ++i) {
-          nearest = std::min(nearest, DistanceToSegment(CenterOf({row, column}, 1.3), ring[i],
-                                                        ring[(i + 1) % ring.size()]));
+          const Segment2d edge{ring[i], ring[(i + 1) % ring.size()]};
+          nearest = std::min(nearest, Distance(edge, CenterOf({row, column}, 1.3)));
         }
       }
       EXPECT_EQ(Has(cells, {row, column}), nearest <= 5);

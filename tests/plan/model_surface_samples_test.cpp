@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "plan/model/surface_samples.h"
-#include "plan/polygons.h"
+#include "survey/geometry2d.h"
 #include "tests/plan/made_site.h"
 
 namespace stucco::plan {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "plan/planar/grid_hovers.h"
-#include "plan/polygons.h"
 #include "survey/error.h"
+#include "survey/geometry2d.h"
 #include "tests/plan/made_site.h"
 
 namespace stucco::plan {

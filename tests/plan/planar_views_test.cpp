@@ -11,9 +11,9 @@
 #include "plan/planar/move_hovers.h"
 #include "plan/planar/reconstructability.h"
 #include "plan/planar/thin_out.h"
-#include "plan/polygons.h"
 #include "plan/space/obstacles.h"
 #include "survey/error.h"
+#include "survey/geometry2d.h"
 #include "tests/plan/made_site.h"
 #include "tests/survey/stage_support.h"
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "plan/map/ground.h"
-#include "plan/polygons.h"
+#include "survey/geometry2d.h"
 #include "tests/plan/made_site.h"
 
 namespace stucco::plan {

@@ -9,7 +9,7 @@
 
 #include "survey/error.h"
 #include "survey/files.h"
-#include "survey/plan.h"
+#include "survey/plan_io.h"
 #include "survey/survey_folder.h"
 #include "tests/report/made_survey.h"
 

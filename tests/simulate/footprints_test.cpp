@@ -7,30 +7,30 @@
 #include <cmath>
 #include <numbers>
 
-#include "plan/polygons.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::simulate {
 namespace {
 
 TEST(Footprints, HaveTheAreasOfTheirShapes) {
-  EXPECT_DOUBLE_EQ(plan::Area(Rectangle(8, 5)), 40);
-  EXPECT_DOUBLE_EQ(plan::Area(LShape(12, 10, 4)), 12 * 4 + 4 * 6);
-  EXPECT_DOUBLE_EQ(plan::Area(UShape(12, 10, 3)), 12 * 3 + 2 * 3 * 7);
-  EXPECT_DOUBLE_EQ(plan::Area(TShape(12, 10, 4)), 12 * 4 + 4 * 6);
-  EXPECT_DOUBLE_EQ(plan::Area(CourtyardShape(20, 16, 5)), 20 * 16 - 10 * 6);
-  EXPECT_DOUBLE_EQ(plan::Area(CrossShape(12, 10, 2)), 120 - 16);
+  EXPECT_DOUBLE_EQ(Area(Rectangle(8, 5)), 40);
+  EXPECT_DOUBLE_EQ(Area(LShape(12, 10, 4)), 12 * 4 + 4 * 6);
+  EXPECT_DOUBLE_EQ(Area(UShape(12, 10, 3)), 12 * 3 + 2 * 3 * 7);
+  EXPECT_DOUBLE_EQ(Area(TShape(12, 10, 4)), 12 * 4 + 4 * 6);
+  EXPECT_DOUBLE_EQ(Area(CourtyardShape(20, 16, 5)), 20 * 16 - 10 * 6);
+  EXPECT_DOUBLE_EQ(Area(CrossShape(12, 10, 2)), 120 - 16);
 }
 
 TEST(Footprints, KeepAreaAndSenseWhenTurnedAndMirrored) {
-  const plan::Polygon shape = CourtyardShape(20, 16, 5);
-  const plan::Polygon placed = Placed(Mirrored(shape), 0.7, {100, -30});
-  EXPECT_NEAR(plan::Area(placed), plan::Area(shape), 1e-9);
-  EXPECT_GT(plan::SignedArea(placed.rings[0]), 0);
-  EXPECT_LT(plan::SignedArea(placed.rings[1]), 0);
+  const Polygon shape = CourtyardShape(20, 16, 5);
+  const Polygon placed = Placed(Mirrored(shape), 0.7, {100, -30});
+  EXPECT_NEAR(Area(placed), Area(shape), 1e-9);
+  EXPECT_GT(SignedArea(placed.rings[0]), 0);
+  EXPECT_LT(SignedArea(placed.rings[1]), 0);
 }
 
 TEST(Footprints, GapIsTheDistanceBetweenWalls) {
-  const plan::Polygon a = Rectangle(10, 10);
+  const Polygon a = Rectangle(10, 10);
   EXPECT_NEAR(Gap(a, Placed(Rectangle(10, 10), 0, {13, 2})), 3, 1e-12);
   EXPECT_NEAR(Gap(a, Placed(Rectangle(10, 10), 0, {13, 14})), 5, 1e-12);
 }
@@ -40,7 +40,7 @@ TEST(Footprints, GapOfTouchingOnesIsZero) {
 }
 
 TEST(Footprints, GapIsNegativeForOverlaps) {
-  const plan::Polygon a = Rectangle(10, 10);
+  const Polygon a = Rectangle(10, 10);
   EXPECT_LT(Gap(a, Placed(a, 0.3, {7, 0})), 0);
   EXPECT_LT(Gap(a, a), 0);
   EXPECT_LT(Gap(a, Rectangle(2, 2)), 0);                       // inside, far from the walls
@@ -53,8 +53,8 @@ TEST(Footprints, ABuildingInACourtyardDoesNotOverlap) {
 }
 
 TEST(Footprints, OffsetMovesEveryWallByItsOwnDistance) {
-  const plan::Ring moved = Offset(Rectangle(10, 6).rings[0], {1, 0, 2, 0.5});
-  EXPECT_NEAR(plan::SignedArea(moved), 10.5 * 9, 1e-12);
+  const Ring moved = Offset(Rectangle(10, 6).rings[0], {1, 0, 2, 0.5});
+  EXPECT_NEAR(SignedArea(moved), 10.5 * 9, 1e-12);
   EXPECT_NEAR((moved[0] - Eigen::Vector2d(-5.5, -4)).norm(), 0, 1e-12);
 }
 

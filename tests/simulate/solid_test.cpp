@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/polygons.h"
 #include "simulate/city/footprints.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::simulate {
 namespace {
@@ -58,14 +58,14 @@ void ExpectSound(const Solid& solid) {
 }
 
 TEST(Solid, FlatRoofGivesAPrism) {
-  const plan::Polygon outline = Placed(CourtyardShape(20, 16, 5), 0.4, {30, 40});
+  const Polygon outline = Placed(CourtyardShape(20, 16, 5), 0.4, {30, 40});
   const Solid solid = MakeSolid(outline, -1, 9, std::nullopt);
   ExpectSound(solid);
-  EXPECT_NEAR(Volume(solid), plan::Area(outline) * 10, 1e-6);
+  EXPECT_NEAR(Volume(solid), Area(outline) * 10, 1e-6);
 }
 
 TEST(Solid, GabledRectangleHasTheVolumeOfItsSection) {
-  const plan::Polygon outline = Placed(Rectangle(12, 8), 0.3, {5, -7});
+  const Polygon outline = Placed(Rectangle(12, 8), 0.3, {5, -7});
   const PitchedRoof roof = MakePitchedRoof(outline, RoofShape::kGabled, 0.5);
   const Solid solid = MakeSolid(outline, 0, 6, roof);
   ExpectSound(solid);
@@ -75,7 +75,7 @@ TEST(Solid, GabledRectangleHasTheVolumeOfItsSection) {
 }
 
 TEST(Solid, NamedGablesTurnTheRidgeAcross) {
-  const plan::Polygon outline = Rectangle(12, 8);
+  const Polygon outline = Rectangle(12, 8);
   const PitchedRoof roof =
       MakePitchedRoof(outline, RoofShape::kGabled, 0.5, {true, false, true, false});
   EXPECT_GE(roof.apex_of[0], 0);
@@ -84,7 +84,7 @@ TEST(Solid, NamedGablesTurnTheRidgeAcross) {
 }
 
 TEST(Solid, HippedRectangleHasTheVolumeOfItsWedge) {
-  const plan::Polygon outline = Placed(Rectangle(12, 8), 1.3, {5, -7});
+  const Polygon outline = Placed(Rectangle(12, 8), 1.3, {5, -7});
   const PitchedRoof roof = MakePitchedRoof(outline, RoofShape::kHipped, 0.5);
   const Solid solid = MakeSolid(outline, 0, 6, roof);
   ExpectSound(solid);
@@ -94,17 +94,17 @@ TEST(Solid, HippedRectangleHasTheVolumeOfItsWedge) {
 }
 
 TEST(Solid, SquareGetsAPyramid) {
-  const plan::Polygon outline = Rectangle(8, 8);
+  const Polygon outline = Rectangle(8, 8);
   const Solid solid = MakeSolid(outline, 0, 3, MakePitchedRoof(outline, RoofShape::kHipped, 1));
   ExpectSound(solid);
   EXPECT_NEAR(Volume(solid), 64 * 3 + 64 * 4 / 3.0, 1e-6);
 }
 
 TEST(Solid, WingsEndInGables) {
-  const plan::Polygon l = Placed(LShape(14, 12, 6), 0.2, {1, 2});
-  const plan::Polygon u = Placed(UShape(24, 18, 6), -0.9, {1, 2});
-  const plan::Polygon t = Placed(TShape(24, 18, 6), 2.9, {1, 2});
-  const std::vector<std::pair<plan::Polygon, int>> shapes = {{l, 2}, {u, 2}, {t, 3}};
+  const Polygon l = Placed(LShape(14, 12, 6), 0.2, {1, 2});
+  const Polygon u = Placed(UShape(24, 18, 6), -0.9, {1, 2});
+  const Polygon t = Placed(TShape(24, 18, 6), 2.9, {1, 2});
+  const std::vector<std::pair<Polygon, int>> shapes = {{l, 2}, {u, 2}, {t, 3}};
   for (const auto& [outline, gables] : shapes) {
     const PitchedRoof roof = MakePitchedRoof(outline, RoofShape::kGabled, 0.7);
     EXPECT_EQ(Gables(roof), gables);
@@ -114,7 +114,7 @@ TEST(Solid, WingsEndInGables) {
 }
 
 TEST(Solid, CourtyardKeepsItsRoofAround) {
-  const plan::Polygon outline = Placed(CourtyardShape(36, 44, 10), 0.5, {3, 3});
+  const Polygon outline = Placed(CourtyardShape(36, 44, 10), 0.5, {3, 3});
   const PitchedRoof roof = MakePitchedRoof(outline, RoofShape::kHipped, 0.6);
   EXPECT_EQ(roof.faces.size(), 8u);
   ExpectSound(MakeSolid(outline, 0, 12, roof));

@@ -14,7 +14,6 @@
 #include <set>
 #include <sstream>
 
-#include "plan/polygons.h"
 #include "simulate/city/design_wall.h"
 #include "simulate/city/footprints.h"
 #include "simulate/city/ground.h"
@@ -26,6 +25,7 @@
 #include "simulate/paint/car_shape.h"
 #include "simulate/paint/paint.h"
 #include "survey/error.h"
+#include "survey/geometry2d.h"
 #include "tests/survey/support.h"
 
 namespace stucco::simulate {
@@ -39,7 +39,7 @@ constexpr int kSeedsOfMaps = 200;
 std::string Print(const Town& town) {
   std::ostringstream text;
   for (const House& house : town.houses) {
-    for (const plan::Ring& ring : house.outline.rings) {
+    for (const Ring& ring : house.outline.rings) {
       for (const auto& corner : ring) text << corner.transpose() << ";";
     }
     text << house.storeys << static_cast<int>(house.cladding) << "\n";
@@ -90,7 +90,7 @@ TEST_P(Towns, GroundIsWhatHousesLeaveFree) {
     double free = 0;
     for (const Facet& facet : GroundFacets(town, MakeGroundGrid(town))) free += facet.area;
     double houses = 0;
-    for (const House& house : town.houses) houses += plan::Area(house.outline);
+    for (const House& house : town.houses) houses += Area(house.outline);
     double covered = 0;
     const GroundGrid grid = MakeGroundGrid(town);
     for (int row = 0; row < grid.rows(); ++row) {
@@ -172,7 +172,7 @@ std::string Samples(const Town& town) {
   };
   std::string text;
   for (const House* house : {&town.houses.front(), &town.houses.back()}) {
-    const plan::Ring& ring = house->outline.rings[0];
+    const Ring& ring = house->outline.rings[0];
     text += fmt::format("{} {} {}; ", at(ring[0]), at(ring[2]), house->storeys);
   }
   const Car& car = town.cars.back();
@@ -205,9 +205,9 @@ TEST_P(Towns, SeedOneIsWhatItWas) {
 std::optional<double> RoofOver(const Solid& solid, const Eigen::Vector2d& at) {
   for (const Solid::Face& face : solid.faces) {
     const Loop loop = Corners(solid, face.outer);
-    plan::Polygon plan = {{{}}};
+    Polygon plan = {{{}}};
     for (const Eigen::Vector3d& corner : loop) plan.rings[0].push_back(corner.head<2>());
-    if (face.facet_class != FacetClass::kRoof || !plan::Contains(plan, at)) continue;
+    if (face.facet_class != FacetClass::kRoof || !stucco::Contains(plan, at)) continue;
     const Eigen::Vector3d normal = AreaVector(loop);
     return (normal.dot(loop[0]) - normal.head<2>().dot(at)) / normal.z();
   }
@@ -226,14 +226,14 @@ TEST_P(Towns, NoLeafGrowsIntoAHouse) {
       const Eigen::Vector2d at = scene.positions[scene.triangles[i][0]].head<2>().cast<double>();
       for (const House& house : town.houses) {
         const double room = HasBalconies(house) ? 1.5 : 0;
-        ASSERT_FALSE(plan::Contains(house.outline, at)) << seed << " " << house.id;
+        ASSERT_FALSE(stucco::Contains(house.outline, at)) << seed << " " << house.id;
         ASSERT_GT(DistanceToOutline(house.outline, at), room) << seed << " " << house.id;
       }
     }
   }
 }
 
-plan::Polygon OutlineOf(const Car& car) {
+Polygon OutlineOf(const Car& car) {
   return Placed(Rectangle(kCarLength_m, kCarWidth_m), car.heading_rad, car.position);
 }
 
@@ -243,17 +243,17 @@ TEST_P(Towns, CarsAndTreesStandFree) {
     EXPECT_FALSE(town.trees.empty());
     for (const House& house : town.houses) {
       for (const Tree& tree : town.trees) {
-        ASSERT_FALSE(plan::Contains(house.outline, tree.position)) << seed;
+        ASSERT_FALSE(stucco::Contains(house.outline, tree.position)) << seed;
       }
       for (const Car& car : town.cars) {
         ASSERT_GT(Gap(OutlineOf(car), house.outline), 0.5) << seed;
       }
     }
     for (size_t i = 0; i < town.cars.size(); ++i) {
-      const plan::Polygon car = OutlineOf(town.cars[i]);
+      const Polygon car = OutlineOf(town.cars[i]);
       for (size_t j = 0; j < i; ++j) ASSERT_GT(Gap(car, OutlineOf(town.cars[j])), 0.2) << seed;
       for (const Tree& tree : town.trees) {
-        ASSERT_FALSE(plan::Contains(car, tree.position)) << seed;
+        ASSERT_FALSE(stucco::Contains(car, tree.position)) << seed;
         ASSERT_GT(DistanceToOutline(car, tree.position), 0.3) << seed << ": in a trunk";
       }
     }

@@ -66,7 +66,8 @@ TEST(SourceSide, EdgesHaveADirection) {
   const std::vector<FlowNode> nodes = {{5, 0}, {0, 2}};
   EXPECT_EQ(SourceSide(nodes, std::vector<FlowEdge>{{0, 1, 1, 0}}),
             (std::vector<bool>{true, false}));
-  EXPECT_EQ(SourceSide(nodes, std::vector<FlowEdge>{{0, 1, 3, 0}}), (std::vector<bool>{true, true}));
+  EXPECT_EQ(SourceSide(nodes, std::vector<FlowEdge>{{0, 1, 3, 0}}),
+            (std::vector<bool>{true, true}));
   EXPECT_EQ(SourceSide(nodes, std::vector<FlowEdge>{{0, 1, 0, 3}}),
             (std::vector<bool>{true, false}));
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "survey/files.h"
+#include "survey/plan_io.h"
 #include "survey/survey_folder.h"
 #include "tests/survey/stage_support.h"
 #include "tests/survey/support.h"

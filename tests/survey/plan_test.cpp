@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "survey/plan.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
 #include "survey/files.h"
+#include "survey/plan_io.h"
 #include "tests/survey/support.h"
 
 namespace stucco {

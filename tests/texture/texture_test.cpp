@@ -13,7 +13,7 @@
 #include "survey/colmap_io.h"
 #include "survey/error.h"
 #include "survey/files.h"
-#include "survey/plan.h"
+#include "survey/plan_io.h"
 #include "survey/point_cloud.h"
 #include "survey/survey_folder.h"
 #include "survey/texture_set.h"

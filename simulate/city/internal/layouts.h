@@ -21,7 +21,7 @@ void MarkFront(const Eigen::Vector2d& direction, House& house);
 // Edges that two houses share, from corner to corner.
 void MarkPartyWalls(std::vector<House>& houses);
 
-bool KeepsApart(const plan::Polygon& outline, const std::vector<House>& houses, double least_m);
+bool KeepsApart(const Polygon& outline, const std::vector<House>& houses, double least_m);
 
 // How far a trunk keeps from walls: crowns bulge beyond their radius, and leaves stand out of them.
 double RoomFor(const Tree& tree);

@@ -7,8 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "plan/polygons.h"
-#include "plan/space/plane.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::simulate::internal {
 namespace {
@@ -22,10 +21,9 @@ Key KeyOf(const Vector2d& point) {
 }
 
 // Edges of all rings by their start, less those that are there in both directions.
-std::multimap<Key, Key> FreeEdges(const std::vector<plan::Ring>& rings,
-                                  std::map<Key, Vector2d>& points) {
+std::multimap<Key, Key> FreeEdges(const std::vector<Ring>& rings, std::map<Key, Vector2d>& points) {
   std::multimap<Key, Key> edges;
-  for (const plan::Ring& ring : rings) {
+  for (const Ring& ring : rings) {
     for (size_t i = 0; i < ring.size(); ++i) {
       const Key a = KeyOf(ring[i]);
       const Key b = KeyOf(ring[(i + 1) % ring.size()]);
@@ -42,26 +40,26 @@ std::multimap<Key, Key> FreeEdges(const std::vector<plan::Ring>& rings,
   return edges;
 }
 
-plan::Ring WithoutStraightCorners(const plan::Ring& ring) {
-  plan::Ring kept;
+Ring WithoutStraightCorners(const Ring& ring) {
+  Ring kept;
   const size_t n = ring.size();
   for (size_t i = 0; i < n; ++i) {
     const Vector2d u = (ring[i] - ring[(i + n - 1) % n]).normalized();
     const Vector2d v = (ring[(i + 1) % n] - ring[i]).normalized();
     constexpr double kStraight = 1e-6;
-    if (std::abs(plan::Cross(u, v)) > kStraight) kept.push_back(ring[i]);
+    if (std::abs(Cross(u, v)) > kStraight) kept.push_back(ring[i]);
   }
   return kept;
 }
 
 }  // namespace
 
-std::vector<plan::Ring> JoinLoops(const std::vector<plan::Ring>& rings) {
+std::vector<Ring> JoinLoops(const std::vector<Ring>& rings) {
   std::map<Key, Vector2d> points;
   std::multimap<Key, Key> edges = FreeEdges(rings, points);
-  std::vector<plan::Ring> loops;
+  std::vector<Ring> loops;
   while (!edges.empty()) {
-    plan::Ring loop;
+    Ring loop;
     const Key start = edges.begin()->first;
     Key at = start;
     Vector2d heading = Vector2d::Zero();
@@ -74,7 +72,7 @@ std::vector<plan::Ring> JoinLoops(const std::vector<plan::Ring>& rings) {
       double most = -4;
       for (auto edge = from; edge != to; ++edge) {
         const Vector2d ahead = points.at(edge->second) - points.at(at);
-        const double turn = std::atan2(plan::Cross(heading, ahead), heading.dot(ahead));
+        const double turn = std::atan2(Cross(heading, ahead), heading.dot(ahead));
         if (turn <= most) continue;
         most = turn;
         best = edge;
@@ -89,19 +87,19 @@ std::vector<plan::Ring> JoinLoops(const std::vector<plan::Ring>& rings) {
   return loops;
 }
 
-std::vector<plan::Polygon> PolygonsOf(const std::vector<plan::Ring>& loops) {
-  std::vector<plan::Polygon> polygons;
-  for (const plan::Ring& loop : loops) {
-    if (plan::SignedArea(loop) > 0) polygons.push_back({{loop}});
+std::vector<Polygon> PolygonsOf(const std::vector<Ring>& loops) {
+  std::vector<Polygon> polygons;
+  for (const Ring& loop : loops) {
+    if (SignedArea(loop) > 0) polygons.push_back({{loop}});
   }
   std::stable_sort(polygons.begin(), polygons.end(), [](const auto& a, const auto& b) {
-    return plan::SignedArea(a.rings[0]) < plan::SignedArea(b.rings[0]);
+    return SignedArea(a.rings[0]) < SignedArea(b.rings[0]);
   });
-  for (const plan::Ring& loop : loops) {
-    if (plan::SignedArea(loop) > 0) continue;
-    for (plan::Polygon& polygon : polygons) {
-      if (plan::SignedArea(polygon.rings[0]) <= -plan::SignedArea(loop)) continue;
-      if (!plan::Contains({{polygon.rings[0]}}, loop[0])) continue;
+  for (const Ring& loop : loops) {
+    if (SignedArea(loop) > 0) continue;
+    for (Polygon& polygon : polygons) {
+      if (SignedArea(polygon.rings[0]) <= -SignedArea(loop)) continue;
+      if (!Contains({{polygon.rings[0]}}, loop[0])) continue;
       polygon.rings.push_back(loop);
       break;
     }

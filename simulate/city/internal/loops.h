@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "plan/site.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::simulate::internal {
 
@@ -12,9 +12,9 @@ namespace stucco::simulate::internal {
 // edges from corner to corner (within a millimetre): edges that are there in both directions fall
 // away. Counter-clockwise loops are outer ones, clockwise ones holes; no corner is on a straight
 // line.
-std::vector<plan::Ring> JoinLoops(const std::vector<plan::Ring>& rings);
+std::vector<Ring> JoinLoops(const std::vector<Ring>& rings);
 
 // Gives every clockwise ring to the smallest counter-clockwise one around it.
-std::vector<plan::Polygon> PolygonsOf(const std::vector<plan::Ring>& loops);
+std::vector<Polygon> PolygonsOf(const std::vector<Ring>& loops);
 
 }  // namespace stucco::simulate::internal

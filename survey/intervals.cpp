@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/quality/intervals.h"
+#include "survey/intervals.h"
 
 #include <algorithm>
 
-namespace stucco::plan {
+namespace stucco {
 
 std::optional<Interval> Intersection(const Interval& a, const Interval& b) {
   const Interval common{std::max(a.from_m, b.from_m), std::min(a.to_m, b.to_m)};
@@ -78,4 +78,4 @@ double Length(std::span<const Interval> set) {
   return length;
 }
 
-}  // namespace stucco::plan
+}  // namespace stucco

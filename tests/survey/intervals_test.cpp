@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/intervals.h"
+
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "plan/quality/intervals.h"
-
-namespace stucco::plan {
+namespace stucco {
 namespace {
 
 TEST(Intervals, UnionJoinsWhatTouchesAndDropsWhatIsEmpty) {
@@ -55,4 +55,4 @@ TEST(Intervals, AgreeWithMembershipOfPoints) {
 }
 
 }  // namespace
-}  // namespace stucco::plan
+}  // namespace stucco

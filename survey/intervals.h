@@ -6,9 +6,15 @@
 #include <span>
 #include <vector>
 
-#include "survey/plan.h"
+namespace stucco {
 
-namespace stucco::plan {
+// From..to in metres along something; to >= from.
+struct Interval {
+  double from_m = 0;
+  double to_m = 0;
+  double length_m() const { return to_m - from_m; }
+  bool operator==(const Interval&) const = default;
+};
 
 // A set of points on a line: disjoint intervals in ascending order, none empty.
 using Intervals = std::vector<Interval>;
@@ -24,4 +30,4 @@ Intervals Gaps(std::span<const Interval> set, const Interval& window);
 Intervals Difference(std::span<const Interval> a, std::span<const Interval> b);
 double Length(std::span<const Interval> set);
 
-}  // namespace stucco::plan
+}  // namespace stucco

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/polygons.h"
+#include "survey/geometry2d.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
-namespace stucco::plan {
+namespace stucco {
 namespace {
 
 // visit(a, b) for every edge.
@@ -16,8 +17,14 @@ void VisitEdges(const Polygon& polygon, const Visit& visit) {
   }
 }
 
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
+bool CrossEachOther(const Segment2d& s, const Segment2d& t) {
+  const Eigen::Vector2d u = s.b - s.a;
+  const Eigen::Vector2d v = t.b - t.a;
+  const double from_t_a = Cross(v, s.a - t.a);
+  const double from_t_b = Cross(v, s.b - t.a);
+  const double from_s_a = Cross(u, t.a - s.a);
+  const double from_s_b = Cross(u, t.b - s.a);
+  return (from_t_a > 0) != (from_t_b > 0) && (from_s_a > 0) != (from_s_b > 0);
 }
 
 }  // namespace
@@ -54,21 +61,30 @@ bool Contains(const Polygon& polygon, const Eigen::Vector2d& p) {
   return inside;
 }
 
-double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
-                         const Eigen::Vector2d& b) {
-  const Eigen::Vector2d along = b - a;
+double SquaredDistance(const Segment2d& segment, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d along = segment.b - segment.a;
   const double squared = along.squaredNorm();
-  const double t = squared > 0 ? std::clamp((p - a).dot(along) / squared, 0.0, 1.0) : 0;
-  return (p - a - t * along).norm();
+  const double t = squared > 0 ? std::clamp((p - segment.a).dot(along) / squared, 0.0, 1.0) : 0;
+  return (p - segment.a - t * along).squaredNorm();
+}
+
+double Distance(const Segment2d& segment, const Eigen::Vector2d& p) {
+  return std::sqrt(SquaredDistance(segment, p));
+}
+
+double SquaredDistance(const Segment2d& s, const Segment2d& t) {
+  if (CrossEachOther(s, t)) return 0;
+  return std::min({SquaredDistance(t, s.a), SquaredDistance(t, s.b), SquaredDistance(s, t.a),
+                   SquaredDistance(s, t.b)});
 }
 
 double Distance(const Polygon& polygon, const Eigen::Vector2d& p) {
   if (Contains(polygon, p)) return 0;
   double nearest = std::numeric_limits<double>::infinity();
   VisitEdges(polygon, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    nearest = std::min(nearest, DistanceToSegment(p, a, b));
+    nearest = std::min(nearest, Distance(Segment2d{a, b}, p));
   });
   return nearest;
 }
 
-}  // namespace stucco::plan
+}  // namespace stucco

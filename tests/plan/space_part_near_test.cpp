@@ -4,24 +4,13 @@
 
 #include <random>
 
-#include "plan/space/plane.h"
+#include "plan/space/part_near.h"
 
 namespace stucco::plan {
 namespace {
 
-TEST(Plane, DistanceOfSegments) {
-  const Segment2 s{{0, 0}, {10, 0}};
-  EXPECT_DOUBLE_EQ(SquaredDistance(s, {{5, -1}, {5, 1}}), 0);    // cross
-  EXPECT_DOUBLE_EQ(SquaredDistance(s, {{10, 0}, {20, 5}}), 0);   // touch at an end
-  EXPECT_DOUBLE_EQ(SquaredDistance(s, {{0, 3}, {10, 3}}), 9);    // parallel
-  EXPECT_DOUBLE_EQ(SquaredDistance(s, {{13, 4}, {20, 4}}), 25);  // ends
-  EXPECT_DOUBLE_EQ(SquaredDistance(s, {{12, 0}, {15, 0}}), 4);   // on one line
-  EXPECT_DOUBLE_EQ(SquaredDistance(s, {{4, 2}, {4, 2}}), 4);     // a point
-  EXPECT_DOUBLE_EQ(SquaredDistance(Segment2{{1, 1}, {1, 1}}, Segment2{{4, 5}, {4, 5}}), 25);
-}
-
-TEST(Plane, PartNearASegmentIsThatOfACapsule) {
-  const Segment2 wall{{0, 0}, {0, 10}};
+TEST(PartNear, IsThatOfACapsule) {
+  const Segment2d wall{{0, 0}, {0, 10}};
   const auto across = PartNear({{-10, 5}, {10, 5}}, wall, 4);
   ASSERT_TRUE(across);
   EXPECT_NEAR(across->from_m, 0.3, 1e-12);
@@ -36,17 +25,17 @@ TEST(Plane, PartNearASegmentIsThatOfACapsule) {
   EXPECT_FALSE(PartNear({{1, 5}, {1, 5}}, {{9, 9}, {9, 9}}, 5));
 }
 
-TEST(Plane, PartNearAgreesWithDistances) {
+TEST(PartNear, AgreesWithDistances) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> at(-10, 10);
   const auto point = [&] { return Eigen::Vector2d(at(random), at(random)); };
   for (int k = 0; k < 500; ++k) {
-    const Segment2 s{point(), point()};
-    const Segment2 t{point(), point()};
+    const Segment2d s{point(), point()};
+    const Segment2d t{point(), point()};
     const auto part = PartNear(s, t, 3);
     EXPECT_EQ(part.has_value(), SquaredDistance(s, t) < 9);
     for (double at_s = 0; at_s <= 1; at_s += 0.01) {
-      const double squared = SquaredDistance(Eigen::Vector2d(s.a + at_s * (s.b - s.a)), t);
+      const double squared = SquaredDistance(t, Eigen::Vector2d(s.a + at_s * (s.b - s.a)));
       if (std::abs(squared - 9) < 1e-9) continue;
       EXPECT_EQ(squared < 9, part && at_s >= part->from_m && at_s <= part->to_m);
     }

@@ -1,30 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/space/plane.h"
+#include "plan/space/part_near.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace stucco::plan {
 
 using Eigen::Vector2d;
 
-double SquaredDistance(const Vector2d& point, const Segment2& segment) {
-  const Vector2d along = segment.b - segment.a;
-  const double squared = along.squaredNorm();
-  const double t =
-      squared > 0 ? std::clamp((point - segment.a).dot(along) / squared, 0.0, 1.0) : 0.0;
-  return (segment.a + t * along - point).squaredNorm();
-}
-
 namespace {
-
-bool Intersect(const Segment2& s, const Segment2& t) {
-  const Vector2d u = s.b - s.a;
-  const Vector2d v = t.b - t.a;
-  const double from_t_a = Cross(v, Vector2d(s.a - t.a));
-  const double from_t_b = Cross(v, Vector2d(s.b - t.a));
-  const double from_s_a = Cross(u, Vector2d(t.a - s.a));
-  const double from_s_b = Cross(u, Vector2d(t.b - s.a));
-  return (from_t_a > 0) != (from_t_b > 0) && (from_s_a > 0) != (from_s_b > 0);
-}
 
 void Widen(std::optional<Interval>& part, double from, double to) {
   from = std::max(from, 0.0);
@@ -35,7 +21,7 @@ void Widen(std::optional<Interval>& part, double from, double to) {
 }
 
 // Where |s(t) - centre| < radius.
-void WidenByDisc(std::optional<Interval>& part, const Segment2& s, const Vector2d& centre,
+void WidenByDisc(std::optional<Interval>& part, const Segment2d& s, const Vector2d& centre,
                  double radius) {
   const Vector2d d = s.b - s.a;
   const Vector2d m = s.a - centre;
@@ -66,13 +52,7 @@ void Clip(double offset, double slope, const Interval& within, Interval& part) {
 
 }  // namespace
 
-double SquaredDistance(const Segment2& s, const Segment2& t) {
-  if (Intersect(s, t)) return 0;
-  return std::min({SquaredDistance(s.a, t), SquaredDistance(s.b, t), SquaredDistance(t.a, s),
-                   SquaredDistance(t.b, s)});
-}
-
-std::optional<Interval> PartNear(const Segment2& s, const Segment2& t, double radius) {
+std::optional<Interval> PartNear(const Segment2d& s, const Segment2d& t, double radius) {
   std::optional<Interval> part;
   WidenByDisc(part, s, t.a, radius);
   WidenByDisc(part, s, t.b, radius);
@@ -83,7 +63,7 @@ std::optional<Interval> PartNear(const Segment2& s, const Segment2& t, double ra
   const Vector2d d = s.b - s.a;
   Interval beside{0, 1};
   Clip((s.a - t.a).dot(u), d.dot(u), {0, length}, beside);
-  Clip(Cross(u, Vector2d(s.a - t.a)), Cross(u, d), {-radius, radius}, beside);
+  Clip(Cross(u, s.a - t.a), Cross(u, d), {-radius, radius}, beside);
   if (beside.from_m <= beside.to_m) Widen(part, beside.from_m, beside.to_m);
   return part;
 }

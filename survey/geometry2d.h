@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace stucco {
+
+// The plane: outlines, straight lines between points, and what they enclose. Lengths are in the
+// unit of the coordinates.
+
+// Corners in order, the first not repeated.
+using Ring = std::vector<Eigen::Vector2d>;
+struct Polygon {
+  std::vector<Ring> rings;  // outer counter-clockwise, then holes clockwise
+};
+
+struct Segment2d {
+  Eigen::Vector2d a = Eigen::Vector2d::Zero();
+  Eigen::Vector2d b = Eigen::Vector2d::Zero();
+};
+
+// The z of the cross product: positive when v is to the left of u.
+inline double Cross(const Eigen::Vector2d& u, const Eigen::Vector2d& v) {
+  return u.x() * v.y() - u.y() * v.x();
+}
+
+double SignedArea(const Ring& ring);  // positive when counter-clockwise
+double Area(const Polygon& polygon);
+// Of the outer ring; empty without one.
+Eigen::AlignedBox2d BoundsOf(const Polygon& polygon);
+// By crossings: points on the boundary may count either way.
+bool Contains(const Polygon& polygon, const Eigen::Vector2d& p);
+
+// To the nearest point of the segment, which may have no length. The squares spare a square root to
+// whoever only compares.
+double Distance(const Segment2d& segment, const Eigen::Vector2d& p);
+double SquaredDistance(const Segment2d& segment, const Eigen::Vector2d& p);
+double SquaredDistance(const Segment2d& s, const Segment2d& t);  // 0 where they cross or touch
+// 0 inside; infinite without a ring.
+double Distance(const Polygon& polygon, const Eigen::Vector2d& p);
+
+}  // namespace stucco
