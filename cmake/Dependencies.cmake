@@ -11,7 +11,7 @@ find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs features2d ca
 find_package(Ceres 2.1 REQUIRED)
 find_package(glog 0.6 REQUIRED)
 find_package(CGAL 5.5 REQUIRED)
-# Boost.Graph, headers only. proxy and texture get its include folder through CGAL.
+# Boost.Graph, headers only. survey gets its include folder through CGAL.
 find_package(Boost 1.74 REQUIRED)
 find_package(embree 3.13 REQUIRED)
 find_package(assimp 5.2 REQUIRED)

@@ -11,17 +11,18 @@
 #include <opencv2/core/utility.hpp>
 #include <vector>
 
-#include "dense/cache.h"
-#include "dense/depth_map.h"
 #include "dense/fuse.h"
 #include "dense/outliers.h"
 #include "dense/patch_match.h"
 #include "dense/sources.h"
+#include "dense/speckles.h"
 #include "dense/view.h"
 #include "survey/captures.h"
 #include "survey/colmap_io.h"
+#include "survey/depth_map.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/lru_cache.h"
 #include "survey/parallel.h"
 #include "survey/survey_folder.h"
 #include "survey/survey_photo.h"
@@ -94,7 +95,7 @@ class Densifier {
 
   // 3. One cloud.
   PointCloud FuseMaps() {
-    LruCache<DepthMap> maps(
+    LruCache<int, DepthMap> maps(
         context_.memory_limit_bytes / 4, [this](int i) { return LoadFinalMap(i); }, MapBytes);
     FuseInput input;
     for (size_t i = 0; i < photos_.size(); ++i) {
@@ -254,8 +255,8 @@ class Densifier {
   std::map<PhotoId, SourceChoice> choices_;
   std::vector<SurveyPhoto> photos_;
   std::vector<DepthJob> jobs_;  // by photo
-  LruCache<ViewPyramid> views_;
-  LruCache<DepthMap> maps_;
+  LruCache<int, ViewPyramid> views_;
+  LruCache<int, DepthMap> maps_;
   std::vector<std::string> final_maps_;  // keys
 };
 

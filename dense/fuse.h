@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "dense/depth_map.h"
 #include "dense/view.h"
+#include "survey/depth_map.h"
 #include "survey/ids.h"
 #include "survey/image.h"
 #include "survey/point_cloud.h"

@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "dense/depth_map.h"
 #include "dense/view.h"
+#include "survey/depth_map.h"
 
 namespace stucco {
 

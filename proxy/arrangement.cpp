@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "survey/disjoint_sets.h"
+#include "survey/geometry2d.h"
 
 namespace stucco {
 namespace {
@@ -17,10 +18,6 @@ using EdgeKey = std::pair<int, int>;
 
 EdgeKey KeyOf(int a, int b) {
   return {std::min(a, b), std::max(a, b)};
-}
-
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 // Cuts the faces by one line after the other; all faces share one table of vertices, so that an
@@ -162,32 +159,19 @@ std::vector<Eigen::Vector2d> WithoutStraightCorners(const std::vector<Eigen::Vec
   return kept;
 }
 
-bool ContainsPoint(std::span<const Eigen::Vector2d> ring, const Eigen::Vector2d& p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const auto& a = ring[i];
-    const auto& b = ring[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) {
-      inside = !inside;
-    }
-  }
-  return inside;
-}
-
-struct Ring {
+struct Traced {
   std::vector<int> vertices;
   int component;
 };
 
-std::vector<Ring> TraceRings(const Arrangement& arrangement, const std::vector<Border>& borders) {
+std::vector<Traced> TraceRings(const Arrangement& arrangement, const std::vector<Border>& borders) {
   std::vector<std::vector<int>> leaving(arrangement.vertices.size());
   for (size_t i = 0; i < borders.size(); ++i) leaving[borders[i].from].push_back(int(i));
   std::vector<bool> used(borders.size(), false);
-  std::vector<Ring> rings;
+  std::vector<Traced> rings;
   for (size_t first = 0; first < borders.size(); ++first) {
     if (used[first]) continue;
-    Ring ring{.vertices = {}, .component = borders[first].component};
+    Traced ring{.vertices = {}, .component = borders[first].component};
     int current = static_cast<int>(first);
     while (current >= 0) {
       used[current] = true;
@@ -214,6 +198,19 @@ Arrangement Arrange(const Eigen::AlignedBox2d& box, std::span<const CutLine> lin
   Cutter cutter(box);
   for (size_t i = 0; i < lines.size(); ++i) cutter.Cut(lines[i], static_cast<int>(i));
   return cutter.Take();
+}
+
+bool ContainsPoint(std::span<const Eigen::Vector2d> ring, const Eigen::Vector2d& p) {
+  bool inside = false;
+  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const auto& a = ring[i];
+    const auto& b = ring[j];
+    if ((a.y() > p.y()) != (b.y() > p.y()) &&
+        p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) {
+      inside = !inside;
+    }
+  }
+  return inside;
 }
 
 double SignedArea(std::span<const Eigen::Vector2d> ring) {
@@ -246,16 +243,16 @@ std::vector<IndexPolygon> UnionOfIndices(const Arrangement& arrangement,
       borders.push_back({edge.to, edge.from, components.Find(edge.right)});
     }
   }
-  std::vector<Ring> holes;
+  std::vector<Traced> holes;
   std::map<int, std::vector<IndexPolygon>> outers;
-  for (Ring& ring : TraceRings(arrangement, borders)) {
+  for (Traced& ring : TraceRings(arrangement, borders)) {
     if (SignedArea(PointsOf(arrangement, ring.vertices)) > 0) {
       outers[ring.component].push_back({.outer = std::move(ring.vertices), .holes = {}});
     } else {
       holes.push_back(std::move(ring));
     }
   }
-  for (Ring& hole : holes) {
+  for (Traced& hole : holes) {
     auto& candidates = outers[hole.component];
     const Eigen::Vector2d middle =
         (arrangement.vertices[hole.vertices[0]] + arrangement.vertices[hole.vertices[1]]) / 2;

@@ -58,6 +58,8 @@ struct Polygon2 {
 };
 
 double SignedArea(std::span<const Eigen::Vector2d> ring);
+// By crossings: points on the ring may count either way.
+bool ContainsPoint(std::span<const Eigen::Vector2d> ring, const Eigen::Vector2d& p);
 double AreaOf(const Polygon2& polygon);
 
 // The same by vertex numbers.

@@ -8,6 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "survey/geometry2d.h"
+
 namespace stucco {
 namespace {
 
@@ -16,10 +18,6 @@ struct ContourEdge {
   Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
   double length = 0;
 };
-
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 // Edges of the simplified contours, in plane coordinates. The contour runs through the centres of
 // the border cells: edges are moved out by half a cell.

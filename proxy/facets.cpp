@@ -14,23 +14,10 @@
 namespace stucco {
 namespace {
 
-bool InRing(const std::vector<Eigen::Vector2d>& ring, const Eigen::Vector2d& p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const auto& a = ring[i];
-    const auto& b = ring[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) {
-      inside = !inside;
-    }
-  }
-  return inside;
-}
-
 bool InPolygon(const Polygon2& polygon, const Eigen::Vector2d& p) {
-  return InRing(polygon.outer, p) &&
+  return ContainsPoint(polygon.outer, p) &&
          std::none_of(polygon.holes.begin(), polygon.holes.end(),
-                      [&](const auto& hole) { return InRing(hole, p); });
+                      [&](const auto& hole) { return ContainsPoint(hole, p); });
 }
 
 double SeenShare(const PlaneView& view, const Polygon2& polygon) {

@@ -18,8 +18,8 @@ struct CutLink {
   double cost = 0;  // paid when the labels differ
 };
 
-// The cheapest labelling (true: in) of a two-label energy with non-negative costs, as a minimum cut
-// (Boykov, Kolmogorov, "An experimental comparison of min-cut/max-flow algorithms", 2004).
+// The cheapest labelling (true: in) of a two-label energy with non-negative costs, as a minimum
+// cut. Costs are rounded to 2^-50 of their sum.
 std::vector<bool> CheapestLabels(std::span<const CutNode> nodes, std::span<const CutLink> links);
 
 }  // namespace stucco

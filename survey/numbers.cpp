@@ -8,6 +8,10 @@
 
 namespace stucco {
 
+double RoundTo(double value, double unit_inverse) {
+  return std::round(value * unit_inverse) / unit_inverse + 0.0;  // + 0.0 makes -0 a 0
+}
+
 std::string Percent(double share) {
   if (!std::isfinite(share)) return "-";
   const double percent = 100 * share;

@@ -6,6 +6,10 @@
 
 namespace stucco {
 
+// The nearest multiple of 1 / unit_inverse, as files carry numbers: the same bytes where two
+// machines differ in the last bits.
+double RoundTo(double value, double unit_inverse);
+
 // How numbers are written for people. Lengths are metres only where the survey is metric; else they
 // are called units, because nothing fixes their scale.
 std::string Percent(double share);                // "54 %"; "-" when not a number

@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/internal/json.h"
 #include "survey/internal/plan_check.h"
+#include "survey/numbers.h"
 
 namespace stucco {
 namespace {
@@ -20,9 +20,6 @@ using Pairs = std::vector<Eigen::Vector2d>;
 
 // Files carry millimetres and thousandths of a degree: far below what a drone can hold, and the
 // same bytes where two machines differ in the last bits.
-double RoundTo(double value, double unit_inverse) {
-  return std::round(value * unit_inverse) / unit_inverse + 0.0;  // + 0.0 makes -0 a 0
-}
 double Metres(double value) {
   return RoundTo(value, 1e3);
 }

@@ -3,25 +3,16 @@
 #include "texture/label_cut.h"
 
 #include <algorithm>
-#include <boost/graph/adjacency_list.hpp>
-#include <boost/graph/boykov_kolmogorov_max_flow.hpp>
 #include <cmath>
 #include <cstdint>
+
+#include "survey/min_cut.h"
 
 namespace stucco {
 namespace {
 
 constexpr int kMaxRounds = 6;
 constexpr double kCapacityUnit = 1e-5;  // flows are whole numbers of this: exact arithmetic
-
-using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
-struct Link {
-  int64_t capacity = 0;
-  int64_t residual = 0;
-  Traits::edge_descriptor reverse;
-};
-using Graph =
-    boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property, Link>;
 
 // Minimises a submodular function of binary variables. 0 is the source's side.
 class BinaryCut {
@@ -57,36 +48,18 @@ class BinaryCut {
 };
 
 std::vector<uint8_t> BinaryCut::Solve() const {
-  const size_t count = cost_.size();
-  Graph graph(count + 2);
-  const size_t source = count;
-  const size_t sink = count + 1;
-  const auto connect = [&](size_t from, size_t to, double capacity) {
-    const auto forward = boost::add_edge(from, to, graph).first;
-    const auto backward = boost::add_edge(to, from, graph).first;
-    graph[forward].capacity = std::llround(capacity / kCapacityUnit);
-    graph[forward].reverse = backward;
-    graph[backward].reverse = forward;
+  const auto whole = [](double cost) {
+    return static_cast<int64_t>(std::llround(cost / kCapacityUnit));
   };
-  for (size_t i = 0; i < count; ++i) {
-    const double common = std::min(cost_[i].zero, cost_[i].one);
-    if (cost_[i].one > common) connect(source, i, cost_[i].one - common);
-    if (cost_[i].zero > common) connect(i, sink, cost_[i].zero - common);
+  std::vector<FlowNode> nodes;
+  for (const Unary& cost : cost_) {
+    const double common = std::min(cost.zero, cost.one);
+    nodes.push_back({whole(cost.one - common), whole(cost.zero - common)});
   }
-  for (const Pair& pair : pairs_) connect(pair.p, pair.q, pair.cost);
-
-  std::vector<Traits::edge_descriptor> predecessor(count + 2);
-  std::vector<boost::default_color_type> color(count + 2, boost::gray_color);
-  std::vector<long> distance(count + 2);
-  const auto index = boost::get(boost::vertex_index, graph);
-  boost::boykov_kolmogorov_max_flow(
-      graph, boost::get(&Link::capacity, graph), boost::get(&Link::residual, graph),
-      boost::get(&Link::reverse, graph),
-      boost::make_iterator_property_map(predecessor.begin(), index),
-      boost::make_iterator_property_map(color.begin(), index),
-      boost::make_iterator_property_map(distance.begin(), index), index, source, sink);
-  std::vector<uint8_t> one(count);
-  for (size_t i = 0; i < count; ++i) one[i] = color[i] != boost::black_color;
+  std::vector<FlowEdge> edges;
+  for (const Pair& pair : pairs_) edges.push_back({pair.p, pair.q, whole(pair.cost), 0});
+  std::vector<uint8_t> one;
+  for (const bool is_zero : SourceSide(nodes, edges)) one.push_back(is_zero ? 0 : 1);
   return one;
 }
 

@@ -33,8 +33,8 @@ Image Halved(const Image& image) {
   return out;
 }
 
-uint64_t SizeOf(const PhotoPyramid& pyramid) {
-  uint64_t bytes = 0;
+size_t SizeOf(const PhotoPyramid& pyramid) {
+  size_t bytes = 0;
   for (const Image& level : pyramid.levels) bytes += level.data.size();
   return bytes;
 }
@@ -53,49 +53,15 @@ PhotoPyramid BuildPyramid(Image picture, int full_width_px, int full_height_px) 
   return pyramid;
 }
 
-std::shared_ptr<const PhotoPyramid> PhotoCache::Get(const std::string& name, int max_side_px) {
-  const Key key(name, max_side_px);
-  std::shared_ptr<Slot> slot;
-  {
-    const std::lock_guard lock(mutex_);
-    auto [entry, added] = entries_.try_emplace(key);
-    if (added) {
-      entry->second.slot = std::make_shared<Slot>();
-      recent_.push_front(key);
-      entry->second.position = recent_.begin();
-    } else {
-      recent_.splice(recent_.begin(), recent_, entry->second.position);
-    }
-    slot = entry->second.slot;
-  }
-  const std::lock_guard lock(slot->loading);
-  if (!slot->pyramid) {
-    const std::filesystem::path path = folder_ / name;
-    const ImageSize full = ReadJpegSize(path);
-    slot->pyramid = std::make_shared<const PhotoPyramid>(
-        BuildPyramid(ReadJpeg(path, 3, max_side_px), full.width_px, full.height_px));
-    Account(key, SizeOf(*slot->pyramid));
-  }
-  return slot->pyramid;
-}
-
-void PhotoCache::Account(const Key& key, uint64_t bytes) {
-  const std::lock_guard lock(mutex_);
-  const auto found = entries_.find(key);
-  if (found == entries_.end()) return;  // dropped while it was being decoded
-  found->second.bytes = bytes;
-  bytes_ += bytes;
-  while (bytes_ > limit_bytes_ && entries_.size() > 1 && recent_.back() != key) {
-    const auto oldest = entries_.find(recent_.back());
-    bytes_ -= oldest->second.bytes;
-    entries_.erase(oldest);
-    recent_.pop_back();
-  }
-}
-
-uint64_t PhotoCache::bytes() const {
-  const std::lock_guard lock(mutex_);
-  return bytes_;
-}
+PhotoCache::PhotoCache(const std::filesystem::path& folder, uint64_t limit_bytes)
+    : photos_(
+          limit_bytes,
+          [folder](const std::pair<std::string, int>& key) {
+            const std::filesystem::path path = folder / key.first;
+            const ImageSize full = ReadJpegSize(path);
+            return std::make_shared<const PhotoPyramid>(
+                BuildPyramid(ReadJpeg(path, 3, key.second), full.width_px, full.height_px));
+          },
+          SizeOf) {}
 
 }  // namespace stucco

@@ -4,15 +4,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <list>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "survey/image.h"
+#include "survey/lru_cache.h"
 
 namespace stucco {
 
@@ -27,38 +25,20 @@ struct PhotoPyramid {
 PhotoPyramid BuildPyramid(Image picture, int full_width_px, int full_height_px);
 
 // Decoded photos, the least recently used dropped first so that together they stay near
-// `limit_bytes`. Thread-safe: a photo that several threads ask for is decoded once. What callers
-// hold stays alive.
+// `limit_bytes`. Thread-safe.
 class PhotoCache {
  public:
-  PhotoCache(std::filesystem::path folder, uint64_t limit_bytes)
-      : folder_(std::move(folder)), limit_bytes_(limit_bytes) {}
+  PhotoCache(const std::filesystem::path& folder, uint64_t limit_bytes);
 
   // `max_side_px` 0: full size. Throws Error (kBadInput) where the file cannot be decoded.
-  std::shared_ptr<const PhotoPyramid> Get(const std::string& name, int max_side_px);
+  std::shared_ptr<const PhotoPyramid> Get(const std::string& name, int max_side_px) {
+    return photos_.Get({name, max_side_px});
+  }
 
-  uint64_t bytes() const;
+  uint64_t bytes() const { return photos_.bytes(); }
 
  private:
-  struct Slot {
-    std::mutex loading;
-    std::shared_ptr<const PhotoPyramid> pyramid;
-  };
-  using Key = std::pair<std::string, int>;
-  struct Entry {
-    std::shared_ptr<Slot> slot;
-    uint64_t bytes = 0;
-    std::list<Key>::iterator position;
-  };
-
-  void Account(const Key& key, uint64_t bytes);
-
-  std::filesystem::path folder_;
-  uint64_t limit_bytes_;
-  mutable std::mutex mutex_;
-  uint64_t bytes_ = 0;
-  std::list<Key> recent_;  // most recent first
-  std::map<Key, Entry> entries_;
+  LruCache<std::pair<std::string, int>, PhotoPyramid> photos_;
 };
 
 }  // namespace stucco

@@ -18,7 +18,6 @@
 namespace stucco::evaluate {
 namespace {
 
-using simulate::DepthMap;
 using simulate::FlownPhoto;
 using simulate::Renderer;
 
@@ -48,12 +47,12 @@ struct View {
 
 std::vector<uint8_t> MaskOf(const DepthMap& model, const DepthMap& scene,
                             const DepthMap& scene_without) {
-  std::vector<uint8_t> mask(model.depth_m.size(), 0);
+  std::vector<uint8_t> mask(model.depths.size(), 0);
   for (size_t i = 0; i < mask.size(); ++i) {
     const bool occluded =
-        scene.depth_m[i] > 0 && (!(scene_without.depth_m[i] > 0) ||
-                                 scene.depth_m[i] < scene_without.depth_m[i] - kInFront_m);
-    mask[i] = model.depth_m[i] > 0 && !occluded ? 1 : 0;
+        scene.depths[i] > 0 &&
+        (!(scene_without.depths[i] > 0) || scene.depths[i] < scene_without.depths[i] - kInFront_m);
+    mask[i] = model.depths[i] > 0 && !occluded ? 1 : 0;
   }
   return mask;
 }
@@ -63,8 +62,8 @@ double ShareOfBuildings(const std::vector<uint8_t>& mask, const DepthMap& scene,
                         const DepthMap& buildings) {
   double shown = 0, compared = 0;
   for (size_t i = 0; i < mask.size(); ++i) {
-    const bool is_hidden = scene.depth_m[i] < buildings.depth_m[i] - kInFront_m;
-    if (!(buildings.depth_m[i] > 0) || is_hidden) continue;
+    const bool is_hidden = scene.depths[i] < buildings.depths[i] - kInFront_m;
+    if (!(buildings.depths[i] > 0) || is_hidden) continue;
     shown += 1;
     compared += mask[i];
   }

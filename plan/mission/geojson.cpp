@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "plan/mission/kml.h"
+#include "survey/numbers.h"
 #include "survey/plan_frame.h"
 
 namespace stucco::plan {
@@ -13,9 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double RoundTo(double value, double unit_inverse) {
-  return std::round(value * unit_inverse) / unit_inverse + 0.0;
-}
 double Rounded(double value) {
   return RoundTo(value, 1000);
 }

@@ -2,20 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plan/output/stats.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "survey/files.h"
+#include "survey/numbers.h"
 
 namespace stucco::plan {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-double RoundTo(double value, double unit_inverse) {
-  return std::round(value * unit_inverse) / unit_inverse + 0.0;
-}
 double Metres(double value) {
   return RoundTo(value, 1e3);
 }

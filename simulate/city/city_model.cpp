@@ -89,21 +89,18 @@ void AddTrim(const Trim& trim, const Loop& corners, CityModel& model) {
 }
 
 void AddPrism(const Trim& trim, const std::vector<Vector2d>& corners, double low_m, double high_m,
-              bool with_bottom, CityModel& model) {
+              CityModel& model) {
   const auto at = [](const Vector2d& corner, double z) {
     return Vector3d(corner.x(), corner.y(), z);
   };
   Loop top;
-  Loop bottom;
   for (size_t i = 0; i < corners.size(); ++i) {
     const Vector2d& a = corners[i];
     const Vector2d& b = corners[(i + 1) % corners.size()];
     AddTrim(trim, {at(a, low_m), at(b, low_m), at(b, high_m), at(a, high_m)}, model);
     top.push_back(at(a, high_m));
-    bottom.insert(bottom.begin(), at(a, low_m));
   }
   AddTrim(trim, top, model);
-  if (with_bottom) AddTrim(trim, bottom, model);
 }
 
 }  // namespace stucco::simulate

@@ -62,9 +62,9 @@ struct Trim {
 Sheet TrimSheet(const Trim& trim, const Eigen::Vector3d& normal);
 void AddTrim(const Trim& trim, const Loop& corners, CityModel& model);
 
-// The faces of a box over a parallelogram of the ground plan; `corners` counter-clockwise from
-// above. The bottom is left out where `with_bottom` is false.
+// The sides and the top of a box over a parallelogram of the ground plan; `corners`
+// counter-clockwise from above.
 void AddPrism(const Trim& trim, const std::vector<Eigen::Vector2d>& corners, double low_m,
-              double high_m, bool with_bottom, CityModel& model);
+              double high_m, CityModel& model);
 
 }  // namespace stucco::simulate

@@ -121,11 +121,15 @@ class Designer {
   bool IsCurtain() const { return house_.cladding == Cladding::kGlass; }
   bool IsFront() const { return house_.front[place_.edge]; }
 
-  void Add(PartKind kind, double x, double width, double bottom_z, double top_z, double relief) {
+  struct Place {
+    double x, width, bottom_z, top_z;  // x: of its middle
+  };
+
+  void Add(PartKind kind, const Place& place, double relief_m) {
     design_.parts.push_back({.kind = kind,
-                             .top_left = {x - width / 2, Y(top_z)},
-                             .bottom_right = {x + width / 2, Y(bottom_z)},
-                             .relief_m = relief,
+                             .top_left = {place.x - place.width / 2, Y(place.top_z)},
+                             .bottom_right = {place.x + place.width / 2, Y(place.bottom_z)},
+                             .relief_m = relief_m,
                              .variant = static_cast<uint32_t>(random_.Next())});
   }
 
@@ -134,38 +138,41 @@ class Designer {
     const double middle = place_.width_m / 2;
     const double plinth_top = house_.floor_m - 0.02;
     if (plinth_top - house_.base_m > 0.1) {
-      Add(PartKind::kPlinth, middle, place_.width_m, house_.base_m, plinth_top, 0);
+      Add(PartKind::kPlinth, {middle, place_.width_m, house_.base_m, plinth_top}, 0);
     }
     if (manner_.cornice_m > 0 && place_.gable_rise_m == 0 && house_.roof == RoofShape::kFlat) {
-      Add(PartKind::kCornice, middle, place_.width_m, place_.top_m - 0.45, place_.top_m - 0.1,
+      Add(PartKind::kCornice, {middle, place_.width_m, place_.top_m - 0.45, place_.top_m - 0.1},
           manner_.cornice_m);
     }
   }
 
   void AddLedge(int storey) {
     const double floor = FloorOf(storey);
-    Add(PartKind::kLedge, place_.width_m / 2, place_.width_m, floor - 0.22, floor, manner_.ledge_m);
+    Add(PartKind::kLedge, {place_.width_m / 2, place_.width_m, floor - 0.22, floor},
+        manner_.ledge_m);
   }
 
   void AddWindow(int storey, double x) {
     if (IsCurtain()) return;
     const double sill = FloorOf(storey) + manner_.sill_m;
-    Add(PartKind::kWindow, x, manner_.window_width_m, sill, sill + manner_.window_height_m,
+    Add(PartKind::kWindow, {x, manner_.window_width_m, sill, sill + manner_.window_height_m},
         -manner_.recess_m);
   }
 
   // Set back as a room without a front; the parapet below it belongs to the wall.
   void AddLoggia(int storey, double x, double width) {
     const double floor = FloorOf(storey);
-    Add(PartKind::kWindow, x, width, floor + kRailing_m, floor + house_.storey_m - 0.4,
+    Add(PartKind::kWindow, {x, width, floor + kRailing_m, floor + house_.storey_m - 0.4},
         -manner_.loggia_m);
   }
 
   void AddBalcony(int storey, double x) {
     const double floor = FloorOf(storey);
-    Add(PartKind::kBalconyDoor, x, std::min(1.6, manner_.window_width_m + 0.3), floor + 0.04,
-        floor + std::min(2.3, house_.storey_m - 0.5), -manner_.recess_m);
-    Add(PartKind::kBalcony, x, BalconyWidth(), floor - kBalconySlab_m, floor + kRailing_m,
+    Add(PartKind::kBalconyDoor,
+        {x, std::min(1.6, manner_.window_width_m + 0.3), floor + 0.04,
+         floor + std::min(2.3, house_.storey_m - 0.5)},
+        -manner_.recess_m);
+    Add(PartKind::kBalcony, {x, BalconyWidth(), floor - kBalconySlab_m, floor + kRailing_m},
         manner_.balcony_m);
   }
 
@@ -206,12 +213,12 @@ class Designer {
       const bool is_shop = manner_.shops && IsFront() && i != door;
       if (i == door) {
         const double width = std::min(manner_.door_width_m, bay - 0.5);
-        Add(PartKind::kDoor, X(i), width, floor, floor + std::min(2.35, house_.storey_m - 0.5),
+        Add(PartKind::kDoor, {X(i), width, floor, floor + std::min(2.35, house_.storey_m - 0.5)},
             -std::max(0.25, manner_.recess_m));
       } else if (is_shop) {
         const double width = std::min({bay - 0.45, 3.2, 2 * (X(0) - 0.35)});
-        Add(PartKind::kShopWindow, X(i), width, floor + 0.45,
-            floor + std::min(2.75, house_.storey_m - 0.4), -0.3);
+        Add(PartKind::kShopWindow,
+            {X(i), width, floor + 0.45, floor + std::min(2.75, house_.storey_m - 0.4)}, -0.3);
       } else {
         AddWindow(0, X(i));
       }
@@ -231,7 +238,7 @@ class Designer {
       const int count = reach > 1.6 * width ? 2 : 1;
       for (int i = 0; i < count; ++i) {
         const double x = half + (count == 1 ? 0 : (i - 0.5) * 1.9 * width);
-        Add(PartKind::kWindow, x, width, sill, sill + height, -manner_.recess_m);
+        Add(PartKind::kWindow, {x, width, sill, sill + height}, -manner_.recess_m);
       }
     }
   }

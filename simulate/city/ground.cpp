@@ -210,30 +210,25 @@ class GroundBuilder {
 
   // The risers between cells of different heights.
   void AddKerbs(const Trim& trim, CityModel& model) const {
+    const auto add = [&](int before, int after, const Eigen::Array2i& a, const Eigen::Array2i& b) {
+      const double low = RaiseOf(town_, before);
+      const double high = RaiseOf(town_, after);
+      if (low == high) return;
+      AddTrim(trim,
+              {Corner(a.x(), a.y(), low), Corner(b.x(), b.y(), low), Corner(b.x(), b.y(), high),
+               Corner(a.x(), a.y(), high)},
+              model);
+    };
     for (int row = 0; row < grid_.rows(); ++row) {
       for (int column = 0; column < grid_.columns(); ++column) {
-        if (column > 0)
-          AddKerb(PatchOf(column - 1, row), PatchOf(column, row), {column, row + 1}, {column, row},
-                  trim, model);
-        if (row > 0)
-          AddKerb(PatchOf(column, row - 1), PatchOf(column, row), {column, row}, {column + 1, row},
-                  trim, model);
+        const int here = PatchOf(column, row);
+        if (column > 0) add(PatchOf(column - 1, row), here, {column, row + 1}, {column, row});
+        if (row > 0) add(PatchOf(column, row - 1), here, {column, row}, {column + 1, row});
       }
     }
   }
 
  private:
-  void AddKerb(int before, int after, const Eigen::Array2i& a, const Eigen::Array2i& b,
-               const Trim& trim, CityModel& model) const {
-    const double low = RaiseOf(town_, before);
-    const double high = RaiseOf(town_, after);
-    if (low == high) return;
-    AddTrim(trim,
-            {Corner(a.x(), a.y(), low), Corner(b.x(), b.y(), low), Corner(b.x(), b.y(), high),
-             Corner(a.x(), a.y(), high)},
-            model);
-  }
-
   const Town& town_;
   const GroundGrid& grid_;
 };

@@ -177,14 +177,14 @@ Town LayOutBlock(Random random) {
   const double x = block.width / 2;
   const double y = block.height / 2;
   const Vector2d court(x - block.depth, y - block.depth);
-  PlantTrees(-court, court, 5, random, town);
+  PlantTrees({-court, court, 5}, random, town);
   const double park = std::max(y + street, 31.0) + kPavement_m;
-  PlantTrees({-x - street, park + 1}, {x + street, park + 13}, 9, random, town);
-  PlantTrees({-x - street, -park - 13}, {x + street, -park - 1}, 9, random, town);
-  PlantTrees({-x - street - 14, -y}, {-x - street - 4, y}, 6, random, town);
+  PlantTrees({{-x - street, park + 1}, {x + street, park + 13}, 9}, random, town);
+  PlantTrees({{-x - street, -park - 13}, {x + street, -park - 1}, 9}, random, town);
+  PlantTrees({{-x - street - 14, -y}, {-x - street - 4, y}, 6}, random, town);
   // Young trees at the kerb, before the facades.
-  PlantTrees({-x, -y - 2.4}, {x, -y - 2.2}, 5, random, town, {4, 5.2});
-  PlantTrees({-x - 2.4, -y}, {-x - 2.2, y}, 4, random, town, {4, 5.2});
+  PlantTrees({{-x, -y - 2.4}, {x, -y - 2.2}, 5, 4, 5.2}, random, town);
+  PlantTrees({{-x - 2.4, -y}, {-x - 2.2, y}, 4, 4, 5.2}, random, town);
   return town;
 }
 

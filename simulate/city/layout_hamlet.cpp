@@ -117,7 +117,7 @@ Town LayOutHamlet(Random random) {
   town.turn_rad = random.Uniform(-std::numbers::pi, std::numbers::pi);
   AddHomes({{-10.5, -6}, {10.5, -5}, {random.Uniform(-4, 4), 12}}, 3.5, random, town);
   AddVillageGround(34, random, town);
-  PlantTrees({-24, -12}, {24, 26}, 7, random, town);
+  PlantTrees({{-24, -12}, {24, 26}, 7}, random, town);
   return town;
 }
 
@@ -130,7 +130,7 @@ Town LayOutTerrain(Random random) {
                  .wave_length_m = random.Uniform(55, 90)};
   AddHomes({{-22, -10}, {0, -9}, {22, -11}, {-13, 14}, {12, 15}}, 5, random, town);
   AddVillageGround(48, random, town);
-  PlantTrees({-40, -20}, {40, 40}, 16, random, town);
+  PlantTrees({{-40, -20}, {40, 40}, 16}, random, town);
   return town;
 }
 

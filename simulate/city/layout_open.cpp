@@ -85,7 +85,7 @@ Town LayOutAsia(Random random) {
   town.ground.push_back(
       {{-x, -y}, {x, y}, random.Chance(0.5) ? Covering::kPaving : Covering::kGrass, 0});
   town.ground.push_back({{-x - 14, -y - 14}, {x + 14, y + 14}, Covering::kAsphalt, -0.1});
-  PlantTrees({-x, -y}, {x, y}, 14, random, town);
+  PlantTrees({{-x, -y}, {x, y}, 14}, random, town);
   std::erase_if(town.trees, [&](const Tree& tree) {
     return std::abs(std::abs(tree.position.y()) - cell_y / 2) < lane / 2 + 0.5;
   });
@@ -151,8 +151,8 @@ Town LayOutCampus(Random random) {
   }
   town.ground.push_back({{-125, -90}, {125, 90}, Covering::kGrass, 0});
   ParkCars({-110, 2.9}, {110, 2.9}, 0.25, random, town);
-  PlantTrees({-110, 8}, {110, 80}, 18, random, town);
-  PlantTrees({-110, -80}, {110, -8}, 18, random, town);
+  PlantTrees({{-110, 8}, {110, 80}, 18}, random, town);
+  PlantTrees({{-110, -80}, {110, -8}, 18}, random, town);
   return town;
 }
 

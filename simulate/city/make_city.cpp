@@ -13,6 +13,7 @@
 #include "simulate/city/city_model.h"
 #include "simulate/city/ground.h"
 #include "simulate/city/house_mesh.h"
+#include "simulate/city/lay_out_town.h"
 #include "simulate/city/occluders.h"
 #include "simulate/city/town.h"
 #include "simulate/city/town_map.h"

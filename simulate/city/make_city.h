@@ -5,12 +5,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace stucco::simulate {
 
 struct CityOptions {
-  std::string style = "hamlet";  // hamlet, block, asia, campus, terrain
+  std::string style = "hamlet";  // one of CityStyles()
   uint64_t seed = 1;
   double metres_per_texel = 0.01;  // of walls and roofs
   double latitude_deg = 50.0875;   // of the origin
@@ -18,8 +17,6 @@ struct CityOptions {
   double height_m = 200;  // of z = 0 above the ellipsoid
   int threads = 0;        // 0: all
 };
-
-std::vector<std::string> CityStyles();
 
 struct CitySummary {
   int buildings = 0;

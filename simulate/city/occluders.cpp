@@ -34,9 +34,13 @@ Vector3d OnSphere(Random& random) {
 }
 
 // A stem or a branch: a prism of six sides that grows thinner.
-void AddStem(const Trim& bark, const Vector3d& from, const Vector3d& to, double radius_from,
-             double radius_to, CityModel& model) {
-  const Vector3d axis = (to - from).normalized();
+struct Stem {
+  Vector3d from, to;
+  double radius_from, radius_to;
+};
+
+void AddStem(const Stem& stem, const Trim& bark, CityModel& model) {
+  const Vector3d axis = (stem.to - stem.from).normalized();
   const Vector3d x = axis.unitOrthogonal();
   const Vector3d y = axis.cross(x);
   constexpr int kSides = 6;
@@ -46,15 +50,21 @@ void AddStem(const Trim& bark, const Vector3d& from, const Vector3d& to, double 
   };
   for (int i = 0; i < kSides; ++i) {
     AddTrim(bark,
-            {at(from, radius_from, i), at(from, radius_from, i + 1), at(to, radius_to, i + 1),
-             at(to, radius_to, i)},
+            {at(stem.from, stem.radius_from, i), at(stem.from, stem.radius_from, i + 1),
+             at(stem.to, stem.radius_to, i + 1), at(stem.to, stem.radius_to, i)},
             model);
   }
 }
 
+// What a tree is made of.
+struct Foliage {
+  Trim bark;
+  std::vector<int> leaves;  // materials
+};
+
 // Sprays of leaves on the hull of a crown and inside it, standing out in all directions.
-void AddCrown(const Vector3d& middle, const Vector3d& radii, int element,
-              const std::vector<int>& leaves, Random& random, CityModel& model) {
+void AddCrown(const Vector3d& middle, const Vector3d& radii, const Foliage& foliage, Random& random,
+              CityModel& model) {
   const double surface = 4 * std::numbers::pi * radii.x() * radii.z();
   const int count = static_cast<int>(kSprays_per_m2 * surface);
   for (int i = 0; i < count; ++i) {
@@ -65,8 +75,8 @@ void AddCrown(const Vector3d& middle, const Vector3d& radii, int element,
                                  std::cos(3.7 * direction.y() + 2.3 * direction.z() + middle.y());
     const Vector3d foot = middle + depth * bulge * radii.cwiseProduct(direction);
     Sheet sheet;
-    sheet.element = element;
-    sheet.material = leaves[random.Index(static_cast<int>(leaves.size()))];
+    sheet.element = foliage.bark.element;
+    sheet.material = foliage.leaves[random.Index(static_cast<int>(foliage.leaves.size()))];
     sheet.u = OnSphere(random);
     sheet.v = sheet.u.cross(OnSphere(random)).normalized();
     sheet.width_m = sheet.height_m = random.Uniform(0.45, 0.8);
@@ -80,22 +90,21 @@ void AddCrown(const Vector3d& middle, const Vector3d& radii, int element,
   }
 }
 
-void AddTree(const Tree& tree, double ground, Trim bark, const std::vector<int>& leaves,
-             Random random, CityModel& model) {
+void AddTree(const Tree& tree, double ground, const Foliage& foliage, Random random,
+             CityModel& model) {
   const Vector3d foot(tree.position.x(), tree.position.y(), ground - 0.1);
   const double crown_height = tree.height_m * random.Uniform(0.62, 0.75);
   const double north = random.Uniform(-0.2, 0.2);
   const double east = random.Uniform(-0.2, 0.2);
   const Vector3d middle = foot + Vector3d(east, north, tree.height_m - crown_height / 2);
   const double trunk = 0.02 * tree.height_m + 0.05;
-  AddStem(bark, foot, middle, trunk, trunk / 2, model);
+  AddStem({foot, middle, trunk, trunk / 2}, foliage.bark, model);
   for (int i = 0; i < 5; ++i) {
     const Vector3d from = foot + random.Uniform(0.55, 0.95) * (middle - foot);
     const Vector3d reach = OnSphere(random).cwiseProduct(Vector3d(1, 1, 0.5)) + Vector3d(0, 0, 0.4);
-    AddStem(bark, from, from + 0.75 * tree.crown_m * reach, trunk / 3, trunk / 8, model);
+    AddStem({from, from + 0.75 * tree.crown_m * reach, trunk / 3, trunk / 8}, foliage.bark, model);
   }
-  AddCrown(middle, {tree.crown_m, tree.crown_m, crown_height / 2}, bark.element, leaves, random,
-           model);
+  AddCrown(middle, {tree.crown_m, tree.crown_m, crown_height / 2}, foliage, random, model);
 }
 
 class CarBuilder {
@@ -244,14 +253,15 @@ std::vector<int> AddLeaves(uint64_t seed, CityModel& model) {
 
 void AddOccluders(const Town& town, CityModel& model) {
   const uint64_t seed = town.seed;
-  const std::vector<int> leaves = AddLeaves(seed, model);
+  Foliage foliage;
+  foliage.leaves = AddLeaves(seed, model);
   const CoveringDesign soil{.width_m = 2, .height_m = 2, .covering = Covering::kSoil, .seed = seed};
-  Trim bark;
-  bark.material = AddPainted("bark", {[soil] { return PaintCovering(soil, 0.01); }, ""}, model);
+  foliage.bark.material =
+      AddPainted("bark", {[soil] { return PaintCovering(soil, 0.01); }, ""}, model);
   for (size_t i = 0; i < town.trees.size(); ++i) {
-    bark.element = AddElement(fmt::format("{}tree-{:03}", kOccluderPrefix, i), model);
+    foliage.bark.element = AddElement(fmt::format("{}tree-{:03}", kOccluderPrefix, i), model);
     const double ground = GroundAt(town, town.trees[i].position);
-    AddTree(town.trees[i], ground, bark, leaves, Random(seed, 2000 + i), model);
+    AddTree(town.trees[i], ground, foliage, Random(seed, 2000 + i), model);
   }
   for (size_t i = 0; i < town.cars.size(); ++i) {
     const int element = AddElement(fmt::format("{}car-{:03}", kOccluderPrefix, i), model);

@@ -127,12 +127,16 @@ void AddParapet(const House& house, const Trim& trim, CityModel& model) {
   }
 }
 
-void AddBox(const Vector2d& middle, const Vector2d& size, const Vector2d& along, double low,
-            double high, const Trim& trim, CityModel& model) {
-  const Vector2d x = size.x() / 2 * along;
-  const Vector2d y = size.y() / 2 * Vector2d(-along.y(), along.x());
-  AddPrism(trim, {middle - x - y, middle + x - y, middle + x + y, middle - x + y}, low, high,
-           /*with_bottom=*/false, model);
+struct Box {
+  Vector2d middle, size;
+  double low_m, high_m;
+};
+
+void AddBox(const Box& box, const Vector2d& along, const Trim& trim, CityModel& model) {
+  const Vector2d x = box.size.x() / 2 * along;
+  const Vector2d y = box.size.y() / 2 * Vector2d(-along.y(), along.x());
+  AddPrism(trim, {box.middle - x - y, box.middle + x - y, box.middle + x + y, box.middle - x + y},
+           box.low_m, box.high_m, model);
 }
 
 // z of a pitched roof at a place under it.
@@ -221,17 +225,18 @@ void AddRoofThings(const House& house, const Solid& solid, const Trim& trim, Cit
       if (!FindPlace(house, 1.6, random, place)) continue;
       const double width = random.Uniform(0.5, 0.7);
       const double depth = random.Uniform(0.5, 1.1);
-      AddBox(place, {width, depth}, along, house.eaves_m(),
-             std::min(RoofAt(solid, place) + 1.6, top + 0.8), trim, model);
+      const double high = std::min(RoofAt(solid, place) + 1.6, top + 0.8);
+      AddBox({place, {width, depth}, house.eaves_m(), high}, along, trim, model);
     }
     return;
   }
   const double area = Area(house.outline);
+  const double eaves = house.eaves_m();
   const bool large = house.use != HouseUse::kHome;
   if (large && FindPlace(house, 3, random, place)) {  // the head of the stairs
     const double height = random.Uniform(2.3, 2.7);
     const double depth = random.Uniform(2.6, 4);
-    AddBox(place, {3.2, depth}, along, house.eaves_m(), house.eaves_m() + height, trim, model);
+    AddBox({place, {3.2, depth}, eaves, eaves + height}, along, trim, model);
   }
   const int boxes = std::min(12, static_cast<int>(area / 60) + 1);
   for (int i = 0; i < boxes; ++i) {
@@ -239,7 +244,7 @@ void AddRoofThings(const House& house, const Solid& solid, const Trim& trim, Cit
     const double side = random.Uniform(0.5, 1.4);
     const double height = random.Uniform(0.35, 1.1);
     const double depth = side * random.Uniform(0.7, 1.3);
-    AddBox(place, {side, depth}, along, house.eaves_m(), house.eaves_m() + height, trim, model);
+    AddBox({place, {side, depth}, eaves, eaves + height}, along, trim, model);
   }
 }
 

@@ -85,8 +85,4 @@ int PatchAt(const Town& town, const Eigen::Vector2d& in_street_axes);
 // z of the ground, streets and pavements included, at a place in the frame of the scene.
 double GroundAt(const Town& town, const Eigen::Vector2d& position);
 
-// Houses, streets and what stands about, without walls' details. The same seed gives the same town,
-// others clearly different ones. Outlines never overlap; neighbours touch along whole walls.
-Town LayOutTown(const std::string& style, uint64_t seed);
-
 }  // namespace stucco::simulate

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "simulate/render/renderer.h"
+#include "simulate/render/pictures.h"
 #include "survey/camera.h"
 
 namespace stucco::simulate {

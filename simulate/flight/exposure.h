@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "simulate/flight/options.h"
-#include "simulate/render/renderer.h"
+#include "simulate/render/pictures.h"
 
 namespace stucco::simulate {
 

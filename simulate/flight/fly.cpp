@@ -11,6 +11,7 @@
 #include "simulate/flight/photo_store.h"
 #include "simulate/flight/prepare.h"
 #include "simulate/flight/take_photos.h"
+#include "simulate/render/renderer.h"
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/plan_io.h"

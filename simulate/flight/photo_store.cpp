@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-#include <cstring>
 #include <optional>
 #include <set>
 
@@ -121,16 +119,6 @@ std::vector<std::string> OpenPhotoStore(const fs::path& survey, const Flight& fl
   }
   WriteFlight(flight, survey);
   return notes;
-}
-
-std::string DepthBytes(const DepthMap& map) {
-  const size_t pixels = map.depth_m.size();
-  std::string bytes(12 + 8 * pixels, '\0');
-  const int32_t size[] = {map.width_px, map.height_px};
-  std::memcpy(bytes.data(), "SDM1", 4);
-  std::memcpy(bytes.data() + 4, size, sizeof size);
-  std::memcpy(bytes.data() + 12, map.depth_m.data(), 4 * pixels);
-  return bytes;
 }
 
 }  // namespace stucco::simulate

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "simulate/flight/flight_folder.h"
-#include "simulate/render/renderer.h"
 
 namespace stucco::simulate {
 
@@ -25,8 +24,5 @@ void RequireFreeStore(const std::filesystem::path& survey);
 // one are removed, with a note. Where RequireFreeStore throws, so does this, having changed
 // nothing.
 std::vector<std::string> OpenPhotoStore(const std::filesystem::path& survey, const Flight& flight);
-
-// docs/formats.md, dense/depth: depths alone, without normals and costs.
-std::string DepthBytes(const DepthMap& map);
 
 }  // namespace stucco::simulate

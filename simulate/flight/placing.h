@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "simulate/render/renderer.h"
+#include "simulate/render/pictures.h"
 #include "simulate/scene/scene_folder.h"
 #include "survey/captures.h"
 #include "survey/georef.h"

@@ -12,7 +12,8 @@
 #include "simulate/flight/placing.h"
 #include "simulate/flight/schedule.h"
 #include "simulate/flight/sensor.h"
-#include "simulate/render/renderer.h"
+#include "simulate/render/pictures.h"
+#include "survey/depth_map.h"
 #include "survey/plan.h"
 
 namespace stucco::simulate {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -21,9 +22,6 @@ constexpr uint64_t kHoverSeed = 0x4077;
 constexpr uint64_t kViewSeed = 0x71E3;
 constexpr uint64_t kChoiceSeed = 0xC401;
 constexpr uint64_t kHeldOutSeed = 0x8E1D;
-
-constexpr int kFirstYear = 2026;
-constexpr int kDaysInYear = 365;  // of all years: a flight knows no leap years
 
 constexpr double kBetweenPhotos_s = 2.5;  // at one stop: turn the gimbal, settle, shoot
 constexpr double kTwice_s = 0.7;          // between a photo and its double
@@ -66,8 +64,7 @@ double SecondsBetween(const Plan& plan, const PlannedView* from, const PlannedVi
   return effort_s((to.position_m - from->position_m).norm(), 1);
 }
 
-// Walks through the days: photos are taken between the hour of the start and the lowest sun, or
-// midnight where the sun does not set.
+// Walks through the days: photos are taken between the hour of the start and the lowest sun.
 class Clock {
  public:
   Clock(const FlightOptions& options, double latitude_deg)
@@ -94,7 +91,7 @@ class Clock {
 
  private:
   bool IsLight(double hour) const {
-    return hour < 24 && SunElevation_deg(latitude_deg_, day_, hour) >= kLowestSun_deg;
+    return SunElevation_deg(latitude_deg_, day_, hour) >= kLowestSun_deg;
   }
   // For a quarter of an hour at least: days of a photo each would never end.
   void RequireLight() const {
@@ -102,9 +99,9 @@ class Clock {
     if (IsLight(start_hour_) && IsLight(start_hour_ + kShortest_h)) return;
     throw Error(
         ErrorKind::kUsage,
-        fmt::format("start_hour {:g}: on day {} the sun is lower than {:g} degrees, or the day "
-                    "ends, within a quarter of an hour",
-                    start_hour_, (day_ - 1) % kDaysInYear + 1, kLowestSun_deg),
+        fmt::format("start_hour {:g}: on day {} the sun is lower than {:g} degrees within a "
+                    "quarter of an hour",
+                    start_hour_, day_, kLowestSun_deg),
         "choose an hour nearer to noon, or another day_of_year");
   }
 
@@ -141,24 +138,22 @@ Shot RealShot(const Plan& plan, int index, const FlightOptions& options) {
   return shot;
 }
 
-struct CalendarTime {
-  int year = 0, month = 0, day = 0, hour = 0, minute = 0, second = 0, millisecond = 0;
-};
+// Local solar time.
+std::chrono::sys_time<std::chrono::milliseconds> TimeOf(const Shot& shot) {
+  constexpr std::chrono::sys_days kNewYear{std::chrono::year{2026} / 1 / 1};
+  return kNewYear + std::chrono::days(shot.day - 1) +
+         std::chrono::milliseconds(std::llround(shot.hour * 3600e3));
+}
 
-CalendarTime TimeOf(const Shot& shot) {
-  constexpr int kDaysInMonth[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-  CalendarTime time;
-  time.year = kFirstYear + (shot.day - 1) / kDaysInYear;
-  int day = (shot.day - 1) % kDaysInYear;
-  while (day >= kDaysInMonth[time.month]) day -= kDaysInMonth[time.month++];
-  time.month += 1;
-  time.day = day + 1;
-  const auto milliseconds = std::llround(shot.hour * 3600e3);
-  time.millisecond = static_cast<int>(milliseconds % 1000);
-  time.second = static_cast<int>(milliseconds / 1000 % 60);
-  time.minute = static_cast<int>(milliseconds / 60000 % 60);
-  time.hour = static_cast<int>(milliseconds / 3600000);
-  return time;
+// Its year, month, day, hour, minute and second in a pattern of fmt.
+std::string Written(const char* pattern, const Shot& shot) {
+  const auto time = TimeOf(shot);
+  const auto midnight = std::chrono::floor<std::chrono::days>(time);
+  const std::chrono::year_month_day date(midnight);
+  const std::chrono::hh_mm_ss clock(time - midnight);
+  return fmt::format(fmt::runtime(pattern), static_cast<int>(date.year()),
+                     static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
+                     clock.hours().count(), clock.minutes().count(), clock.seconds().count());
 }
 
 }  // namespace
@@ -220,19 +215,15 @@ Shot HeldOutShot(const Plan& plan, const std::vector<Shot>& shots, const FlightO
 }
 
 std::string FileTime(const Shot& shot) {
-  const CalendarTime t = TimeOf(shot);
-  return fmt::format("{}{:02d}{:02d}{:02d}{:02d}{:02d}", t.year, t.month, t.day, t.hour, t.minute,
-                     t.second);
+  return Written("{}{:02d}{:02d}{:02d}{:02d}{:02d}", shot);
 }
 
 std::string ExifTime(const Shot& shot) {
-  const CalendarTime t = TimeOf(shot);
-  return fmt::format("{}:{:02d}:{:02d} {:02d}:{:02d}:{:02d}", t.year, t.month, t.day, t.hour,
-                     t.minute, t.second);
+  return Written("{}:{:02d}:{:02d} {:02d}:{:02d}:{:02d}", shot);
 }
 
 int Milliseconds(const Shot& shot) {
-  return TimeOf(shot).millisecond;
+  return static_cast<int>(TimeOf(shot).time_since_epoch().count() % 1000);
 }
 
 std::string PhotoName(const Shot& shot, const std::string& view) {

@@ -18,7 +18,7 @@ struct Shot {
   int view = -1;  // index into Plan::views; -1: held out
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   GimbalAngles angles;
-  int day = 0;            // 1 is January 1 of 2026, 366 that of 2027
+  int day = 0;            // 1 is January 1 of 2026
   double hour = 0;        // local solar time
   double time_s = 0;      // since the first photo
   int number = 0;         // the camera's count of files, from 1
@@ -29,7 +29,7 @@ struct Shot {
 // The planned views in their order, with what chance does to them: noise of position (one for all
 // views of a stop, and a tenth of it for each) and gimbal, lost photos, photos taken twice (right
 // after one another). Times follow from the path at the speed of the planner's model; a flight that
-// would go on below the lowest sun or after midnight is continued the next day. Throws Error
+// would go on below the lowest sun is continued the next day. Throws Error
 // (kBadInput: no views; kUsage: a start in the dark, also on one of the days after the first).
 std::vector<Shot> ScheduleShots(const Plan& plan, const FlightOptions& options);
 
@@ -38,8 +38,7 @@ std::vector<Shot> ScheduleShots(const Plan& plan, const FlightOptions& options);
 Shot HeldOutShot(const Plan& plan, const std::vector<Shot>& shots, const FlightOptions& options,
                  int number, int attempt);
 
-// "20260430100012", as it stands in file names, and "2026:04:30 10:00:12", as in EXIF. Years
-// begin with 2026 and have 365 days.
+// "20260430100012", as it stands in file names, and "2026:04:30 10:00:12", as in EXIF.
 std::string FileTime(const Shot& shot);
 std::string ExifTime(const Shot& shot);
 int Milliseconds(const Shot& shot);

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "simulate/render/renderer.h"
+#include "simulate/render/pictures.h"
 #include "survey/camera.h"
 #include "survey/image.h"
 

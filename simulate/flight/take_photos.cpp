@@ -53,7 +53,7 @@ void TakeDepth(const FlownPhoto& photo, const Photographer& photographer, const 
   if (fs::exists(path, error)) return;
   fs::create_directories(path.parent_path(), error);  // what fails here fails in writing
   WriteFileAtomically(path,
-                      DepthBytes(photographer.depth(photo.camera, photo.cam_from_world, threads)));
+                      Serialize(photographer.depth(photo.camera, photo.cam_from_world, threads)));
 }
 
 }  // namespace

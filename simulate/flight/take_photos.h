@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
 #include <functional>
 
-#include "simulate/flight/fly.h"
+#include "simulate/flight/fly_request.h"
 #include "simulate/flight/prepare.h"
 
 namespace stucco::simulate {

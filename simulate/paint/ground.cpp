@@ -72,7 +72,7 @@ void PaintAsphalt(Tile& tile, const CoveringLook& look) {
   const Field bend(tile, StepFor(0.3f, texel), [&](float x, float y) {
     return Noise(x, y, {1.7f, 3, 0.6f, look.seed + 8}, texel);
   });
-  const Cracks cracks = {0.7f, 0.22f, {0.21f, 2, 0.6f, look.seed + 9}, 0.006f};
+  const Cracks cracks = {0.7f, 0.22f, {0.21f, 2, 0.6f, look.seed + 9}, 0.006f, texel};
   for (int row = 0; row < tile.height; ++row) {
     const float y = tile.Y(row);
     for (int column = 0; column < tile.width; ++column) {
@@ -86,7 +86,7 @@ void PaintAsphalt(Tile& tile, const CoveringLook& look) {
       const Cut cut = CutAt(x, y, look.seed + 7);
       tone += cut.tone * Edge(cut.inside, texel);
       const float open = Smooth(-0.2f, 1.0f, worn(column, row));
-      tone -= 0.8f * CrackShare(cracks, x, y, bend(column, row), open, texel);
+      tone -= 0.8f * CrackShare(cracks, x, y, bend(column, row), open);
       Colour colour = base * Tone(tone);
       // Joints of patches are sealed with tar.
       colour = Mix(colour, Grey(0.012f), 0.7f * Edge(cut.tar_m - std::abs(cut.inside), texel));

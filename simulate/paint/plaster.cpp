@@ -61,7 +61,7 @@ void PaintPlaster(Tile& tile, const WallLook& look) {
   const Field bend(tile, StepFor(0.2f, texel), [&](float x, float y) {
     return Noise(x, y, {1.3f, 3, 0.55f, look.wall + 10}, texel);
   });
-  const Cracks cracks = {0.6f, 0.166f, {0.16f, 2, 0.55f, look.wall + 9}, 0.0035f};
+  const Cracks cracks = {0.6f, 0.166f, {0.16f, 2, 0.55f, look.wall + 9}, 0.0035f, texel};
   const float coarse = Trait(look, 4);  // of the render's sand
   const float grain = (0.035f + 0.07f * coarse) * std::min(1.0f, 0.01f / texel);
   for (int row = 0; row < tile.height; ++row) {
@@ -73,7 +73,7 @@ void PaintPlaster(Tile& tile, const WallLook& look) {
                    (0.02f + 0.03f * coarse) * GradientNoise(x * 30, y * 30, look.wall + 8) *
                        BandShare(0.033f, texel);
       const float open = Smooth(0.6f, 1.6f, cracked(column, row) + look.soot);
-      tone -= 0.45f * CrackShare(cracks, x, y, bend(column, row), open, texel);
+      tone -= 0.45f * CrackShare(cracks, x, y, bend(column, row), open);
       tile.At(column, row) = base * Tone(tone);
     }
   }

@@ -47,12 +47,17 @@ Colour Room(const Box& glass, float x, float y, uint32_t seed) {
   return dim * (thing * (0.55f + 0.45f * Smooth(0, 0.35f, v)));
 }
 
-Colour Plant(Colour behind, const Box& glass, float x, float y, uint32_t seed, float texel_m) {
+struct Layer {
+  Colour colour;
+  float share;  // of what it covers
+};
+
+Layer Plant(const Box& glass, float x, float y, uint32_t seed, float texel_m) {
   const float up = (glass.bottom - y) / 0.45f;
   const float leaves = Noise(x, y, {0.14f, 4, 0.8f, seed}, texel_m) + 1.1f - 1.9f * up;
   const float share = Smooth(0.0f, 0.15f, leaves);
   const float light = 0.06f + 0.05f * Noise(x, y, {0.05f, 2, 0.8f, seed + 3}, texel_m);
-  return Mix(behind, Colour{0.5f, 1.0f, 0.25f} * std::max(0.01f, light), share);
+  return {Colour{0.5f, 1.0f, 0.25f} * std::max(0.01f, light), share};
 }
 
 }  // namespace
@@ -88,7 +93,10 @@ void PaintGlass(Tile& tile, const WallLook& look, const WallPart& part, const Bo
       seen = Mix(seen, fabric * (0.5f + 0.02f * GradientNoise(x * 4, y * 4, seed)),
                  Edge(glass.top + drop_m - y, texel));
     }
-    if (plant) seen = Plant(seen, glass, x, y, seed, texel);
+    if (plant) {
+      const Layer leaves = Plant(glass, x, y, seed, texel);
+      seen = Mix(seen, leaves.colour, leaves.share);
+    }
     const Colour sky = Mirrored(x * 1.1f + offset, y, look.height_m * 0.75f, look.building + 9);
     return Mix(seen, sky, mirror);
   });

@@ -113,7 +113,8 @@ DepthMap Renderer::Depth(const Camera& camera, const Pose& cam_from_world,
   RenderOptions limited = options;
   limited.threads = ThreadsOf(options);
   const internal::View view = internal::ViewOf(state_->lenses.For(camera), camera, cam_from_world);
-  return {camera.width_px, camera.height_px, internal::MeasureWays(view, state_->scene, limited)};
+  return ExactDepths(camera.width_px, camera.height_px,
+                     internal::MeasureWays(view, state_->scene, limited));
 }
 
 std::optional<RayHit> Renderer::Cast(const Eigen::Vector3d& from,

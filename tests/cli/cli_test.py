@@ -404,19 +404,6 @@ class Lint(stucco.TestCase):
         self.refused(stucco.run("lint", self.root / "none.kmz"), 3, "none.kmz")
 
 
-class Evaluate(stucco.TestCase):
-    """What measures right is tested in tests/evaluate."""
-
-    def test_refuses_what_has_no_truth(self):
-        survey = self.init(self.photo_folder(2))
-        self.refused(stucco.run("evaluate", survey), 2, "--truth")
-        self.refused(stucco.run("evaluate", survey, "--truth", self.root / "town"), 3, "town")
-        self.refused(stucco.run("evaluate", survey, "--truth", survey), 3, "scene.json")
-        self.refused(stucco.run("evaluate", survey, "--truth", survey, "--tolerance", "0"), 2,
-                     "--tolerance")
-        self.assertFalse((survey / "evaluation").exists())
-
-
 class Completion(stucco.TestCase):
     def test_bash_completes_verbs_options_and_stages(self):
         script = self.check(stucco.run("completion", "bash")).stdout

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the Stucco authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`stucco simulate` from the outside: scenes that are made, flights through them, what is refused."""
+"""`stucco simulate` and `stucco evaluate` from the outside: scenes that are made, flights through
+them, what is refused."""
 import json
 import os
 import shutil
@@ -131,6 +132,19 @@ f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\nf 9 10 11 12
         self.refused(self.fly(*self.scene_and_plan()), 3, "another plan", "new survey")
         self.assertEqual(os.listdir(survey), ["plan"])
         self.assertEqual((survey / "plan" / "plan.json").read_text(), "{}")
+
+
+class Evaluate(stucco.TestCase):
+    """What measures right is tested in tests/evaluate."""
+
+    def test_refuses_what_has_no_truth(self):
+        survey = self.init(self.photo_folder(2))
+        self.refused(stucco.run("evaluate", survey), 2, "--truth")
+        self.refused(stucco.run("evaluate", survey, "--truth", self.root / "town"), 3, "town")
+        self.refused(stucco.run("evaluate", survey, "--truth", survey), 3, "scene.json")
+        self.refused(stucco.run("evaluate", survey, "--truth", survey, "--tolerance", "0"), 2,
+                     "--tolerance")
+        self.assertFalse((survey / "evaluation").exists())
 
 
 if __name__ == "__main__":

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-#include "dense/depth_map.h"
 #include "survey/captures.h"
 #include "survey/colmap_io.h"
+#include "survey/depth_map.h"
 #include "survey/files.h"
 #include "survey/point_cloud.h"
 #include "survey/survey_folder.h"

@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "dense/depth_map.h"
 #include "dense/view.h"
 #include "survey/camera.h"
+#include "survey/depth_map.h"
 #include "survey/image.h"
 #include "survey/pose.h"
 

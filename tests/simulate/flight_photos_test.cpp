@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <cstring>
 
 #include "simulate/flight/photo_store.h"
 #include "simulate/flight/prepare.h"
@@ -195,10 +194,8 @@ TEST_F(TakePhotosTest, DepthMapsAreInTheFormatOfTheDenseStage) {
   const FlownPhoto photo = ReadFlight(survey_).photos[1];  // looks down by 20 degrees
   const std::string bytes = ReadFile(PathOfDepth(survey_, photo));
   ASSERT_EQ(bytes.size(), 12u + 8u * 106 * 79);
-  EXPECT_EQ(bytes.substr(0, 4), "SDM1");
-  float depth = 0;
-  const size_t pixel = 78 * 106 + 53;
-  std::memcpy(&depth, bytes.data() + 12 + 4 * pixel, 4);
+  const DepthMap map = DeserializeDepthMap(bytes);
+  const float depth = map.depths[map.Index(53, 78)];
   const auto ray = photo.camera.Unproject({53.5, 78.5});
   const Eigen::Vector3d point =
       photo.cam_from_world.Inverse() * (depth * Eigen::Vector3d(ray->x(), ray->y(), 1));

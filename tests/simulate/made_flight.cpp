@@ -116,15 +116,14 @@ Photographer MadePhotographer() {
     return picture;
   };
   photographer.depth = [ray_at](const Camera& camera, const Pose& pose, int /*threads*/) {
-    DepthMap map{camera.width_px, camera.height_px, {}};
+    std::vector<float> depths;
     for (int y = 0; y < camera.height_px; ++y) {
       for (int x = 0; x < camera.width_px; ++x) {
         const Eigen::Vector3d ray = ray_at(camera, pose, x, y);
-        map.depth_m.push_back(ray.z() < 0 ? static_cast<float>(-pose.Center().z() / ray.z())
-                                          : 0.0f);
+        depths.push_back(ray.z() < 0 ? static_cast<float>(-pose.Center().z() / ray.z()) : 0.0f);
       }
     }
-    return map;
+    return ExactDepths(camera.width_px, camera.height_px, std::move(depths));
   };
   return photographer;
 }

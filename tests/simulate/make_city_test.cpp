@@ -10,6 +10,7 @@
 #include <set>
 
 #include "plan/map/read_site.h"
+#include "simulate/city/lay_out_town.h"
 #include "simulate/scene/scene_folder.h"
 #include "survey/files.h"
 #include "survey/image.h"

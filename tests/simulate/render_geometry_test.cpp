@@ -160,8 +160,8 @@ TEST(RenderGeometry, DepthIsThatOfThePlane) {
   const DepthMap map = renderer.Depth(camera, cam_from_world);
   const Eigen::Vector3d centre = cam_from_world.Center();
   int on_board = 0;
-  for (int y = 0; y < map.height_px; y += 7) {
-    for (int x = 0; x < map.width_px; x += 7) {
+  for (int y = 0; y < map.height; y += 7) {
+    for (int x = 0; x < map.width; x += 7) {
       const auto ray = camera.Unproject({x + 0.5, y + 0.5});
       ASSERT_TRUE(ray);
       const Eigen::Vector3d way =
@@ -170,7 +170,7 @@ TEST(RenderGeometry, DepthIsThatOfThePlane) {
       const Eigen::Vector3d place = centre + depth * way;
       const double inside = std::min(kColumns * kSquare_m / 2 - std::abs(place.x()),
                                      kRows * kSquare_m / 2 - std::abs(place.z()));
-      const float found = map.depth_m[static_cast<size_t>(y) * map.width_px + x];
+      const float found = map.depths[map.Index(x, y)];
       if (inside > 1e-4) {
         EXPECT_NEAR(found, depth, 1e-5);
       } else if (inside < -1e-4) {

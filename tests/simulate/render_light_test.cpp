@@ -278,7 +278,7 @@ TEST(RenderLight, LeavesOutWhatIsNotWanted) {
   RenderOptions options;
   options.left_out = {false, true};
   EXPECT_EQ(renderer.Photograph(camera, pose, Albedo(), options).rgb[3 * 40], 1);
-  EXPECT_NEAR(renderer.Depth(camera, pose, options).depth_m[40], 30, 1e-4);
+  EXPECT_NEAR(renderer.Depth(camera, pose, options).depths[40], 30, 1e-4);
   // Its shade stays.
   const Light noon = SunOnly({0, 0, 1});
   EXPECT_LT(renderer.Photograph(camera, pose, noon, options).rgb[3 * 40], 0.8f);
@@ -346,7 +346,7 @@ TEST(RenderLight, EmptySceneIsSky) {
   const Pose pose = LookAt({0, 0, 0}, {0, 1, 0.5});
   EXPECT_GT(renderer.Photograph(camera, pose, {}).rgb[0], 0.1f);
   EXPECT_EQ(renderer.Photograph(camera, pose, Albedo()).rgb[0], 0);
-  EXPECT_EQ(renderer.Depth(camera, pose).depth_m[0], 0);
+  EXPECT_EQ(renderer.Depth(camera, pose).depths[0], 0);
   EXPECT_FALSE(renderer.Cast({0, 0, 0}, {0, 0, 1}));
 }
 

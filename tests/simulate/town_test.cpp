@@ -18,7 +18,7 @@
 #include "simulate/city/footprints.h"
 #include "simulate/city/ground.h"
 #include "simulate/city/house_mesh.h"
-#include "simulate/city/make_city.h"
+#include "simulate/city/lay_out_town.h"
 #include "simulate/city/occluders.h"
 #include "simulate/city/roof_mesh.h"
 #include "simulate/city/town_map.h"

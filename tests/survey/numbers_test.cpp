@@ -13,6 +13,13 @@ namespace {
 using testing::ContainsRegex;
 using testing::Not;
 
+TEST(RoundTo, GivesTheNearestMultipleAndNoNegativeZero) {
+  EXPECT_EQ(RoundTo(1.23456, 1e3), 1.235);
+  EXPECT_EQ(RoundTo(-1.23456, 1e3), -1.235);
+  EXPECT_FALSE(std::signbit(RoundTo(-1e-9, 1e3)));
+  EXPECT_TRUE(std::isnan(RoundTo(NAN, 1e3)));
+}
+
 TEST(Percent, DoesNotRoundToAllOrNothing) {
   EXPECT_EQ(Percent(0.54), "54 %");
   EXPECT_EQ(Percent(1), "100 %");

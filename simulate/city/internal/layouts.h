@@ -23,13 +23,17 @@ void MarkPartyWalls(std::vector<House>& houses);
 
 bool KeepsApart(const Polygon& outline, const std::vector<House>& houses, double least_m);
 
+// How far a trunk keeps from walls: crowns bulge beyond their radius, and leaves stand out of them.
+double RoomFor(const Tree& tree);
+
 // Trees at random places of a rectangle, away from houses and from each other.
-struct TreeHeights {
-  double from_m = 5;
-  double to_m = 11;
+struct Grove {
+  Eigen::Vector2d low, high;
+  int count = 0;
+  double height_from_m = 5;
+  double height_to_m = 11;
 };
-void PlantTrees(const Eigen::Vector2d& low, const Eigen::Vector2d& high, int count, Random& random,
-                Town& town, const TreeHeights& heights = {});
+void PlantTrees(const Grove& grove, Random& random, Town& town);
 // Cars along a kerb from `from` to `to`, with gaps.
 void ParkCars(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double share, Random& random,
               Town& town);

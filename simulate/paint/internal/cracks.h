@@ -16,17 +16,17 @@ struct Cracks {
   float fine = 0.17f;  // height of the finer part
   Octaves waves;       // of the finer part
   float half_width_m = 0.004f;
+  float texel_m = 0;
 };
 
 // The share of a texel that cracks cover. `coarse` is the coarse part there, `open` how wide cracks
 // are: 0 closed, 1 as wide as they get.
-inline float CrackShare(const Cracks& cracks, float x, float y, float coarse, float open,
-                        float texel_m) {
+inline float CrackShare(const Cracks& cracks, float x, float y, float coarse, float open) {
   constexpr float kSlope =
       2.2f;  // of the coarse part where it changes its sign, per metre, roughly
   if (open <= 0 || std::abs(coarse) >= cracks.near) return 0;
-  const float level = coarse + cracks.fine * Noise(x, y, cracks.waves, texel_m);
-  return Edge(cracks.half_width_m * open - std::abs(level) / kSlope, texel_m);
+  const float level = coarse + cracks.fine * Noise(x, y, cracks.waves, cracks.texel_m);
+  return Edge(cracks.half_width_m * open - std::abs(level) / kSlope, cracks.texel_m);
 }
 
 }  // namespace stucco::simulate::internal

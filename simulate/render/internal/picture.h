@@ -4,7 +4,7 @@
 
 #include "simulate/render/internal/shade.h"
 #include "simulate/render/internal/view.h"
-#include "simulate/render/renderer.h"
+#include "simulate/render/pictures.h"
 
 namespace stucco::simulate::internal {
 

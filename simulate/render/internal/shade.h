@@ -8,7 +8,6 @@
 #include "simulate/render/internal/sky_light.h"
 #include "simulate/render/internal/view.h"
 #include "simulate/render/light.h"
-#include "simulate/render/renderer.h"
 
 namespace stucco::simulate::internal {
 

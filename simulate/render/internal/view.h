@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "simulate/render/internal/ray_scene.h"
-#include "simulate/render/renderer.h"
+#include "simulate/render/pictures.h"
+#include "survey/camera.h"
+#include "survey/pose.h"
 
 namespace stucco::simulate::internal {
 

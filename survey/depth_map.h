@@ -26,12 +26,12 @@ struct DepthMap {
 
 DepthMap EmptyDepthMap(int width, int height);
 
+// Depths that are known without matching: costs of 0, and no normals.
+DepthMap ExactDepths(int width, int height, std::vector<float> depths);
+
 // "SDM1", width, height as 32-bit integers, then depths, normals, costs: little endian, as in
 // memory. Reading throws Error (kBadInput) on anything that does not fit.
 std::string Serialize(const DepthMap& map);
 DepthMap DeserializeDepthMap(std::string_view bytes);
-
-// Removes connected pieces (depth steps below `max_step`, relative) of fewer than `min_pixels`.
-void RemoveSpeckles(int min_pixels, float max_step, DepthMap& map);
 
 }  // namespace stucco

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dense/cache.h"
+#include "survey/lru_cache.h"
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -14,7 +16,7 @@ namespace {
 
 struct Counted {
   std::vector<int> loads;
-  LruCache<std::string> cache;
+  LruCache<int, std::string> cache;
 
   explicit Counted(size_t max_bytes)
       : cache(
@@ -63,7 +65,7 @@ TEST(LruCache, DroppedValuesLiveWhileTheyAreHeld) {
 
 TEST(LruCache, PassesErrorsOnAndRecovers) {
   bool broken = true;
-  LruCache<int> cache(
+  LruCache<int, int> cache(
       100,
       [&](int key) {
         if (broken) throw std::runtime_error("no");
@@ -75,8 +77,24 @@ TEST(LruCache, PassesErrorsOnAndRecovers) {
   EXPECT_EQ(*cache.Get(3), 3);
 }
 
+TEST(LruCache, WhatManyAskForIsLoadedOnce) {
+  std::atomic<int> loads = 0;
+  LruCache<int, int> cache(
+      100,
+      [&](int key) {
+        ++loads;
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        return std::make_shared<const int>(key);
+      },
+      [](const int&) { return size_t{4}; });
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t) threads.emplace_back([&] { cache.Get(1); });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(loads, 1);
+}
+
 TEST(LruCache, ServesManyThreads) {
-  LruCache<int> cache(
+  LruCache<int, int> cache(
       40, [](int key) { return std::make_shared<const int>(7 * key); },
       [](const int&) { return size_t{4}; });
   std::vector<std::thread> threads;

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dense/depth_map.h"
+#include "survey/depth_map.h"
 
-#include <cmath>
+#include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "survey/error.h"
 
@@ -25,6 +26,13 @@ DepthMap EmptyDepthMap(int width, int height) {
   const size_t count = static_cast<size_t>(width) * height;
   return {width, height, std::vector<float>(count, 0), std::vector<std::array<int8_t, 3>>(count),
           std::vector<uint8_t>(count, 255)};
+}
+
+DepthMap ExactDepths(int width, int height, std::vector<float> depths) {
+  DepthMap map = EmptyDepthMap(width, height);
+  map.depths = std::move(depths);
+  std::fill(map.costs.begin(), map.costs.end(), uint8_t{0});
+  return map;
 }
 
 std::string Serialize(const DepthMap& map) {
@@ -57,32 +65,6 @@ DepthMap DeserializeDepthMap(std::string_view bytes) {
   std::memcpy(map.normals.data(), in + count * 4, count * 3);
   std::memcpy(map.costs.data(), in + count * 7, count);
   return map;
-}
-
-void RemoveSpeckles(int min_pixels, float max_step, DepthMap& map) {
-  std::vector<char> visited(map.depths.size(), 0);
-  std::vector<size_t> piece;
-  for (size_t start = 0; start < map.depths.size(); ++start) {
-    if (visited[start] || map.depths[start] <= 0) continue;
-    piece.assign(1, start);
-    visited[start] = 1;
-    for (size_t next = 0; next < piece.size(); ++next) {
-      const size_t at = piece[next];
-      const int x = static_cast<int>(at % map.width);
-      const int y = static_cast<int>(at / map.width);
-      const int neighbours[4][2] = {{x - 1, y}, {x + 1, y}, {x, y - 1}, {x, y + 1}};
-      for (const auto& [nx, ny] : neighbours) {
-        if (nx < 0 || ny < 0 || nx >= map.width || ny >= map.height) continue;
-        const size_t other = map.Index(nx, ny);
-        if (visited[other] || map.depths[other] <= 0) continue;
-        if (std::abs(map.depths[other] - map.depths[at]) > max_step * map.depths[at]) continue;
-        visited[other] = 1;
-        piece.push_back(other);
-      }
-    }
-    if (static_cast<int>(piece.size()) >= min_pixels) continue;
-    for (const size_t at : piece) map.depths[at] = 0;
-  }
 }
 
 }  // namespace stucco
