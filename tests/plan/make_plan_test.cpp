@@ -23,7 +23,7 @@ Plan ObliquePlan(const Site& site) {
 TEST(MakePlan, TellsTheSiteThatItWasMadeFor) {
   const Polygon zone{{Rectangle(60, 40, 80, 60), Reversed(Rectangle(66, 46, 74, 54))}};
   const Site site = MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 12), Rectangle(35, 0, 50, 25)},
-                       {.safe_altitude_m = 30, .heights_m = {8, 0}, .no_fly = {zone}});
+                             {.safe_altitude_m = 30, .heights_m = {8, 0}, .no_fly = {zone}});
   const Site told = SiteOfPlan(ObliquePlan(site));
   EXPECT_EQ(told.crs, site.crs);
   EXPECT_EQ(told.home, site.home);
