@@ -16,15 +16,17 @@ const double kLeastCosine = std::cos(kMaxIncidence_rad);
 
 }  // namespace
 
-FacadeViews::FacadeViews(const Site& site, std::vector<Viewpoint> places, double reach_m)
+FacadeViews::FacadeViews(const Site& site, std::vector<Eigen::Vector3d> positions, double reach_m,
+                         PicturesOf pictures_of)
     : site_(site),
-      places_(std::move(places)),
+      positions_(std::move(positions)),
       reach_m_(reach_m),
+      pictures_of_(std::move(pictures_of)),
       model_(site),
-      by_x_(places_.size()) {
+      by_x_(positions_.size()) {
   for (const Facade& facade : site.facades) grids_.emplace_back(facade);
   std::iota(by_x_.begin(), by_x_.end(), 0);
-  std::ranges::stable_sort(by_x_, {}, [&](int i) { return places_[i].position.x(); });
+  std::ranges::stable_sort(by_x_, {}, [&](int i) { return positions_[i].x(); });
 }
 
 std::vector<SeenView> FacadeViews::Of(int facade) const {
@@ -35,7 +37,7 @@ std::vector<SeenView> FacadeViews::Of(int facade) const {
 
 std::vector<SeenView> FacadeViews::Of(int facade, std::span<const uint32_t> cells) const {
   const Facade& wall = site_.facades[facade];
-  const auto x = [&](int i) { return places_[i].position.x(); };
+  const auto x = [&](int i) { return positions_[i].x(); };
   const auto first =
       std::ranges::lower_bound(by_x_, std::min(wall.a.x(), wall.b.x()) - reach_m_, {}, x);
   const auto last =
@@ -50,7 +52,7 @@ std::vector<SeenView> FacadeViews::Of(int facade, std::span<const uint32_t> cell
 void FacadeViews::AddViewsFrom(int place, int facade, std::span<const uint32_t> cells,
                                std::vector<SeenView>& views) const {
   const FacadeGrid& grid = grids_[facade];
-  const Eigen::Vector3d& p = places_[place].position;
+  const Eigen::Vector3d& p = positions_[place];
   const Eigen::Vector2d offset = p.head<2>() - grid.a;
   const double before = offset.dot(site_.facades[facade].normal());  // distance from the plane
   if (!(before > 0)) return;
@@ -63,8 +65,9 @@ void FacadeViews::AddViewsFrom(int place, int facade, std::span<const uint32_t> 
 
   enum : uint8_t { kNotAsked, kFree, kBlocked };
   std::vector<uint8_t> sight(grid.size(), kNotAsked);
-  for (size_t k = 0; k < places_[place].pictures.size(); ++k) {
-    Frustum picture = places_[place].pictures[k];
+  const std::vector<Frustum> pictures = pictures_of_(place).pictures;
+  for (size_t k = 0; k < pictures.size(); ++k) {
+    Frustum picture = pictures[k];
     picture.reach_m = reach;
     SeenView view{place, static_cast<int>(k), picture.forward, {}};
     for (const uint32_t cell : cells) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -27,8 +28,12 @@ struct SeenView {
 // several threads.
 class FacadeViews {
  public:
-  // Keeps a reference to the site.
-  FacadeViews(const Site& site, std::vector<Viewpoint> places, double reach_m);
+  // Makes the pictures of a place when they are asked for: a town has too many to keep.
+  using PicturesOf = std::function<Viewpoint(int place)>;
+
+  // `positions` are those of the places. Keeps a reference to the site.
+  FacadeViews(const Site& site, std::vector<Eigen::Vector3d> positions, double reach_m,
+              PicturesOf pictures_of);
 
   // By place, then picture.
   std::vector<SeenView> Of(int facade) const;
@@ -42,8 +47,9 @@ class FacadeViews {
                     std::vector<SeenView>& views) const;
 
   const Site& site_;
-  std::vector<Viewpoint> places_;
+  std::vector<Eigen::Vector3d> positions_;
   double reach_m_;
+  PicturesOf pictures_of_;
   SiteModel model_;
   std::vector<FacadeGrid> grids_;
   std::vector<int> by_x_;  // places by ascending x

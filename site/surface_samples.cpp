@@ -38,18 +38,32 @@ bool IsWithin(const SampleOptions& options, const Eigen::Vector2d& place) {
   return !options.within || options.within->contains(place);
 }
 
+// Two ways to write the same places: they differ in the last digit, and what is planned (by shares)
+// or found in photos (by distances) hangs on it here and there.
+std::vector<Eigen::Vector2d> PlacesOn(const Facade& facade, const SampleOptions& options) {
+  const double length = facade.length_m();
+  const int count = PartsOf(length, options);
+  std::vector<Eigen::Vector2d> places;
+  if (options.never_farther) {
+    const Eigen::Vector2d along = facade.along();
+    for (const double u : Middles(0, length, count)) places.push_back(facade.a + u * along);
+  } else {
+    const Eigen::Vector2d whole = facade.b - facade.a;
+    for (const double share : Middles(0, 1, count)) places.push_back(facade.a + share * whole);
+  }
+  return places;
+}
+
 void SampleFacade(const Site& site, int index, const SampleOptions& options,
                   std::vector<SurfaceSample>& out) {
   const Facade& facade = site.facades[index];
-  const double length = facade.length_m();
-  if (!(length > 0) || !(facade.z_m.length_m() > 0)) return;
+  if (!(facade.length_m() > 0) || !(facade.z_m.length_m() > 0)) return;
   const int rows = std::max(options.fewest_rows, PartsOf(facade.z_m.length_m(), options));
-  const std::vector<double> places = Middles(0, length, PartsOf(length, options));
-  const Eigen::Vector2d along = facade.along();
+  const std::vector<Eigen::Vector2d> places = PlacesOn(facade, options);
   const Eigen::Vector2d normal = facade.normal();
   for (const double z : Middles(facade.z_m.from_m, facade.z_m.to_m, rows)) {
-    for (const double u : places) {
-      const Eigen::Vector2d at = facade.a + u * along + options.off_surface_m * normal;
+    for (const Eigen::Vector2d& place : places) {
+      const Eigen::Vector2d at = place + options.off_surface_m * normal;
       if (!IsWithin(options, at)) continue;
       out.push_back({{at.x(), at.y(), z}, {normal.x(), normal.y(), 0}, SurfaceKind::kWall, index});
     }

@@ -65,7 +65,7 @@ double SquaredDistance(const Segment2d& segment, const Eigen::Vector2d& p) {
   const Eigen::Vector2d along = segment.b - segment.a;
   const double squared = along.squaredNorm();
   const double t = squared > 0 ? std::clamp((p - segment.a).dot(along) / squared, 0.0, 1.0) : 0;
-  return (p - segment.a - t * along).squaredNorm();
+  return (segment.a + t * along - p).squaredNorm();
 }
 
 double Distance(const Segment2d& segment, const Eigen::Vector2d& p) {

@@ -9,11 +9,10 @@
 namespace stucco::plan {
 namespace {
 
-std::vector<Viewpoint> ViewpointsOf(const FieldOfView& field, std::span<const Hover> hovers,
-                                    double reach_m) {
-  std::vector<Viewpoint> out;
+std::vector<Eigen::Vector3d> PositionsOf(std::span<const Hover> hovers) {
+  std::vector<Eigen::Vector3d> out;
   out.reserve(hovers.size());
-  for (const Hover& hover : hovers) out.push_back(ViewpointOf(field, hover, reach_m));
+  for (const Hover& hover : hovers) out.push_back(hover.position);
   return out;
 }
 
@@ -25,7 +24,9 @@ FacadeSight::FacadeSight(const Site& site, const CameraPreset& camera, double d_
       camera_(camera),
       d_max_m_(d_max_m),
       hovers_(hovers),
-      views_(site, ViewpointsOf(camera.Field(), hovers, d_max_m), d_max_m) {}
+      views_(site, PositionsOf(hovers), d_max_m, [field = camera.Field(), hovers, d_max_m](int i) {
+        return ViewpointOf(field, hovers[i], d_max_m);
+      }) {}
 
 SeenPart FacadeSight::PartOf(int facade, const SeenView& view,
                              std::span<const uint32_t> cells) const {

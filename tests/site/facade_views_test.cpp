@@ -27,8 +27,14 @@ Viewpoint Looking(const Eigen::Vector3d& from, double yaw_deg, double pitch_deg 
   return {from, {LevelFrustum(kField, from, yaw_deg * kPi / 180, pitch_deg * kPi / 180, kReach_m)}};
 }
 
+FacadeViews ViewsFrom(const Site& site, const std::vector<Viewpoint>& places, double reach_m) {
+  std::vector<Eigen::Vector3d> positions;
+  for (const Viewpoint& place : places) positions.push_back(place.position);
+  return {site, positions, reach_m, [places](int place) { return places[place]; }};
+}
+
 size_t CellsSeen(const Site& site, const Viewpoint& place, int facade = 0) {
-  const auto views = FacadeViews(site, {place}, kReach_m).Of(facade);
+  const auto views = ViewsFrom(site, {place}, kReach_m).Of(facade);
   return views.empty() ? 0 : views.front().cells.size();
 }
 
@@ -76,7 +82,7 @@ TEST(FacadeViews, FindsWhatAskingEveryPhotoFinds) {
                                             -kPi / 3 * unit(random), reach));
     }
   }
-  const FacadeViews sight(site, places, reach);
+  const FacadeViews sight = ViewsFrom(site, places, reach);
   const SiteModel model(site);
   size_t found = 0;
   for (size_t f = 0; f < site.facades.size(); ++f) {
