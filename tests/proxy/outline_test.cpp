@@ -171,7 +171,7 @@ TEST(OutlineFacets, DropsIslandsAndSplitsParts) {
 
 TEST(OutlineFacets, AGableKeepsItsSlopes) {
   const auto facets = Wall([](double x, double z) {
-                        return InBox(x, z, 1, 11, 0.5, 7.5 - 0.8 * std::abs(x - 6));
+                        return InBox(x, z, {1, 11, 0.5, 7.5 - 0.8 * std::abs(x - 6)});
                       }).Facets();
   ASSERT_EQ(facets.size(), 1u);
   EXPECT_EQ(facets[0].outer.size(), 5u);
