@@ -13,7 +13,7 @@ namespace stucco {
 template <typename Tag, typename Value = uint32_t>
 struct Id {
   Value value = std::numeric_limits<Value>::max();
-  constexpr auto operator<=>(const Id&) const = default;
+  constexpr auto operator<=>(const Id&) const = default;  // NOLINT(modernize-use-nullptr)
   constexpr bool IsValid() const { return value != std::numeric_limits<Value>::max(); }
 };
 

@@ -116,7 +116,7 @@ class ReprojectionCost final : public ceres::SizedCostFunction<2, kNumParams, kP
 
  private:
   template <int kCols>
-  static auto Map(double* values) {
+  static auto Map(double* values) {  // NOLINT(readability-non-const-parameter): it is written to
     return Eigen::Map<Eigen::Matrix<double, 2, kCols, Eigen::RowMajor>>(values);
   }
 

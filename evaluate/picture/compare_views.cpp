@@ -108,8 +108,10 @@ View MakeView(const TextureComparison& comparison, const Renderer& model, const 
 
 double RadiusAt(const View& view, size_t pixel) {
   const size_t width = view.photo.width_px;
-  return RadiusSquared(view.camera, static_cast<double>(pixel % width) + 0.5,
-                       static_cast<double>(pixel / width) + 0.5);
+  const size_t row = pixel / width;
+  const size_t column = pixel % width;
+  return RadiusSquared(view.camera, static_cast<double>(column) + 0.5,
+                       static_cast<double>(row) + 0.5);
 }
 
 std::vector<float> LightOf(const Image& image) {

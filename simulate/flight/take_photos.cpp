@@ -36,13 +36,16 @@ Threads Split(int threads, const Camera& camera) {
   return split;
 }
 
-void TakePhoto(const PreparedFlight& prepared, size_t index, const Photographer& photographer,
-               const FlightOptions& options, const fs::path& path, int threads) {
+Image TakePhoto(const PreparedFlight& prepared, size_t index, const Photographer& photographer,
+                const FlightOptions& options, int threads) {
   const FlownPhoto& photo = prepared.flight.photos[index];
   Radiance light =
       photographer.photograph(photo.camera, photo.cam_from_world, photo.light, threads);
-  const Image image =
-      Develop(std::move(light), photo.camera, EffectsOf(prepared, index, options), threads);
+  return Develop(std::move(light), photo.camera, EffectsOf(prepared, index, options), threads);
+}
+
+void WritePhoto(const Image& image, const PreparedFlight& prepared, size_t index,
+                const FlightOptions& options, const fs::path& path) {
   const std::string jpeg = EncodeImage(image, path, options.jpeg_quality);
   WriteFileAtomically(path, WithMetadata(jpeg, MetadataOf(prepared, index, options)));
 }
@@ -86,7 +89,10 @@ FlySummary TakePhotos(const PreparedFlight& prepared, const Photographer& photog
     const fs::path path = PathOfPhoto(request.survey, photo);
     std::error_code error;
     const bool is_there = fs::exists(path, error);
-    if (!is_there) TakePhoto(prepared, wanted[i], photographer, options, path, threads.inside);
+    if (!is_there) {
+      WritePhoto(TakePhoto(prepared, wanted[i], photographer, options, threads.inside), prepared,
+                 wanted[i], options, path);
+    }
     if (options.write_depth) {
       TakeDepth(photo, photographer, PathOfDepth(request.survey, photo), threads.inside);
     }
