@@ -15,8 +15,7 @@ namespace {
 
 std::filesystem::path DataFolder() {
   if (const char* named = std::getenv("STUCCO_DATA")) return named;
-  const auto tests = std::filesystem::path(__FILE__).parent_path().parent_path();
-  return tests.parent_path().parent_path() / "shared" / "data";
+  return std::filesystem::path(STUCCO_ROOT) / "../shared/data";
 }
 
 const std::filesystem::path kData = DataFolder();

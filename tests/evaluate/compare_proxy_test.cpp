@@ -189,7 +189,8 @@ TEST(CompareProxy, AFacetThatSpansTwoFacadesNamesBoth) {
   truth.buildings[0].facets.push_back(east);
   EXPECT_NEAR(Compare(result, truth, 0.05).facade_id_rate, (504 - 36) / 504.0, 1e-9);
   Proxy named = result;
-  named.buildings[0].facets[0].planned_facades = {west.id, "B0009/F00", "B0001/F09"};
+  named.buildings[0].facets[0].planned_facades = {result.buildings[0].facets[0].id, "B0009/F00",
+                                                  "B0001/F09"};
   EXPECT_NEAR(Compare(named, truth, 0.05).facade_id_rate, 1, 1e-9);
 }
 

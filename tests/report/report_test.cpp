@@ -214,8 +214,12 @@ TEST_F(Report, HostileNamesStayText) {
   }
   made.proxy.buildings[0].facets[1].id = made.textures.facets[1].id = names[1];
   made.calibration.cameras[0].label = names[0];
-  made.georef.frame = names[2];
   WriteSurvey(made, folder_.path());
+  // A file of somebody else's: ours are never written with such a frame.
+  const std::filesystem::path georef_file = folder_.path() / kGeorefFile;
+  nlohmann::json georef = nlohmann::json::parse(ReadFile(georef_file));
+  georef["frame"] = names[2];
+  WriteFile(georef_file, georef.dump());
   Run();
   const std::string page = Content(Page());
   EXPECT_EQ(CountOf(page, "<script"), 0U);
