@@ -40,7 +40,7 @@ std::string Serialize(const DepthMap& map) {
   std::string bytes(kHead + count * kBytesPerPixel, '\0');
   const int32_t size[2] = {map.width, map.height};
   char* out = bytes.data();
-  std::memcpy(out, kMagic, 4);
+  std::copy_n(kMagic, 4, out);
   std::memcpy(out + 4, size, 8);
   out += kHead;
   std::memcpy(out, map.depths.data(), count * 4);

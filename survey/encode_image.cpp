@@ -39,8 +39,8 @@ void CheckIsWhole(const Image& image, const std::filesystem::path& path) {
 // OpenCV stores colours as B G R.
 cv::Mat ToOpenCv(const Image& image) {
   // The matrix is only read from; OpenCV has no type for that.
-  const cv::Mat pixels(image.height_px, image.width_px, CV_8UC(image.channels),
-                       const_cast<uint8_t*>(image.data.data()));
+  cv::Mat pixels(image.height_px, image.width_px, CV_8UC(image.channels),
+                 const_cast<uint8_t*>(image.data.data()));
   if (image.channels == 1) return pixels;
   cv::Mat bgr;
   cv::cvtColor(pixels, bgr, cv::COLOR_RGB2BGR);

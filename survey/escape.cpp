@@ -66,7 +66,7 @@ std::string IsolatedHtml(std::string_view text) {
 }
 
 std::string CsvField(std::string_view text) {
-  const std::string clean = CleanUtf8(text);
+  std::string clean = CleanUtf8(text);
   if (clean.find_first_of(",\"\r\n") == std::string::npos) return clean;
   std::string quoted = "\"";
   for (const char c : clean) {
