@@ -82,7 +82,7 @@ std::string HashCache::Hash(const std::filesystem::path& file) {
       return entry->second.hash;
     }
   }
-  const std::string hash = HashFile(file);
+  std::string hash = HashFile(file);
   const std::lock_guard lock(mutex_);
   changed_ = true;
   // Not remembered: a file that changed while it was read, and a name that the line format cannot

@@ -26,7 +26,7 @@ void RequireOutside(const fs::path& photos, const fs::path& written) {
 
 fs::path RealPath(const fs::path& path) {
   std::error_code error;
-  const fs::path real = fs::weakly_canonical(path, error);
+  fs::path real = fs::weakly_canonical(path, error);
   if (!error) {
     return real;
   }

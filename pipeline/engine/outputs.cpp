@@ -59,7 +59,7 @@ bool IsOurs(const fs::path& survey, const std::string& stage) {
 // The first of <target>.old-1, <target>.old-2 ... that is free.
 fs::path FreeNameBeside(const fs::path& target) {
   for (int number = 1;; ++number) {
-    const fs::path name = fmt::format("{}{}-{}", target.string(), kOldSuffix, number);
+    fs::path name = fmt::format("{}{}-{}", target.string(), kOldSuffix, number);
     std::error_code error;
     if (!fs::exists(fs::symlink_status(name, error))) {
       return name;

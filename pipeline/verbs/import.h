@@ -24,7 +24,7 @@ struct ImportReport {
 // to the photo folder by path, else by a file name that occurs once. A model of resized photos is
 // scaled to the photos. Throws Error (kBadInput) when the model is damaged, names photos that are
 // not there, or was made from pictures of another shape.
-ImportReport ImportColmap(const std::filesystem::path& survey, const std::filesystem::path& model,
+ImportReport ImportColmap(const std::filesystem::path& survey, const std::filesystem::path& source,
                           const StageTable& table, const Platform& platform);
 
 struct CloudImportReport {
@@ -39,7 +39,7 @@ struct CloudImportReport {
 // (kBadInput) without a calibration, when the file is damaged, and when hardly any photo sees it,
 // as it is then in another frame.
 CloudImportReport ImportCloud(const std::filesystem::path& survey,
-                              const std::filesystem::path& cloud, const StageTable& table,
+                              const std::filesystem::path& source, const StageTable& table,
                               const Platform& platform);
 
 }  // namespace stucco
