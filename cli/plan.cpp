@@ -55,6 +55,16 @@ void AddPlanOptions(CLI::App& verb, std::vector<std::string>& set) {
     std::replace(dashed.begin(), dashed.end(), '_', '-');
     std::string names = "--" + dashed;
     if (dashed.ends_with("-m")) names = "--" + dashed.substr(0, dashed.size() - 2) + "," + names;
+    if (std::holds_alternative<bool*>(option.value)) {
+      verb.add_flag_function(
+              fmt::format("{},!--no-{}", names, dashed),
+              [&set, name = option.name](int64_t count) {
+                set.push_back(fmt::format("{}={}", name, count > 0));
+              },
+              fmt::format("{} (default {})", option.help, ValueAsToml(option)))
+          ->group("What is planned");
+      return;
+    }
     const std::string allowed = AllowedValues(option);
     verb.add_option_function<std::string>(
             names,

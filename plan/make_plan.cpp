@@ -14,6 +14,8 @@
 #include "plan/dipping/dipping_views.h"
 #include "plan/evaluate/evaluate_facades.h"
 #include "plan/evaluate/target_all.h"
+#include "plan/match/link_photos.h"
+#include "plan/match/photo_graph.h"
 #include "plan/path/flights.h"
 #include "plan/planar/planar_views.h"
 #include "survey/error.h"
@@ -43,6 +45,16 @@ double PlanarReach(const Task& task) {
   return std::max(task.d_max_m, kTilted * task.site.safe_altitude_m);
 }
 
+void Link(const Task& task, const Obstacles& obstacles, std::vector<Hover>& hovers,
+          Progress& progress) {
+  const LinkReport report =
+      AddLinkPhotos({task.site, task.camera, task.threads}, obstacles, hovers, progress);
+  progress.Note(
+      fmt::format("{} link photos, {} of them at stops of their own; {} photos stay loose, {} "
+                  "parts, {} bridges",
+                  report.photos, report.stops, report.loose.size(), report.parts, report.bridges));
+}
+
 std::vector<Hover> Cocapture(const Task& task, Progress& progress) {
   const Obstacles obstacles(task.site);
   DippingSetting setting = MakeSetting(task.site, obstacles, task.camera, task.d_max_m);
@@ -59,6 +71,7 @@ std::vector<Hover> Cocapture(const Task& task, Progress& progress) {
   std::vector<Hover> above = PlanarViews(task.site, task.camera, planar, dipping.hovers, progress);
   std::vector<Hover> hovers = std::move(dipping.hovers);
   std::move(above.begin(), above.end(), std::back_inserter(hovers));
+  if (task.options.links) Link(task, obstacles, hovers, progress);
   return hovers;
 }
 
@@ -164,6 +177,20 @@ void AddFacades(const Task& task, const std::vector<Intervals>& unobservable,
   }
 }
 
+// Partners that a photo has besides are no news.
+constexpr size_t kMostPartners = 12;
+
+void AddPartners(const Task& task, const std::vector<Hover>& hovers, Plan& plan) {
+  const PhotoGraph photos({task.site, task.camera, task.threads}, hovers);
+  const auto partners = StrongPartners(photos, kEnoughStrength, task.threads);
+  for (size_t i = 0; i < partners.size(); ++i) {
+    for (const Partner& partner : partners[i]) {
+      if (plan.views[i].partners.size() == kMostPartners) break;
+      plan.views[i].partners.push_back({plan.views[partner.photo].id, partner.strength});
+    }
+  }
+}
+
 Plan DescribeSite(const Task& task) {
   const Site& site = task.site;
   Plan plan;
@@ -216,6 +243,7 @@ PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, P
   result.plan.flights = path.flights;
   AddViews(site, path, result.plan);
   AddFacades(task, unobservable, path.hovers, result.plan);
+  AddPartners(task, path.hovers, result.plan);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   result.stats = StatsOf(result.plan, taken.count(), path.tour.gap());
   return result;

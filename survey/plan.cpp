@@ -10,12 +10,13 @@
 namespace stucco {
 namespace {
 
-constexpr std::array<std::pair<ViewKind, std::string_view>, 5> kKinds = {{
+constexpr std::array<std::pair<ViewKind, std::string_view>, 6> kKinds = {{
     {ViewKind::kDipping, "dipping"},
     {ViewKind::kDippingFoot, "dipping_foot"},
     {ViewKind::kNadir, "nadir"},
     {ViewKind::kOblique, "oblique"},
     {ViewKind::kSurface, "surface"},
+    {ViewKind::kLink, "link"},
 }};
 
 }  // namespace

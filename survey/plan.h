@@ -19,8 +19,10 @@ enum class ViewKind {
   kNadir,        // straight down
   kOblique,      // tilted, from above the buildings
   kSurface,      // aimed at one point of the model (method dronescan)
+  kLink,         // half way between photos that would not match by themselves
 };
-std::string_view Name(ViewKind kind);  // "dipping", "dipping_foot", "nadir", "oblique", "surface"
+// "dipping", "dipping_foot", "nadir", "oblique", "surface", "link"
+std::string_view Name(ViewKind kind);
 std::optional<ViewKind> ViewKindFromName(std::string_view name);
 
 // The part of a facade that a view is meant to paint: along it from `a`, and in height (z).
@@ -28,6 +30,12 @@ struct PlannedTarget {
   std::string facade;
   Interval along_m;
   Interval z_m;
+};
+
+// Another photo that one should match.
+struct PlannedPartner {
+  std::string view;
+  double strength = 0;  // what their frames show alike, in [0, 1]: plan/match/match_graph.h
 };
 
 // One photo to take. Positions are in the frame of the plan.
@@ -41,6 +49,7 @@ struct PlannedView {
   int order = 0;   // in the whole survey, from 0
   int flight = 0;  // from 0
   std::vector<PlannedTarget> targets;
+  std::vector<PlannedPartner> partners;  // expected, the strongest first; none in older plans
 };
 
 // Predicted quality of a facade's texture, each term in [0, 1]: frontal and alike (s), close and

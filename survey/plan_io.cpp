@@ -63,6 +63,7 @@ void Round(PlannedView& view) {
     target.along_m = Metres(target.along_m);
     target.z_m = Metres(target.z_m);
   }
+  for (PlannedPartner& partner : view.partners) partner.strength = Share(partner.strength);
 }
 
 void Round(PlannedFlight& flight) {
@@ -144,6 +145,12 @@ static void Fields(Archive& archive, T& target) {
   IntervalField(archive, "z_m", target.z_m);
 }
 
+template <typename Archive, internal::Is<PlannedPartner> T>
+static void Fields(Archive& archive, T& partner) {
+  archive.Required("view", partner.view);
+  archive.Required("strength", partner.strength);
+}
+
 template <typename Archive, internal::Is<PlannedView> T>
 static void Fields(Archive& archive, T& view) {
   archive.Required("id", view.id);
@@ -163,6 +170,7 @@ static void Fields(Archive& archive, T& view) {
   std::vector<std::string> facades = internal::FacadesOf(view);
   archive.Required("facades", facades);
   archive.Optional("targets", view.targets);
+  archive.Optional("partners", view.partners);
   if constexpr (Archive::kReads) {
     for (const std::string& facade : facades) {
       const auto known = internal::FacadesOf(view);

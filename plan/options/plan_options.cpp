@@ -32,6 +32,8 @@ void Describe(OptionTable& table, PlanOptions& options) {
       "reconstructability", options.reconstructability, 0, 100,
       "Least reconstructability that thinning out leaves at every point of the surface; 0: ten "
       "times that of one good pair of photos");
+  table.Add("links", options.links,
+            "Add photos between those that would not match by themselves (method cocapture)");
   table.Add("battery_percent", options.battery_percent, 10, 100,
             "Share of a battery that one flight may use");
   table.Add("map_layer", options.map_layer, {},

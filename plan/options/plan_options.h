@@ -23,6 +23,7 @@ struct PlanOptions {
   double margin_m = 0;            // how far views go beyond the buildings; 0: as H
   double vertical_step = 0.8;     // k_d of the paper
   double reconstructability = 0;  // tau_r; 0: ten times that of one good pair
+  bool links = true;              // photos between those that would not match
   double battery_percent = 80;    // used up per flight at most
   std::string map_layer;          // empty: one named after buildings, else the first with polygons
   std::string height_field;       // empty: the usual names

@@ -143,7 +143,7 @@ TEST(PlanFile, TakesViewsByOrder) {
 
 TEST(PlanFile, KindsHaveNames) {
   for (const ViewKind kind : {ViewKind::kDipping, ViewKind::kDippingFoot, ViewKind::kNadir,
-                              ViewKind::kOblique, ViewKind::kSurface}) {
+                              ViewKind::kOblique, ViewKind::kSurface, ViewKind::kLink}) {
     EXPECT_EQ(ViewKindFromName(Name(kind)), kind);
   }
   EXPECT_EQ(ViewKindFromName("Dipping"), std::nullopt);
