@@ -164,6 +164,12 @@ void AddFacades(const Task& task, const std::vector<Intervals>& unobservable,
   }
 }
 
+PlannedPace PaceOf(const PlanOptions& options) {
+  PlannedPace pace;
+  pace.wind_m_per_s = options.wind_m_per_s;
+  return pace;
+}
+
 Plan DescribeSite(const Task& task) {
   const Site& site = task.site;
   Plan plan;
@@ -207,13 +213,14 @@ PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, P
   std::vector<Hover> hovers = PlanViews(task, progress);
   Assign(task, hovers);
   const size_t planned = hovers.size();
-  FlightPlan path = PlanFlights(site, {task.camera.battery_scale, options.battery_percent},
-                                std::move(hovers), threads, progress);
+  const Battery battery{task.camera.battery_scale, options.battery_percent, PaceOf(options)};
+  FlightPlan path = PlanFlights(site, battery, std::move(hovers), threads, progress);
   const std::vector<Intervals> unobservable = NotDippedAt(site, path.hovers);
   if (path.hovers.size() < planned && options.method == "cocapture") Assign(task, path.hovers);
   PlanResult result;
   result.plan = DescribeSite(task);
   result.plan.flights = path.flights;
+  result.plan.pace = battery.pace;
   AddViews(site, path, result.plan);
   AddFacades(task, unobservable, path.hovers, result.plan);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
