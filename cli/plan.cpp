@@ -48,7 +48,8 @@ void PrintSummary(const PlanSummary& summary, const CommonOptions& common) {
                            (std::filesystem::path(common.survey) / "photos").string(), next);
 }
 
-// --gsd and --gsd-m for gsd_m, --wind and --wind-m-per-s for wind_m_per_s; the values end up in `set`.
+// --gsd and --gsd-m for gsd_m, --wind and --wind-m-per-s for wind_m_per_s; the values end up in
+// `set`.
 void AddPlanOptions(CLI::App& verb, std::vector<std::string>& set) {
   ForPlanOptions([&](const Option& option) {
     std::string dashed = option.name;

@@ -66,8 +66,7 @@ void CheckFrame(const Checker& check) {
 
 void CheckPace(const Checker& check) {
   const PlannedPace& pace = check.plan.pace;
-  for (const auto& [name, rate] :
-       std::initializer_list<std::pair<const char*, double>>{
+  for (const auto& [name, rate] : std::initializer_list<std::pair<const char*, double>>{
            {"speed_m_per_s", pace.speed_m_per_s},
            {"transfer_speed_m_per_s", pace.transfer_speed_m_per_s},
            {"climb_m_per_s", pace.climb_m_per_s},
@@ -77,13 +76,13 @@ void CheckPace(const Checker& check) {
     check.Require(rate > 0 && std::isfinite(rate), fmt::format("\"pace.{}\"", name),
                   "must be more than 0");
   }
-  for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{
-           {"hold_s", pace.hold_s},
-           {"shutter_s", pace.shutter_s},
-           {"ground_s", pace.ground_s},
-           {"corner_s", pace.corner_s},
-           {"stop_s", pace.stop_s},
-           {"wind_m_per_s", pace.wind_m_per_s}}) {
+  for (const auto& [name, value] :
+       std::initializer_list<std::pair<const char*, double>>{{"hold_s", pace.hold_s},
+                                                             {"shutter_s", pace.shutter_s},
+                                                             {"ground_s", pace.ground_s},
+                                                             {"corner_s", pace.corner_s},
+                                                             {"stop_s", pace.stop_s},
+                                                             {"wind_m_per_s", pace.wind_m_per_s}}) {
     check.Require(value >= 0 && std::isfinite(value), fmt::format("\"pace.{}\"", name),
                   "must not be negative");
   }

@@ -75,8 +75,8 @@ void SetYaws(std::vector<MissionStop>& stops) {
 double ReturnHeight(const Plan& plan, const Eigen::Vector3d& home) {
   double highest = plan.safe_altitude_m;
   for (const PlannedFootprint& footprint : plan.footprints) {
-    highest = std::max({highest, footprint.blocked_to_m - home.z(),
-                        footprint.z_m.to_m + plan.d_min_m - home.z()});
+    highest = std::max(
+        {highest, footprint.blocked_to_m - home.z(), footprint.z_m.to_m + plan.d_min_m - home.z()});
   }
   for (const PlannedFlight& flight : plan.flights) {
     for (const PlannedWaypoint& waypoint : flight.waypoints) {
@@ -118,8 +118,7 @@ MissionRoute MissionRouteOf(const Plan& plan, const PlannedFlight& flight,
                   fmt::format("a flight stops at hover {}, which has no views", waypoint.hover));
     }
     const bool passes = waypoint.hover < 0;
-    Append(plan, waypoint.position_m, passes ? std::vector<PlannedView>() : found->second,
-           route);
+    Append(plan, waypoint.position_m, passes ? std::vector<PlannedView>() : found->second, route);
   }
   SetYaws(route.stops);
   return route;

@@ -32,8 +32,9 @@ void Describe(OptionTable& table, PlanOptions& options) {
       "reconstructability", options.reconstructability, 0, 100,
       "Least reconstructability that thinning out leaves at every point of the surface; 0: ten "
       "times that of one good pair of photos");
-  table.Add("battery_percent", options.battery_percent, 10, 100,
-            "Share of a battery that one flight may use, less what its way home takes against the wind");
+  table.Add(
+      "battery_percent", options.battery_percent, 10, 100,
+      "Share of a battery that one flight may use, less what its way home takes against the wind");
   table.Add("wind_m_per_s", options.wind_m_per_s, 0, kMostWind_m_per_s,
             "Wind that time and energy are reckoned with, in metres a second");
   table.Add("map_layer", options.map_layer, {},

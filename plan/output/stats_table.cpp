@@ -40,9 +40,9 @@ std::string Energy(const PlanStats& stats) {
 
 std::string Time(const PlanStats& stats) {
   const PlannedTime& parts = stats.parts;
-  return fmt::format("{:.1f} min: {:.1f} photos, {:.1f} stops and turns, {:.1f} legs, {:.1f} transfer",
-                     stats.time_min, parts.photos_min, parts.stops_min, parts.legs_min,
-                     parts.transfer_min);
+  return fmt::format(
+      "{:.1f} min: {:.1f} photos, {:.1f} stops and turns, {:.1f} legs, {:.1f} transfer",
+      stats.time_min, parts.photos_min, parts.stops_min, parts.legs_min, parts.transfer_min);
 }
 
 std::string Assumed(const PlannedPace& pace) {

@@ -40,15 +40,14 @@ struct Motion {
 };
 
 Motion Against(double speed, double wind) {
-  const double ground =
-      std::max(kLeastSpeed_m_per_s, std::min(speed, kTopAirspeed_m_per_s - wind));
+  const double ground = std::max(kLeastSpeed_m_per_s, std::min(speed, kTopAirspeed_m_per_s - wind));
   return {ground, ground + wind};
 }
 
 // Against the wind, with it, and twice across it.
 std::array<Motion, 4> EveryWay(double speed, double wind) {
-  const double cross = std::min(speed, std::sqrt(std::max(0.0, std::pow(kTopAirspeed_m_per_s, 2) -
-                                                                   wind * wind)));
+  const double cross =
+      std::min(speed, std::sqrt(std::max(0.0, std::pow(kTopAirspeed_m_per_s, 2) - wind * wind)));
   const Motion across{std::max(kLeastSpeed_m_per_s, cross), std::hypot(cross, wind)};
   return {Against(speed, wind), {speed, std::abs(speed - wind)}, across, across};
 }

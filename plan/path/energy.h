@@ -37,10 +37,11 @@ FlightWork GroundWork(double transfer_height_m, double first_height_m, const Pla
 // drone is worth.
 //
 // The model: P (f_moving (transfer_s + legs_s) + f_rest (stops_s + photos_s)) plus the lift of what
-// is climbed (sinking gives nothing back). P and PlannedPace::stop_s are fitted (least squares of relative errors of energy
-// and time, bench/fit_energy.py) to the fourteen flights of a Mavic 3E that Xiong et al., "Aerial
-// Path Planning for Urban Geometry and Texture Co-Capture" (2025), publish. f says what airspeed
-// adds in the wind of `pace`; docs/planning.md has the formulas, the errors and what limits them.
+// is climbed (sinking gives nothing back). P and PlannedPace::stop_s are fitted (least squares of
+// relative errors of energy and time, bench/fit_energy.py) to the fourteen flights of a Mavic 3E
+// that Xiong et al., "Aerial Path Planning for Urban Geometry and Texture Co-Capture" (2025),
+// publish. f says what airspeed adds in the wind of `pace`; docs/planning.md has the formulas, the
+// errors and what limits them.
 double BatteryPercent(const FlightWork& work, const PlannedPace& pace, double battery_scale);
 
 // Home from a place so far away (on the map) and so high above home, straight against the wind at

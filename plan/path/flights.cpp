@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "plan/path/energy.h"
+#include "plan/path/facade_cuts.h"
 #include "plan/path/flight_work.h"
 #include "plan/path/split.h"
 #include "survey/error.h"
@@ -30,8 +31,8 @@ constexpr double kCutFacade_percent = 1;
 // Where flights may start.
 struct Place {
   Vector3d ground;
-  Vector3d start;             // straight above, as low as the drone may be
-  double transfer_height_m;   // above the ground: nothing of the site reaches it
+  Vector3d start;            // straight above, as low as the drone may be
+  double transfer_height_m;  // above the ground: nothing of the site reaches it
 };
 
 // What all steps need.
@@ -110,8 +111,8 @@ SplitHome CostsFrom(const Task& task, const Place& place, const std::vector<Hove
   constexpr double kNoWay = std::numeric_limits<double>::infinity();
   const size_t n = hovers.size();
   SplitHome home;
-  home.fixed = task.Percent(GroundWork(
-      place.transfer_height_m, place.start.z() - place.ground.z(), task.pace()));
+  home.fixed = task.Percent(
+      GroundWork(place.transfer_height_m, place.start.z() - place.ground.z(), task.pace()));
   home.out.assign(n, kNoWay);
   home.back.assign(n, kNoWay);
   home.reserve.assign(n, 0);
@@ -119,14 +120,14 @@ SplitHome CostsFrom(const Task& task, const Place& place, const std::vector<Hove
     ThrowIfCancelled(task.progress);
     const Vector3d& at = hovers[k].position;
     if (auto route = task.space.ShortestRoute(place.start, at)) {
-      home.out[k] = task.Percent(TransferWork(*route, task.pace()) +
-                                 FirstTiltWork(hovers[k], task.pace()));
+      home.out[k] =
+          task.Percent(TransferWork(*route, task.pace()) + FirstTiltWork(hovers[k], task.pace()));
       std::reverse(route->points.begin(), route->points.end());
       home.back[k] = task.Percent(TransferWork(*route, task.pace()));
     }
-    home.reserve[k] = WayHomePercent({(at - place.ground).head<2>().norm(),
-                                      at.z() - place.ground.z(), place.transfer_height_m},
-                                     task.pace(), task.battery.scale);
+    home.reserve[k] = WayHomePercent(
+        {(at - place.ground).head<2>().norm(), at.z() - place.ground.z(), place.transfer_height_m},
+        task.pace(), task.battery.scale);
     task.progress.Advance();
   });
   return home;
@@ -183,8 +184,8 @@ double StopPercent(const Task& task, const Hover& hover) {
 double AlonePercent(const std::vector<SplitHome>& homes, size_t hover, double stop) {
   double least = std::numeric_limits<double>::infinity();
   for (const SplitHome& home : homes) {
-    least = std::min(least, home.fixed + home.out[hover] + stop + home.back[hover] +
-                                home.reserve[hover]);
+    least = std::min(least,
+                     home.fixed + home.out[hover] + stop + home.back[hover] + home.reserve[hover]);
   }
   return least;
 }
@@ -197,11 +198,12 @@ void CheckBattery(const Task& task, const std::vector<Hover>& hovers,
     const Vector3d& p = hovers[k].position;
     throw Error(
         ErrorKind::kBadInput,
-        fmt::format("the photos at ({:.0f}, {:.0f}, {:.0f}) m, {:.0f} m from home, take {:.0f} % of "
-                    "a battery, the ways there and back and the reserve for wind of {:g} m/s "
-                    "included, and a flight may use {:.0f} %",
-                    p.x(), p.y(), p.z(), (p - task.site.home).head<2>().norm(), percent,
-                    task.pace().wind_m_per_s, task.battery.use_percent),
+        fmt::format(
+            "the photos at ({:.0f}, {:.0f}, {:.0f}) m, {:.0f} m from home, take {:.0f} % of "
+            "a battery, the ways there and back and the reserve for wind of {:g} m/s "
+            "included, and a flight may use {:.0f} %",
+            p.x(), p.y(), p.z(), (p - task.site.home).head<2>().norm(), percent,
+            task.pace().wind_m_per_s, task.battery.use_percent),
         "give a home point nearer to the buildings, split the area, or allow more with "
         "--battery-percent");
   }
@@ -232,51 +234,15 @@ struct Cuttable {
   const Route& LegFrom(int k) const { return legs[k % legs.size()]; }
 };
 
-// How many facades have photos on both sides of a cut after each stop. A facade's photos span the
-// part of the tour that is left without the longest stretch that has none of them.
-std::vector<int> FacadesAcross(const std::vector<Hover>& tour, size_t facades) {
-  const int n = static_cast<int>(tour.size());
-  std::vector<std::vector<int>> stops(facades);
-  for (int k = 0; k < n; ++k) {
-    for (const Shot& shot : tour[k].shots) {
-      for (const Target& target : shot.targets) {
-        std::vector<int>& of = stops[target.facade];
-        if (of.empty() || of.back() != k) of.push_back(k);
-      }
-    }
-  }
-  std::vector<int> change(n + 1, 0);
-  for (const std::vector<int>& of : stops) {
-    if (of.size() < 2) continue;
-    size_t longest = 0;  // begins the longest stretch to the next of them
-    const auto gap = [&](size_t i) {
-      return i + 1 < of.size() ? of[i + 1] - of[i] : of.front() + n - of.back();
-    };
-    for (size_t i = 1; i < of.size(); ++i) {
-      if (gap(i) >= gap(longest)) longest = i;
-    }
-    for (size_t i = 0; i < of.size(); ++i) {
-      if (i == longest) continue;
-      const int to = i + 1 < of.size() ? of[i + 1] : of.front();
-      ++change[of[i]];
-      --change[to];
-      if (to < of[i]) ++change[0];
-    }
-  }
-  std::vector<int> across(n);
-  for (int k = 0, sum = 0; k < n; ++k) across[k] = sum += change[k];
-  return across;
-}
-
 std::vector<Stretch> Split(const Task& task, const Cuttable& tour) {
   SplitProblem problem;
   problem.homes = tour.homes;
-  const std::vector<int> across = FacadesAcross(tour.hovers, task.site.facades.size());
+  const std::vector<int> divided = FacadesDivided(tour.hovers, task.site.facades.size());
   for (int k = 0; k < static_cast<int>(tour.hovers.size()); ++k) {
     const FlightWork hop = HopWork(tour.At(k), tour.LegFrom(k), tour.At(k + 1), task.pace());
     problem.stop.push_back(StopPercent(task, tour.At(k)));
     problem.next.push_back(task.Percent(hop));
-    problem.cut.push_back(kCutFacade_percent * across[k]);
+    problem.cut.push_back(kCutFacade_percent * divided[k]);
   }
   problem.budget = task.battery.use_percent + kRounding_percent;
   return SplitTour(problem);
@@ -304,7 +270,8 @@ Route RouteBetween(const Task& task, const Vector3d& from, const Vector3d& to) {
 
 // Adds the points of a route after the first.
 void Append(const Route& route, PlannedFlight& flight) {
-  for (size_t k = 1; k < route.points.size(); ++k) flight.waypoints.push_back({route.points[k], -1});
+  for (size_t k = 1; k < route.points.size(); ++k)
+    flight.waypoints.push_back({route.points[k], -1});
   flight.length_m += route.length_m;
 }
 

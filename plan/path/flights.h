@@ -14,8 +14,8 @@ namespace stucco::plan {
 
 struct FlightPlan {
   std::vector<Hover> hovers;  // in order of capture
-  // Waypoints name hovers by index. Each flight begins and ends above its home at the lowest altitude;
-  // its length includes the climb there and back.
+  // Waypoints name hovers by index. Each flight begins and ends above its home at the lowest
+  // altitude; its length includes the climb there and back.
   std::vector<PlannedFlight> flights;
   TourReport tour;
   double length_m = 0;  // of all flights

@@ -23,7 +23,7 @@ constexpr uint64_t kViewSeed = 0x71E3;
 constexpr uint64_t kChoiceSeed = 0xC401;
 constexpr uint64_t kHeldOutSeed = 0x8E1D;
 
-constexpr double kTwice_s = 0.7;          // between a photo and its double
+constexpr double kTwice_s = 0.7;  // between a photo and its double
 constexpr double kNewBattery_s = 240;
 
 std::vector<int> ViewsInOrder(const Plan& plan) {
