@@ -140,6 +140,8 @@ def mission_of(folder, flight, flights):
 def compare(folder):
     """For each flight the minutes that were planned and those that are commanded, and photos."""
     plan = json.loads((folder / "plan.json").read_text())
+    if "pace" not in plan:
+        raise SystemExit(f"{folder}/plan.json does not say how it is flown: plan again")
     photos = [0] * len(plan["flights"])
     for view in plan["views"]:
         photos[view["flight"]] += 1
