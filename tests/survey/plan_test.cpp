@@ -63,10 +63,10 @@ Plan MakePlan() {
                     {plan.home_m, -1}},
                    70.5,
                    2.25,
-                   8.125}};
-  plan.flights[0].reserve_percent = 2.5;
-  plan.flights[0].parts = {0.5, 1, 0.5, 0.25};
-  plan.flights[0].home_m = Eigen::Vector3d(-20, -21, 1.5);
+                   8.125,
+                   2.5,
+                   {0.5, 1, 0.5, 0.25},
+                   Eigen::Vector3d(-20, -21, 1.5)}};
   plan.pace.wind_m_per_s = 7;
   return plan;
 }
