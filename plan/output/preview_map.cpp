@@ -230,13 +230,18 @@ void DrawViews(const Plan& plan, const MapScale& scale, Svg& svg) {
 }
 
 void DrawHome(const Plan& plan, const MapScale& scale, Svg& svg) {
-  for (const Eigen::Vector3d& home : plan.Homes()) {
-    const Eigen::Vector2d at = scale.Page(home.head<2>());
+  const std::vector<Eigen::Vector3d> homes = plan.Homes();
+  for (size_t i = 0; i < homes.size(); ++i) {
+    const Eigen::Vector2d at = scale.Page(homes[i].head<2>());
     svg.Add(
         "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"9\" fill=\"#fff\" stroke=\"#111\" "
         "stroke-width=\"1.6\"/>",
         at.x(), at.y());
-    svg.Text(at + Eigen::Vector2d(0, 4.2), "class=\"home\"", "H");
+    if (homes.size() == 1) {
+      svg.Text(at + Eigen::Vector2d(0, 4.2), "class=\"home\"", "H");
+    } else {
+      svg.Text(at + Eigen::Vector2d(0, 3.4), "class=\"home small\"", fmt::format("H{}", i + 1));
+    }
   }
 }
 
