@@ -48,13 +48,13 @@ void PrintSummary(const PlanSummary& summary, const CommonOptions& common) {
                            (std::filesystem::path(common.survey) / "photos").string(), next);
 }
 
-// --gsd and --gsd-m for gsd_m; the values end up in `set`.
+// --gsd and --gsd-m for gsd_m, --wind and --wind-m-per-s for wind_m_per_s; the values end up in
+// `set`.
 void AddPlanOptions(CLI::App& verb, std::vector<std::string>& set) {
   ForPlanOptions([&](const Option& option) {
     std::string dashed = option.name;
     std::replace(dashed.begin(), dashed.end(), '_', '-');
     std::string names = "--" + dashed;
-    if (dashed.ends_with("-m")) names = "--" + dashed.substr(0, dashed.size() - 2) + "," + names;
     if (std::holds_alternative<bool*>(option.value)) {
       verb.add_flag_function(
               fmt::format("{},!--no-{}", names, dashed),
@@ -64,6 +64,10 @@ void AddPlanOptions(CLI::App& verb, std::vector<std::string>& set) {
               fmt::format("{} (default {})", option.help, ValueAsToml(option)))
           ->group("What is planned");
       return;
+    }
+    for (const std::string_view unit : {"-m", "-m-per-s"}) {
+      if (!dashed.ends_with(unit)) continue;
+      names = "--" + dashed.substr(0, dashed.size() - unit.size()) + "," + names;
     }
     const std::string allowed = AllowedValues(option);
     verb.add_option_function<std::string>(

@@ -191,6 +191,12 @@ void AddPartners(const Task& task, const std::vector<Hover>& hovers, Plan& plan)
   }
 }
 
+PlannedPace PaceOf(const PlanOptions& options) {
+  PlannedPace pace;
+  pace.wind_m_per_s = options.wind_m_per_s;
+  return pace;
+}
+
 Plan DescribeSite(const Task& task) {
   const Site& site = task.site;
   Plan plan;
@@ -234,13 +240,14 @@ PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, P
   std::vector<Hover> hovers = PlanViews(task, progress);
   Assign(task, hovers);
   const size_t planned = hovers.size();
-  FlightPlan path = PlanFlights(site, {task.camera.battery_scale, options.battery_percent},
-                                std::move(hovers), threads, progress);
+  const Battery battery{task.camera.battery_scale, options.battery_percent, PaceOf(options)};
+  FlightPlan path = PlanFlights(site, battery, std::move(hovers), threads, progress);
   const std::vector<Intervals> unobservable = NotDippedAt(site, path.hovers);
   if (path.hovers.size() < planned && options.method == "cocapture") Assign(task, path.hovers);
   PlanResult result;
   result.plan = DescribeSite(task);
   result.plan.flights = path.flights;
+  result.plan.pace = battery.pace;
   AddViews(site, path, result.plan);
   AddFacades(task, unobservable, path.hovers, result.plan);
   AddPartners(task, path.hovers, result.plan);

@@ -12,6 +12,7 @@ std::vector<std::string> WritePlanFolder(const PlanResult& result, const PlanOpt
                                          const std::filesystem::path& folder) {
   const CameraPreset camera = FindCamera(options.camera);
   MissionOptions mission;
+  mission.pace = result.plan.pace;
   mission.dji = {camera.dji_drone, camera.dji_drone_sub, camera.dji_payload};
   WritePlan(result.plan, folder / "plan.json");
   WriteStats(result.stats, folder / "stats.json");

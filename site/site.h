@@ -57,6 +57,7 @@ struct Site {
   std::vector<Polygon> no_fly;        // disjoint
   Polygon area;                       // grids of views stay inside it
   Eigen::Vector3d home = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> take_off;  // other places where a flight may start; may be empty
   TerrainGrid terrain;
   GroundRule ground = GroundRule::kTerrain;
   double d_min_m = 10;               // the dilation of footprints

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "survey/plan.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -33,6 +34,21 @@ std::optional<ViewKind> ViewKindFromName(std::string_view name) {
     if (known == name) return kind;
   }
   return std::nullopt;
+}
+
+Eigen::Vector3d Plan::HomeOf(int flight) const {
+  const auto index = static_cast<size_t>(flight);
+  return flight >= 0 && index < flights.size() ? HomeOf(flights[index]) : home_m;
+}
+
+std::vector<Eigen::Vector3d> Plan::Homes() const {
+  if (flights.empty()) return {home_m};
+  std::vector<Eigen::Vector3d> homes;
+  for (const PlannedFlight& flight : flights) {
+    const Eigen::Vector3d home = HomeOf(flight);
+    if (std::ranges::find(homes, home) == homes.end()) homes.push_back(home);
+  }
+  return homes;
 }
 
 }  // namespace stucco

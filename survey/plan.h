@@ -93,12 +93,42 @@ struct PlannedWaypoint {
   int hover = -1;  // -1: passes without a photo
 };
 
+// What the time of a flight goes into, minutes.
+struct PlannedTime {
+  double transfer_min = 0;  // take-off, the ways from and to home, landing
+  double legs_min = 0;      // from stop to stop
+  double stops_min = 0;     // coming to rest and speeding up, turns and tilts on the spot
+  double photos_min = 0;    // at rest before each photo, and the photo
+};
+
 // From home to home on one battery; straight lines between the points.
 struct PlannedFlight {
   std::vector<PlannedWaypoint> waypoints;
   double length_m = 0;
   double time_min = 0;
   double battery_percent = 0;
+  double reserve_percent = 0;  // kept for the way home from its farthest stop, against the wind
+  PlannedTime parts;
+  std::optional<Eigen::Vector3d> home_m;  // its take-off point; none: that of the plan
+};
+
+// How the flights are flown: what mission files command and what time and energy are reckoned by.
+// This is the one place for these figures.
+struct PlannedPace {
+  double speed_m_per_s = 5;           // between photos; slow enough to stop within d_min
+  double transfer_speed_m_per_s = 8;  // to the first point, and home
+  double hold_s = 1.5;                // commanded before each photo, for the gimbal to settle
+  // What drones do of themselves. Assumed: half of what the data sheet of the Mavic 3E rates for
+  // turns (200 degrees/s) and tilts (100), two thirds for climbing (6 m/s), half for sinking.
+  double climb_m_per_s = 4;
+  double sink_m_per_s = 3;
+  double yaw_deg_per_s = 100;
+  double tilt_deg_per_s = 50;
+  double shutter_s = 0.7;  // least interval of photos, data sheet of the Mavic 3E
+  double ground_s = 20;    // motors on to leaving the ground, and the last metre down
+  double corner_s = 2.5;   // slowing down and speeding up at a point that is passed, at 2 m/s2
+  double stop_s = 5.32;    // the same, and coming to rest, where photos are: bench/fit_energy.py
+  double wind_m_per_s = 3;
 };
 
 // The camera that the plan was made for.
@@ -130,12 +160,21 @@ struct Plan {
   double d_max_m = 0;          // farthest wall that a view counts for
   double safe_altitude_m = 0;  // above the ground; nothing of the site reaches it
   double min_altitude_m = 0;   // above the ground; nothing flies lower
-  Eigen::Vector3d home_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d home_m = Eigen::Vector3d::Zero();  // of flights that have none of their own
   std::vector<PlannedFootprint> footprints;
   std::vector<std::vector<Eigen::Vector2d>> no_fly_m;
   std::vector<PlannedFacade> facades;
   std::vector<PlannedView> views;  // in order of capture
   std::vector<PlannedFlight> flights;
+  PlannedPace pace;
+
+  Eigen::Vector3d HomeOf(const PlannedFlight& flight) const {
+    return flight.home_m.value_or(home_m);
+  }
+  // Of a flight by number; that of the plan where the plan has no such flight.
+  Eigen::Vector3d HomeOf(int flight) const;
+  // Each take-off point once, in the order of the flights; without flights that of the plan.
+  std::vector<Eigen::Vector3d> Homes() const;
 };
 
 }  // namespace stucco

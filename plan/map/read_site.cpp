@@ -321,6 +321,9 @@ Site ReadSite(const SiteInputs& inputs, const PlanOptions& options) {
                   : DefaultHome(site);
   // Drones count heights from where they take off: a home too high would have them fly too low.
   site.home.z() = ground.HeightAt(site.home.head<2>());
+  constexpr size_t kMostTakeOffPlaces = 15;
+  if (!inputs.home) site.take_off = TakeOffPlaces(site, kMostTakeOffPlaces);
+  for (Eigen::Vector3d& place : site.take_off) place.z() = ground.HeightAt(place.head<2>());
   site.repairs = repairs.Lines();
   return site;
 }

@@ -127,7 +127,9 @@ std::string PlanGeoJson(const Plan& plan) {
   AddFacades(writer);
   AddPaths(writer);
   AddViews(writer);
-  writer.Add("home", "Point", writer.At(plan.home_m), Json::object());
+  for (const Eigen::Vector3d& home : plan.Homes()) {
+    writer.Add("home", "Point", writer.At(home), Json::object());
+  }
   return "{\"type\":\"FeatureCollection\",\"features\":[\n" + writer.text + "\n]}\n";
 }
 

@@ -34,8 +34,11 @@ void Describe(OptionTable& table, PlanOptions& options) {
       "times that of one good pair of photos");
   table.Add("links", options.links,
             "Add photos between those that would not match by themselves (method cocapture)");
-  table.Add("battery_percent", options.battery_percent, 10, 100,
-            "Share of a battery that one flight may use");
+  table.Add(
+      "battery_percent", options.battery_percent, 10, 100,
+      "Share of a battery that one flight may use, less what its way home takes against the wind");
+  table.Add("wind_m_per_s", options.wind_m_per_s, 0, kMostWind_m_per_s,
+            "Wind that time and energy are reckoned with, in metres a second");
   table.Add("map_layer", options.map_layer, {},
             "Layer of the map with the buildings; empty: one with \"building\" in its name, else "
             "the first "

@@ -9,6 +9,7 @@
 namespace stucco::plan {
 
 inline constexpr double kMostAltitude_m = 500;
+inline constexpr double kMostWind_m_per_s = 12;  // what the data sheet of the Mavic 3E resists
 
 struct PlanOptions {
   std::string method = "cocapture";
@@ -25,6 +26,7 @@ struct PlanOptions {
   double reconstructability = 0;  // tau_r; 0: ten times that of one good pair
   bool links = true;              // photos between those that would not match
   double battery_percent = 80;    // used up per flight at most
+  double wind_m_per_s = 3;        // that flights are reckoned with
   std::string map_layer;          // empty: one named after buildings, else the first with polygons
   std::string height_field;       // empty: the usual names
   std::string id_field;           // empty: the usual names

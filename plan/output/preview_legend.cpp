@@ -92,19 +92,22 @@ void DrawSymbols(const Plan& plan, Column& column) {
       "stroke-width=\"1.4\"/>",
       column.X(13), column.Y(-4));
   column.svg.Text({column.X(13), column.Y(-0.6)}, "class=\"home small\"", "H");
-  column.Entry("home: take-off and landing");
+  column.Entry("take-off and landing");
 }
 
 void DrawFlights(const Plan& plan, Column& column) {
   column.Heading(plan.flights.size() == 1 ? "Flight" : "Flights");
   column.Note("dashed at the safe altitude, solid below it");
   column.Down(5);
+  const std::vector<Eigen::Vector3d> homes = plan.Homes();
   for (size_t i = 0; i < std::min(plan.flights.size(), kMostFlights); ++i) {
     const PlannedFlight& flight = plan.flights[i];
     column.svg.Add("<path d=\"M{:.1f} {:.1f}h26\" stroke=\"{}\" stroke-width=\"3\"/>", column.X(0),
                    column.Y(-4), Hex(FlightColor(static_cast<int>(i))));
-    column.Entry(fmt::format("{}: {:.0f} m, {:.0f} min, {:.0f} % battery", i + 1, flight.length_m,
-                             flight.time_min, flight.battery_percent));
+    const auto home = std::ranges::find(homes, plan.HomeOf(flight)) - homes.begin();
+    column.Entry(fmt::format("{}: {:.0f} m, {:.0f} min, {:.0f} % battery{}", i + 1, flight.length_m,
+                             flight.time_min, flight.battery_percent,
+                             homes.size() > 1 ? fmt::format(", H{}", home + 1) : ""));
   }
   if (plan.flights.size() > kMostFlights) {
     column.Entry(fmt::format("and {} more, colours repeat", plan.flights.size() - kMostFlights));

@@ -42,7 +42,7 @@ Box ExtentOf(const Plan& plan) {
       box.Add(waypoint.position_m.head<2>());
     }
   }
-  box.Add(plan.home_m.head<2>());
+  for (const Eigen::Vector3d& home : plan.Homes()) box.Add(home.head<2>());
   return box;
 }
 
@@ -230,12 +230,19 @@ void DrawViews(const Plan& plan, const MapScale& scale, Svg& svg) {
 }
 
 void DrawHome(const Plan& plan, const MapScale& scale, Svg& svg) {
-  const Eigen::Vector2d at = scale.Page(plan.home_m.head<2>());
-  svg.Add(
-      "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"9\" fill=\"#fff\" stroke=\"#111\" "
-      "stroke-width=\"1.6\"/>",
-      at.x(), at.y());
-  svg.Text(at + Eigen::Vector2d(0, 4.2), "class=\"home\"", "H");
+  const std::vector<Eigen::Vector3d> homes = plan.Homes();
+  for (size_t i = 0; i < homes.size(); ++i) {
+    const Eigen::Vector2d at = scale.Page(homes[i].head<2>());
+    svg.Add(
+        "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"9\" fill=\"#fff\" stroke=\"#111\" "
+        "stroke-width=\"1.6\"/>",
+        at.x(), at.y());
+    if (homes.size() == 1) {
+      svg.Text(at + Eigen::Vector2d(0, 4.2), "class=\"home\"", "H");
+    } else {
+      svg.Text(at + Eigen::Vector2d(0, 3.4), "class=\"home small\"", fmt::format("H{}", i + 1));
+    }
+  }
 }
 
 }  // namespace

@@ -62,6 +62,22 @@ Json PartsJson(const std::vector<Interval>& parts) {
   return json;
 }
 
+Json PartsJson(const PlannedTime& parts) {
+  return {{"transfer", Metres(parts.transfer_min)},
+          {"legs", Metres(parts.legs_min)},
+          {"stops", Metres(parts.stops_min)},
+          {"photos", Metres(parts.photos_min)}};
+}
+
+Json AssumedJson(const PlannedPace& pace) {
+  return {{"speed_m_per_s", pace.speed_m_per_s},
+          {"stop_s", pace.stop_s},
+          {"photo_s", Metres(pace.hold_s + pace.shutter_s)},
+          {"yaw_deg_per_s", pace.yaw_deg_per_s},
+          {"tilt_deg_per_s", pace.tilt_deg_per_s},
+          {"wind_m_per_s", pace.wind_m_per_s}};
+}
+
 Json FacadeJson(const FacadeStats& facade) {
   Json json = {{"id", facade.id}, {"length_m", Metres(facade.length_m)}, {"views", facade.views}};
   AddQuality(facade.quality, json);
@@ -93,7 +109,12 @@ PlanStats StatsOf(const Plan& plan, double planning_s, double tsp_gap) {
     stats.time_min += flight.time_min;
     stats.battery_percent += flight.battery_percent;
     stats.battery_by_flight.push_back(flight.battery_percent);
+    stats.parts.transfer_min += flight.parts.transfer_min;
+    stats.parts.legs_min += flight.parts.legs_min;
+    stats.parts.stops_min += flight.parts.stops_min;
+    stats.parts.photos_min += flight.parts.photos_min;
   }
+  stats.pace = plan.pace;
   stats.planning_s = planning_s;
   stats.tsp_gap = tsp_gap;
   AddFacades(plan, stats);
@@ -108,8 +129,10 @@ void WriteStats(const PlanStats& stats, const std::filesystem::path& path) {
                {"hovers", stats.hovers},
                {"length_m", Metres(stats.length_m)},
                {"time_min", Metres(stats.time_min)},
+               {"time_parts_min", PartsJson(stats.parts)},
                {"battery_percent", Metres(stats.battery_percent)},
                {"flights", stats.battery_by_flight.size()},
+               {"assumed", AssumedJson(stats.pace)},
                {"planning_s", Metres(stats.planning_s)},
                {"tsp_gap", RoundTo(stats.tsp_gap, 1e5)},
                {"wall_m", Metres(stats.wall_m)},

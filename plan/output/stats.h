@@ -32,6 +32,8 @@ struct PlanStats {
   double time_min = 0;
   double battery_percent = 0;  // of all flights together
   std::vector<double> battery_by_flight;
+  PlannedTime parts;  // of time_min
+  PlannedPace pace;   // what time and battery rest on
   double planning_s = 0;
   double tsp_gap = 0;  // tour over its lower bound, minus 1
   double wall_m = 0;

@@ -73,6 +73,31 @@ class GoodMaps(Plan):
             for term in ("q_s", "q_d", "q_u", "q_c"):
                 self.assertTrue(0 <= facade[term] <= 1, facade)
 
+    def test_missions_command_the_time_that_the_plan_says(self):
+        done = self.plan(self.map(HOUSES), "--gsd", 0.05, "--wind", 6, "--battery-percent", 30)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("wind 6 m/s", done.stdout)
+        folder = self.root / "survey/plan"
+        counted = subprocess.run([sys.executable, stucco.ROOT / "bench/count_missions.py", folder],
+                                 capture_output=True, text=True, check=False)
+        self.assertEqual(counted.returncode, 0, counted.stdout + counted.stderr)
+        plan = json.loads((folder / "plan.json").read_text())
+        self.assertEqual(plan["pace"]["wind_m_per_s"], 6)
+        self.assertGreater(len(plan["flights"]), 1)
+        for flight in plan["flights"]:
+            self.assertLessEqual(flight["battery_percent"] + flight["reserve_percent"], 30.002)
+            self.assertAlmostEqual(sum(flight["parts"].values()), flight["time_min"], delta=0.005)
+
+    def test_flights_start_at_the_home_that_is_given(self):
+        home = degrees(-20, -40)
+        done = self.plan(self.map(HOUSES), "--gsd", 0.05, "--battery-percent", 30, "--home",
+                         f"{home[1]:.7f},{home[0]:.7f}")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        plan = json.loads((self.root / "survey/plan/plan.json").read_text())
+        self.assertGreater(len(plan["flights"]), 1)
+        for flight in plan["flights"]:
+            self.assertEqual(flight["home_m"], plan["home_m"])
+
     def test_every_photo_of_the_mission_carries_the_id_of_its_view(self):
         self.assertEqual(self.plan(self.map(HOUSES)).returncode, 0)
         views = {v["id"] for v in
@@ -186,6 +211,7 @@ class BadMaps(Plan):
 
     def test_a_camera_that_cannot_see_so_finely_is_refused(self):
         self.assertIn("gsd_m", self.refused(self.map(HOUSES), "--gsd", 0.002, code=2))
+        self.assertIn("wind_m_per_s", self.refused(self.map(HOUSES), "--wind", 40, code=2))
         self.assertIn("mavic-3e", self.refused(self.map(HOUSES), "--camera", "mavik-3e", code=2))
 
     def test_repairs_are_reported_and_the_plan_is_still_safe(self):

@@ -204,6 +204,39 @@ TEST_F(ReadSiteTest, DefaultHomeIsSafeAndSouth) {
   EXPECT_LT((site.home - open.home).norm(), 60);
 }
 
+TEST_F(ReadSiteTest, TakeOffPlacesAreSafeAndSpread) {
+  inputs_.no_fly = Areas("zones.geojson", {Rectangle(-100, 14, 240, 100)});
+  const Site site = Read(Row());
+  ASSERT_GT(site.take_off.size(), 2u);
+  std::vector<Eigen::Vector3d> places = site.take_off;
+  places.push_back(site.home);
+  for (size_t i = 0; i < places.size(); ++i) {
+    for (const Polygon& zone : site.no_fly) {
+      EXPECT_GE(Distance(zone, places[i].head<2>()), 1);
+    }
+    for (const Footprint& footprint : site.footprints) {
+      EXPECT_GE(Distance(footprint.outline, places[i].head<2>()), 11);
+    }
+    for (size_t k = 0; k < i; ++k) EXPECT_GE((places[i] - places[k]).norm(), 40);
+  }
+}
+
+TEST_F(ReadSiteTest, CourtyardsAreNoTakeOffPlaces) {
+  const Ring court = Reversed(Rectangle(30, 30, 170, 170));
+  const MadeBuilding block{{{Rectangle(0, 0, 200, 200), court}}, {{"id", "1"}, {"height", "10"}}};
+  const Site site = Read({block});
+  EXPECT_FALSE(site.take_off.empty());
+  for (const Eigen::Vector3d& place : site.take_off) {
+    const Eigen::Vector2d middle = In(site, 100, 100);
+    EXPECT_GT((place.head<2>() - middle).cwiseAbs().maxCoeff(), 100);
+  }
+}
+
+TEST_F(ReadSiteTest, AGivenHomeIsTheOnlyOne) {
+  inputs_.home = AsText({70, -30});
+  EXPECT_TRUE(Read(Row()).take_off.empty());
+}
+
 TEST_F(ReadSiteTest, UnsafeHomesAreRefused) {
   inputs_.no_fly = Areas("zones.geojson", {Rectangle(0, 50, 40, 90)});
   const auto complaint = [&](const std::string& home) {

@@ -102,6 +102,17 @@ TEST(Preview, IsWellFormedAndNamesWhatItShows) {
   EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
+TEST(Preview, SaysWhereEachFlightStarts) {
+  Plan plan = test::MakePlan();
+  const std::string one = Preview(plan);
+  EXPECT_EQ(one.find("H1"), std::string::npos);
+  plan.flights[1].home_m = Eigen::Vector3d(100, -40, 0);
+  const std::string two = Preview(plan);
+  EXPECT_NE(two.find(">H1<"), std::string::npos);
+  EXPECT_NE(two.find(">H2<"), std::string::npos);
+  EXPECT_NE(two.find("6 % battery, H2"), std::string::npos);
+}
+
 // The map in metres again: its scale is that of the dilation, which is 2 d_min wide.
 TEST(Preview, DrawsBuildingsWhereTheyStand) {
   const Plan plan = test::MakePlan();

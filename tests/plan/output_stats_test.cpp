@@ -55,6 +55,11 @@ TEST(Stats, FileHasTheFixedNames) {
   EXPECT_EQ(json["time_min"], 4.75);
   EXPECT_EQ(json["battery_percent"], 18.5);
   EXPECT_EQ(json["flights"], 2);
+  EXPECT_EQ(json["time_parts_min"]["photos"], 0.75);
+  EXPECT_EQ(json["time_parts_min"]["transfer"], 1.5);
+  EXPECT_EQ(json["assumed"]["speed_m_per_s"], 5.0);
+  EXPECT_EQ(json["assumed"]["photo_s"], 2.2);
+  EXPECT_EQ(json["assumed"]["wind_m_per_s"], 3.0);
   EXPECT_EQ(json["planning_s"], 12.346);
   EXPECT_EQ(json["tsp_gap"], 0.03123);
   EXPECT_EQ(json["unobservable_m"], 7.0);
@@ -90,7 +95,9 @@ TEST(Stats, RefusesAFolderThatIsNot) {
 
 TEST(StatsTable, ShowsFiguresAndWorstFacades) {
   const std::string table = StatsTable(StatsOf(test::MakePlan(), 12.5, 0.031));
-  for (const char* part : {"9 (3 dipping, 1 dipping_foot, 1 nadir, 4 oblique)", "372 m", "4.8 min",
+  for (const char* part : {"9 (3 dipping, 1 dipping_foot, 1 nadir, 4 oblique)", "372 m",
+                           "4.8 min: 0.8 photos, 1.5 stops and turns, 1.0 legs, 1.5 transfer",
+                           "5 m/s, 2.2 s a photo besides turns, 5.3 s a stop, wind 3 m/s",
                            "18 % of a battery, 2 flights of 6 to 12 %", "3.1 % above",
                            "mean Q 2.90 of 4", "7.0 of 230.0 m of wall, on 2 facades"}) {
     EXPECT_NE(table.find(part), std::string::npos) << part << " is not in\n" << table;

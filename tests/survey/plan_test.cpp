@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "survey/files.h"
 #include "survey/plan_io.h"
@@ -62,7 +63,11 @@ Plan MakePlan() {
                     {plan.home_m, -1}},
                    70.5,
                    2.25,
-                   8.125}};
+                   8.125,
+                   2.5,
+                   {0.5, 1, 0.5, 0.25},
+                   Eigen::Vector3d(-20, -21, 1.5)}};
+  plan.pace.wind_m_per_s = 7;
   return plan;
 }
 
@@ -119,10 +124,31 @@ TEST(PlanFile, ReadsBackViewsAndFlights) {
   }
   ASSERT_EQ(read.flights.size(), 1u);
   EXPECT_EQ(read.flights[0].battery_percent, 8.125);
+  EXPECT_EQ(read.flights[0].reserve_percent, 2.5);
+  EXPECT_EQ(read.flights[0].parts.legs_min, 1);
+  EXPECT_EQ(read.flights[0].home_m, plan.flights[0].home_m);
+  EXPECT_EQ(read.HomeOf(0), Eigen::Vector3d(-20, -21, 1.5));
+  EXPECT_EQ(read.HomeOf(1), plan.home_m);
+  EXPECT_EQ(read.pace.wind_m_per_s, 7);
   ASSERT_EQ(read.flights[0].waypoints.size(), 4u);
   EXPECT_EQ(read.flights[0].waypoints[0].hover, -1);
   EXPECT_EQ(read.flights[0].waypoints[2].hover, 1);
   ExpectPosition(read.flights[0].waypoints[1].position_m, plan.views[0].position_m);
+}
+
+// Files of before flights had homes of their own and said how they are flown.
+TEST(PlanFile, ReadsFlightsWithoutHomeAndPace) {
+  const TemporaryFolder folder;
+  WritePlan(MakePlan(), folder / "plan.json");
+  auto json = nlohmann::json::parse(ReadFile(folder / "plan.json"));
+  json.erase("pace");
+  for (const char* name : {"home_m", "reserve_percent", "parts"}) json["flights"][0].erase(name);
+  WriteFile(folder / "plan.json", json.dump());
+  const Plan plan = ReadPlan(folder / "plan.json");
+  EXPECT_FALSE(plan.flights[0].home_m);
+  EXPECT_EQ(plan.HomeOf(0), plan.home_m);
+  EXPECT_EQ(plan.Homes(), std::vector<Eigen::Vector3d>{plan.home_m});
+  EXPECT_EQ(plan.pace.speed_m_per_s, 5);
 }
 
 TEST(PlanFile, IsStableAndShort) {
@@ -178,6 +204,9 @@ TEST(PlanFile, RefusesWhatDoesNotFitTogether) {
       {"longitude", "longitude_deg", [](Plan& p) { p.origin.longitude_deg = -181; }},
       {"d_min", "d_min_m", [](Plan& p) { p.d_min_m = -1; }},
       {"home", "home_m", [=](Plan& p) { p.home_m.x() = nan; }},
+      {"flight's home", "home_m", [=](Plan& p) { p.flights[0].home_m->x() = nan; }},
+      {"speed", "pace.speed_m_per_s", [](Plan& p) { p.pace.speed_m_per_s = 0; }},
+      {"hold", "pace.hold_s", [](Plan& p) { p.pace.hold_s = -1; }},
       {"ring", "fewer than 3", [](Plan& p) { p.footprints[0].rings_m[1].resize(2); }},
       {"corner", "not finite", [=](Plan& p) { p.no_fly_m[0][1].y() = nan; }},
       {"building", "empty \"building\"", [](Plan& p) { p.footprints[0].building.clear(); }},
