@@ -75,7 +75,8 @@ struct PlannedFootprint {
   std::string building;                               // B0012
   std::vector<std::vector<Eigen::Vector2d>> rings_m;  // outer counter-clockwise, then courtyards
   Interval z_m;
-  double blocked_to_m = 0;  // nothing flies within d_min of it below this z
+  double blocked_to_m = 0;   // nothing flies within d_min of it below this z
+  bool is_obstacle = false;  // a tree, a crane, a wire: no building
 };
 
 // A stop of the flight or a point that it only passes.
