@@ -105,8 +105,7 @@ class Cutter {
 
   void CutOne(size_t index) {
     const MapObstacle& obstacle = obstacles_[index];
-    const double top =
-        GroundUnder(obstacle.outline, site_.terrain).from_m + HeightOf(obstacle);
+    const double top = GroundUnder(obstacle.outline, site_.terrain).from_m + HeightOf(obstacle);
     std::vector<Polygon> winners;
     const auto add_around = [&](const Polygon& outline) {
       for (Polygon& part : internal::Around(outline, kGap_m)) winners.push_back(std::move(part));
@@ -154,7 +153,8 @@ std::vector<MapObstacle> ReadObstacles(const std::filesystem::path& path,
   }
   for (const std::string& line : map.repairs.Lines()) repairs.Add("", "obstacles: " + line);
   if (!obstacles.empty()) return obstacles;
-  throw Error(ErrorKind::kBadInput, fmt::format("{}: has no obstacle of a usable size", path.string()),
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: has no obstacle of a usable size", path.string()),
               "check its coordinate system, or leave the option out");
 }
 

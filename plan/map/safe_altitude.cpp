@@ -25,11 +25,11 @@ struct Tall {
 
 // What the map says about the heights of buildings.
 struct Heights {
-  Tall tallest;              // known, or at least as high: the underside of a part
+  Tall tallest;  // known, or at least as high: the underside of a part
   size_t buildings = 0;
-  size_t unknown = 0;        // buildings with a top that is not known
-  size_t guessed = 0;        // of these, all of whose unknown tops are guessed
-  Tall guess;                // the highest
+  size_t unknown = 0;  // buildings with a top that is not known
+  size_t guessed = 0;  // of these, all of whose unknown tops are guessed
+  Tall guess;          // the highest
 };
 
 bool IsGuessed(const Footprint& footprint) {
@@ -89,30 +89,33 @@ double RoundedUp(double height_m) {
   std::string example = "60";
   std::string hint;
   if (heights.guessed > 0) {
-    what += fmt::format("; {} of them have a number of storeys (building:levels), which is a guess "
-                        "that no flight may rely on",
-                        heights.guessed);
+    what += fmt::format(
+        "; {} of them have a number of storeys (building:levels), which is a guess "
+        "that no flight may rely on",
+        heights.guessed);
     example = fmt::format("{:.0f}", RoundedUp(std::max(heights.tallest.height_m,
                                                        heights.guess.height_m + kAboveGuess_m) +
                                               d_min_m));
     hint = fmt::format("; {} suggests {}, check it on the site", heights.guess.name, example);
   }
-  throw Error(ErrorKind::kBadInput, what + UnusableHeights(repairs),
-              fmt::format("give the safe altitude, as --altitude {} (metres above the ground, d_min "
-                          "above the highest roof{}), or name the attribute with the heights: "
-                          "--height-field NAME",
-                          example, hint));
+  throw Error(
+      ErrorKind::kBadInput, what + UnusableHeights(repairs),
+      fmt::format("give the safe altitude, as --altitude {} (metres above the ground, d_min "
+                  "above the highest roof{}), or name the attribute with the heights: "
+                  "--height-field NAME",
+                  example, hint));
 }
 
 void CheckUnits(const HighThings& things, const Tall& tallest, double d_min_m) {
   if (tallest.height_m + d_min_m <= kMostAltitude_m) return;
-  throw Error(ErrorKind::kBadInput,
-              fmt::format("{}{} is {:.1f} m high, and {:g} m above it is more than the highest safe "
-                          "altitude of {:g} m",
-                          tallest.is_obstacle ? "" : things.map.string() + ": ", tallest.name,
-                          tallest.height_m, d_min_m, kMostAltitude_m),
-              "check the unit of the height attribute (metres are read unless it says ft), or "
-              "name another: --height-field NAME");
+  throw Error(
+      ErrorKind::kBadInput,
+      fmt::format("{}{} is {:.1f} m high, and {:g} m above it is more than the highest safe "
+                  "altitude of {:g} m",
+                  tallest.is_obstacle ? "" : things.map.string() + ": ", tallest.name,
+                  tallest.height_m, d_min_m, kMostAltitude_m),
+      "check the unit of the height attribute (metres are read unless it says ft), or "
+      "name another: --height-field NAME");
 }
 
 double LowestAltitude(const HighThings& things, const Heights& heights, const PlanOptions& options,
@@ -148,12 +151,13 @@ double SafeAltitude(const HighThings& things, const PlanOptions& options,
         "give a higher safe altitude");
   }
   if (options.altitude_m < tallest.height_m + options.d_min_m) {
-    throw Error(ErrorKind::kUsage,
-                fmt::format("--altitude {:g}: {} is {:.1f} m high, and {:g} m are to be kept from it",
-                            options.altitude_m, tallest.name, tallest.height_m, options.d_min_m),
-                fmt::format("give at least --altitude {:.0f}, or correct the height in the map{}",
-                            std::ceil(tallest.height_m + options.d_min_m),
-                            tallest.is_obstacle ? ", or put it into --no-fly instead" : ""));
+    throw Error(
+        ErrorKind::kUsage,
+        fmt::format("--altitude {:g}: {} is {:.1f} m high, and {:g} m are to be kept from it",
+                    options.altitude_m, tallest.name, tallest.height_m, options.d_min_m),
+        fmt::format("give at least --altitude {:.0f}, or correct the height in the map{}",
+                    std::ceil(tallest.height_m + options.d_min_m),
+                    tallest.is_obstacle ? ", or put it into --no-fly instead" : ""));
   }
   return options.altitude_m;
 }
@@ -171,9 +175,10 @@ std::vector<std::string> AltitudeWarnings(const HighThings& things, double safe_
         safe_altitude_m, d_min_m));
   }
   if (heights.guess.height_m + d_min_m > safe_altitude_m) {
-    lines.push_back(fmt::format("the storeys of {} suggest up to {:.0f} m: check that a safe altitude "
-                                "of {:g} m is enough",
-                                heights.guess.name, heights.guess.height_m, safe_altitude_m));
+    lines.push_back(
+        fmt::format("the storeys of {} suggest up to {:.0f} m: check that a safe altitude "
+                    "of {:g} m is enough",
+                    heights.guess.name, heights.guess.height_m, safe_altitude_m));
   }
   return lines;
 }

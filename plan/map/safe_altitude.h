@@ -18,9 +18,10 @@ struct HighThings {
   const std::vector<MapObstacle>& obstacles;
 };
 
-// H of the options, else d_min above the tallest building and obstacle. Heights guessed from storeys
-// are no heights here. Throws Error: kBadInput where some have no height and the options no H (with
-// an H that the storeys suggest), or where metres cannot be meant; kUsage where H is too low.
+// H of the options, else d_min above the tallest building and obstacle. Heights guessed from
+// storeys are no heights here. Throws Error: kBadInput where some have no height and the options no
+// H (with an H that the storeys suggest), or where metres cannot be meant; kUsage where H is too
+// low.
 double SafeAltitude(const HighThings& things, const PlanOptions& options, const RepairLog& repairs);
 
 // What a person has to check about it, a line each.

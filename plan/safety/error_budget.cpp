@@ -29,13 +29,15 @@ void CheckBudget(const PlanOptions& options) {
   if (budget.clear_horizontal_m > 0 && budget.clear_vertical_m > 0) return;
   throw Error(
       ErrorKind::kUsage,
-      fmt::format("--d-min {:g}: may be used up by errors of {:.1f} m horizontally (outlines of the "
-                  "map {:g} m, the drone {:g} m, eaves {:g} m) and {:.1f} m vertically (heights of "
-                  "the map {:g} m, the drone {:g} m, antennas {:g} m)",
-                  options.d_min_m, budget.horizontal_m, options.map_error_m,
-                  options.position_error_m, kEaves_m, budget.vertical_m, options.height_error_m,
-                  options.position_error_m, kRoofStructures_m),
-      "give a larger --d-min; or say what is better known, as --position-error 0.2 for a drone with "
+      fmt::format(
+          "--d-min {:g}: may be used up by errors of {:.1f} m horizontally (outlines of the "
+          "map {:g} m, the drone {:g} m, eaves {:g} m) and {:.1f} m vertically (heights of "
+          "the map {:g} m, the drone {:g} m, antennas {:g} m)",
+          options.d_min_m, budget.horizontal_m, options.map_error_m, options.position_error_m,
+          kEaves_m, budget.vertical_m, options.height_error_m, options.position_error_m,
+          kRoofStructures_m),
+      "give a larger --d-min; or say what is better known, as --position-error 0.2 for a drone "
+      "with "
       "RTK, --map-error 0.3 and --height-error 0.5 for a surveyed map");
 }
 

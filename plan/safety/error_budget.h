@@ -14,8 +14,8 @@ inline constexpr double kEaves_m = 1;
 inline constexpr double kRoofStructures_m = 2;
 
 // How much of d_min may be used up by errors, and what is left. The errors of the map and of the
-// drone know nothing of each other, so that their squares add up; eaves and antennas are there every
-// time, and come on top.
+// drone know nothing of each other, so that their squares add up; eaves and antennas are there
+// every time, and come on top.
 struct ErrorBudget {
   double horizontal_m = 0;
   double vertical_m = 0;

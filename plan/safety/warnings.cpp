@@ -53,11 +53,13 @@ Extremes ExtremesOf(const Site& site, const Plan& plan) {
 
 std::string FlatGround(const ErrorBudget& budget) {
   if (!(budget.flatness_m > 0)) {
-    return "no terrain was given (--terrain): the ground is taken to be flat, and the errors of map "
+    return "no terrain was given (--terrain): the ground is taken to be flat, and the errors of "
+           "map "
            "and drone leave nothing for ground that rises above the take-off point";
   }
   return fmt::format(
-      "no terrain was given (--terrain): the ground is taken to be flat. It may rise up to {:.1f} m "
+      "no terrain was given (--terrain): the ground is taken to be flat. It may rise up to {:.1f} "
+      "m "
       "above the take-off point; where it rises more, the drone comes too near to ground and roofs",
       budget.flatness_m);
 }
@@ -74,17 +76,19 @@ void AddBudget(const PlanOptions& options, const ErrorBudget& budget,
 
 void AddExtremes(const Extremes& extremes, bool has_obstacles, std::vector<std::string>& lines) {
   if (extremes.highest_m > kLegalAltitude_m + kRounding_m) {
-    lines.push_back(fmt::format("flies up to {:.0f} m above the ground: more than {:g} m need a "
-                                "permission in most countries",
-                                extremes.highest_m, kLegalAltitude_m));
+    lines.push_back(
+        fmt::format("flies up to {:.0f} m above the ground: more than {:g} m need a "
+                    "permission in most countries",
+                    extremes.highest_m, kLegalAltitude_m));
   }
   if (extremes.low_stops > 0) {
     lines.push_back(fmt::format(
         "{} of {} stops are less than {:g} m above the ground (the lowest {:.1f} m), where trees, "
         "lamps and wires may be: {}",
         extremes.low_stops, extremes.stops, kTreeHeight_m, extremes.lowest_m,
-        has_obstacles ? "walk the site and look for those that --obstacles does not have"
-                      : "walk the site, give what is there as --obstacles, or raise --min-altitude"));
+        has_obstacles
+            ? "walk the site and look for those that --obstacles does not have"
+            : "walk the site, give what is there as --obstacles, or raise --min-altitude"));
   }
   if (extremes.far_stops > 0) {
     lines.push_back(fmt::format(
@@ -103,8 +107,8 @@ std::vector<std::string> SafetyWarnings(const Site& site, const Plan& plan,
   if (site.terrain.IsFlat()) lines.push_back(FlatGround(budget));
   lines.insert(lines.end(), site.warnings.begin(), site.warnings.end());
   AddBudget(options, budget, lines);
-  AddExtremes(ExtremesOf(site, plan),
-              std::ranges::any_of(site.footprints, &Footprint::is_obstacle), lines);
+  AddExtremes(ExtremesOf(site, plan), std::ranges::any_of(site.footprints, &Footprint::is_obstacle),
+              lines);
   return lines;
 }
 

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/map/read_obstacles.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "plan/map/read_obstacles.h"
 #include "plan/map/read_site.h"
 #include "plan/space/obstacles.h"
 #include "site/facades.h"
@@ -92,9 +91,9 @@ TEST_F(ObstaclesTest, WithoutAHeightReachTheSafeAltitude) {
 // Footprints must not cross; together they still forbid all that each obstacle forbids.
 TEST_F(ObstaclesTest, GiveWayToBuildingsAndHigherOnes) {
   options_.altitude_m = 60;
-  const Site site = Read({Thing(Rectangle(15, 4, 30, 8), "20"),       // over the east wall
-                          Thing(Rectangle(25, 5, 40, 7), "30"),       // higher, over the first
-                          Thing(Rectangle(5, 5, 5.5, 5.5), "25")});   // a mast on the roof
+  const Site site = Read({Thing(Rectangle(15, 4, 30, 8), "20"),      // over the east wall
+                          Thing(Rectangle(25, 5, 40, 7), "30"),      // higher, over the first
+                          Thing(Rectangle(5, 5, 5.5, 5.5), "25")});  // a mast on the roof
   ASSERT_EQ(site.footprints.size(), 3u);
   EXPECT_EQ(site.footprints[0].blocked_to_m, 35);
   EXPECT_EQ(site.facades.size(), 4u);

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/safety/error_budget.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "plan/safety/error_budget.h"
 #include "survey/error.h"
 
 namespace stucco::plan {

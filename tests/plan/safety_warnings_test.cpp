@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/safety/warnings.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "plan/safety/warnings.h"
 #include "tests/site/made_site.h"
 
 namespace stucco::plan {
