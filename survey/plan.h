@@ -59,7 +59,7 @@ struct PlannedFacade {
   std::string id;  // B0012/F03
   Eigen::Vector2d a_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d b_m = Eigen::Vector2d::Zero();
-  Interval z_m;  // foot and top; the top is a bound where not known
+  Interval z_m;  // foot and top; where not known the top is a bound, or what storeys suggest
   bool top_known = false;
   std::vector<std::string> views;  // meant for it, in order of capture
   FacadeQuality predicted;

@@ -151,6 +151,20 @@ TEST_F(ReadSiteTest, ErrorsLargerThanTheDistanceAreRefused) {
   EXPECT_EQ(ComplaintAbout(Row()), "");
 }
 
+TEST_F(ReadSiteTest, AShedAndTwoThousandSheds) {
+  EXPECT_EQ(Read({House(1, Rectangle(0, 0, 3, 2.5), "2.4")}).safe_altitude_m, 12.4);
+  std::vector<MadeBuilding> sheds;
+  for (int i = 0; i < 2000; ++i) {
+    const double x = 12. * (i % 50);
+    const double y = 12. * (i / 50);
+    sheds.push_back(House(i + 1, Rectangle(x, y, x + 4, y + 3), "2.4"));
+  }
+  const Site site = Read(sheds);
+  EXPECT_EQ(site.facades.size(), 8000u);
+  EXPECT_EQ(site.safe_altitude_m, 12.4);
+  EXPECT_TRUE(site.warnings.empty());
+}
+
 TEST_F(ReadSiteTest, AreasThatCutABuildingTakeAllOfIt) {
   inputs_.area_of_interest = Areas("area.geojson", {Rectangle(-5, -5, 10, 30)});
   const Site site = Read(Row());
