@@ -32,6 +32,7 @@ void PrintSummary(const PlanSummary& summary, const CommonOptions& common) {
                        {"time_min", summary.time_min},
                        {"battery_percent", summary.battery_percent},
                        {"repairs", summary.repairs},
+                       {"warnings", summary.warnings},
                        {"notes", summary.notes},
                        {"stats", in_plan("stats.json")},
                        {"preview", in_plan("preview.svg")},
@@ -40,8 +41,9 @@ void PrintSummary(const PlanSummary& summary, const CommonOptions& common) {
     return;
   }
   for (const std::string& repair : summary.repairs) std::cerr << "map: " << repair << "\n";
+  if (!common.quiet) std::cout << summary.table << std::flush;
+  for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";
   if (common.quiet) return;
-  std::cout << summary.table;
   for (const std::string& note : summary.notes) std::cout << "note: " << note << "\n";
   std::cout << fmt::format("Preview: {}\nFly it, put the photos into {}, then: {}\n",
                            in_plan("preview.svg"),
@@ -104,6 +106,9 @@ void AddPlan(CLI::App& app, Program& program) {
                   "Polygons that hold the buildings to capture; others are only in the way")
       ->type_name("FILE");
   verb.add_option("--no-fly", request->no_fly, "Polygons that must not be flown over")
+      ->type_name("FILE");
+  verb.add_option("--obstacles", request->obstacles,
+                  "Trees, wires, cranes: polygons, lines or points with a height, kept clear of")
       ->type_name("FILE");
   verb.add_option("--terrain", request->terrain, "Height of the ground (GeoTIFF)")
       ->type_name("FILE");

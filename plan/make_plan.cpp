@@ -18,6 +18,8 @@
 #include "plan/match/photo_graph.h"
 #include "plan/path/flights.h"
 #include "plan/planar/planar_views.h"
+#include "plan/safety/error_budget.h"
+#include "plan/safety/warnings.h"
 #include "survey/error.h"
 #include "survey/intervals.h"
 
@@ -210,13 +212,21 @@ Plan DescribeSite(const Task& task) {
   plan.min_altitude_m = site.min_altitude_m;
   plan.home_m = site.home;
   for (const Footprint& footprint : site.footprints) {
-    plan.footprints.push_back(
-        {footprint.building, footprint.outline.rings, footprint.z_m, footprint.blocked_to_m});
+    plan.footprints.push_back({footprint.building, footprint.outline.rings, footprint.z_m,
+                               footprint.blocked_to_m, footprint.is_obstacle});
   }
   for (const Polygon& polygon : site.no_fly) {
     for (const Ring& ring : polygon.rings) plan.no_fly_m.push_back(ring);
   }
   return plan;
+}
+
+void AddSafety(const Task& task, PlanResult& result) {
+  const ErrorBudget budget = BudgetOf(task.options);
+  result.stats.horizontal_error_m = budget.horizontal_m;
+  result.stats.vertical_error_m = budget.vertical_m;
+  if (task.site.terrain.IsFlat()) result.stats.flat_within_m = budget.flatness_m;
+  result.stats.warnings = SafetyWarnings(task.site, result.plan, task.options);
 }
 
 double DMax(const PlanOptions& options, const CameraPreset& camera) {
@@ -253,6 +263,7 @@ PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, P
   AddPartners(task, path.hovers, result.plan);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   result.stats = StatsOf(result.plan, taken.count(), path.tour.gap());
+  AddSafety(task, result);
   return result;
 }
 

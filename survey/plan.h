@@ -68,7 +68,7 @@ struct PlannedFacade {
   std::string id;  // B0012/F03
   Eigen::Vector2d a_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d b_m = Eigen::Vector2d::Zero();
-  Interval z_m;  // foot and top; the top is a bound where not known
+  Interval z_m;  // foot and top; where not known the top is a bound, or what storeys suggest
   bool top_known = false;
   std::vector<std::string> views;  // meant for it, in order of capture
   FacadeQuality predicted;
@@ -84,7 +84,8 @@ struct PlannedFootprint {
   std::string building;                               // B0012
   std::vector<std::vector<Eigen::Vector2d>> rings_m;  // outer counter-clockwise, then courtyards
   Interval z_m;
-  double blocked_to_m = 0;  // nothing flies within d_min of it below this z
+  double blocked_to_m = 0;   // nothing flies within d_min of it below this z
+  bool is_obstacle = false;  // a tree, a crane, a wire: no building
 };
 
 // A stop of the flight or a point that it only passes.

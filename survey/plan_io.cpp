@@ -211,6 +211,9 @@ static void Fields(Archive& archive, T& footprint) {
   archive.Required("building", footprint.building);
   IntervalField(archive, "z_m", footprint.z_m);
   archive.Optional("blocked_to_m", footprint.blocked_to_m);
+  if (Archive::kReads || footprint.is_obstacle) {
+    archive.Optional("obstacle", footprint.is_obstacle);
+  }
   archive.Required("rings_m", footprint.rings_m);
 }
 

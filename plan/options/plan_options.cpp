@@ -15,7 +15,15 @@ void Describe(OptionTable& table, PlanOptions& options) {
             "Safe altitude above the ground, over every building; 0: d_min_m above the tallest one "
             "of a map with heights");
   table.Add("gsd_m", options.gsd_m, 0.001, 1, "Coarsest size of a pixel on a wall, in metres");
-  table.Add("d_min_m", options.d_min_m, 2, 100, "Least distance to buildings, in metres");
+  table.Add("d_min_m", options.d_min_m, 2, 100,
+            "Least distance to buildings and obstacles of the map, in metres; the three errors "
+            "below are a part of it");
+  table.Add("map_error_m", options.map_error_m, 0, 20,
+            "How far outlines of the map may be off, in metres");
+  table.Add("height_error_m", options.height_error_m, 0, 50,
+            "How far heights of the map may be too low, in metres");
+  table.Add("position_error_m", options.position_error_m, 0, 20,
+            "How far the drone may be from where it should be, in metres, in any direction");
   table.Add("d_max_m", options.d_max_m, 0, 1000,
             "Farthest wall that a photo counts for, in metres; 0: from gsd_m");
   table.Add("min_altitude_m", options.min_altitude_m, 2, 500,

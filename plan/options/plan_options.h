@@ -16,11 +16,14 @@ struct PlanOptions {
   std::string camera = "mavic-3e";
   double altitude_m = 0;      // H above the ground; 0: d_min above the tallest building
   double gsd_m = 0.02;        // the coarsest acceptable pixel; gives d_max
-  double d_min_m = 10;        // distance to buildings
+  double d_min_m = 10;        // distance to buildings on the map; holds the errors below
   double d_max_m = 0;         // 0: from gsd_m
   double min_altitude_m = 5;  // above the ground
   double forward_overlap = 0.8;
   double side_overlap = 0.8;
+  double map_error_m = 2;         // of outlines, horizontally
+  double height_error_m = 2;      // of the map's heights
+  double position_error_m = 2;    // of the drone, in every direction
   double margin_m = 0;            // how far views go beyond the buildings; 0: as H
   double vertical_step = 0.8;     // k_d of the paper
   double reconstructability = 0;  // tau_r; 0: ten times that of one good pair

@@ -17,6 +17,8 @@ using internal::Svg;
 constexpr double kPageWidth = 1600;
 constexpr double kMargin = 24;
 constexpr double kTitle = 92;
+constexpr double kWarningLine = 19;
+constexpr size_t kWarningLetters = 190;  // in a line
 constexpr double kLegend = 330;
 constexpr double kBelowMap = 48;
 constexpr double kMapWidth = kPageWidth - 3 * kMargin - kLegend;
@@ -27,6 +29,7 @@ constexpr const char* kStyle = R"svg(<style>
 text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:#1f2328}
 .title{font-size:27px;font-weight:600}
 .figures{font-size:16px;fill:#3d444d}
+.warning{font-size:13.5px;fill:#b3261e}
 .heading{font-size:15px;font-weight:600}
 .entry{font-size:13.5px}
 .note{font-size:12px;fill:#59636e}
@@ -42,7 +45,7 @@ text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:
 )svg";
 
 std::string Title(const Plan& plan, const PlanStats& stats) {
-  const size_t buildings = plan.footprints.size();
+  const auto buildings = std::ranges::count(plan.footprints, false, &PlannedFootprint::is_obstacle);
   return fmt::format("Flight plan: {} building{}, {} facades ({}, {})", buildings,
                      buildings == 1 ? "" : "s", plan.facades.size(), stats.method, stats.camera);
 }
@@ -61,12 +64,30 @@ std::string Figures(const Plan& plan, const PlanStats& stats) {
   return text + fmt::format("  ·  safe altitude {:.0f} m", plan.safe_altitude_m);
 }
 
+// Broken where they are too long for the page.
+std::vector<std::string> WarningLines(const PlanStats& stats) {
+  std::vector<std::string> lines;
+  for (const std::string& warning : stats.warnings) {
+    std::string text = "Warning: " + warning;
+    while (text.size() > kWarningLetters) {
+      const size_t end = text.rfind(' ', kWarningLetters);
+      if (end == std::string::npos || end < kWarningLetters / 2) break;
+      lines.push_back(text.substr(0, end));
+      text = "     " + text.substr(end);
+    }
+    lines.push_back(text);
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::string PreviewSvg(const Plan& plan, const PlanStats& stats) {
-  const Eigen::Vector2d corner(kMargin, kTitle);
+  const std::vector<std::string> warnings = WarningLines(stats);
+  const double top = kTitle + kWarningLine * static_cast<double>(warnings.size());
+  const Eigen::Vector2d corner(kMargin, top);
   const MapScale scale = internal::FitMap(plan, corner, {kMapWidth, kTallestMap});
-  const double height = std::max(kTitle + scale.Height() + kBelowMap, kLowestPage);
+  const double height = std::max(scale.Height() + kBelowMap, kLowestPage - kTitle) + top;
   Svg svg;
   svg.Add(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
@@ -77,9 +98,13 @@ std::string PreviewSvg(const Plan& plan, const PlanStats& stats) {
   svg.Add("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"#fff\"/>", kPageWidth, height);
   svg.Text({kMargin, 42}, "class=\"title\"", Title(plan, stats));
   svg.Text({kMargin, 71}, "class=\"figures\"", Figures(plan, stats));
+  for (size_t i = 0; i < warnings.size(); ++i) {
+    svg.Text({kMargin, kTitle + kWarningLine * static_cast<double>(i)},
+             "class=\"warning\" xml:space=\"preserve\"", warnings[i]);
+  }
   internal::DrawMap(plan, scale, svg);
   internal::DrawScaleBar(scale, svg);
-  internal::DrawLegend(plan, stats, {2 * kMargin + kMapWidth, kTitle}, svg);
+  internal::DrawLegend(plan, stats, {2 * kMargin + kMapWidth, top}, svg);
   svg.Add("</svg>");
   return svg.text();
 }

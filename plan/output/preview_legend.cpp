@@ -69,6 +69,10 @@ void DrawSymbols(const Plan& plan, Column& column) {
   };
   swatch("fill=\"#cfd2d8\" stroke=\"#8d929c\" stroke-width=\"0.5\"");
   column.Entry("building");
+  if (std::ranges::any_of(plan.footprints, &PlannedFootprint::is_obstacle)) {
+    swatch(kObstacleLook);
+    column.Entry("obstacle: tree, crane, wire");
+  }
   swatch("fill=\"#f6ead6\"");
   column.Entry(fmt::format("nearer than {:g} m: flown above only", plan.d_min_m));
   if (!plan.no_fly_m.empty()) {

@@ -53,13 +53,19 @@ double SizeOf(double metres, const MapScale& scale, double least_px, double most
 
 void DrawGround(const Plan& plan, const MapScale& scale, Svg& svg) {
   PathData outlines;
+  PathData obstacles;
   for (const PlannedFootprint& footprint : plan.footprints) {
-    for (const auto& ring : footprint.rings_m) outlines.Ring(scale.Page(ring));
+    PathData& path = footprint.is_obstacle ? obstacles : outlines;
+    for (const auto& ring : footprint.rings_m) path.Ring(scale.Page(ring));
   }
   // A stroke with round joins is the dilation itself.
-  svg.Path(outlines, fmt::format("fill=\"#f6ead6\" fill-rule=\"evenodd\" stroke=\"#f6ead6\" "
-                                 "stroke-linejoin=\"round\" stroke-width=\"{:.2f}\"",
-                                 2 * plan.d_min_m * scale.px_per_m));
+  const std::string dilated = fmt::format(
+      "fill=\"#f6ead6\" fill-rule=\"evenodd\" stroke=\"#f6ead6\" stroke-linejoin=\"round\" "
+      "stroke-width=\"{:.2f}\"",
+      2 * plan.d_min_m * scale.px_per_m);
+  svg.Path(outlines, dilated);
+  svg.Path(obstacles, dilated);
+  svg.Path(obstacles, kObstacleLook);
   svg.Path(outlines,
            "fill=\"#cfd2d8\" fill-rule=\"evenodd\" stroke=\"#8d929c\" "
            "stroke-width=\"0.5\"");
@@ -87,7 +93,8 @@ void DrawNames(const Plan& plan, const MapScale& scale, Svg& svg) {
   if (plan.footprints.size() > kMost) return;
   std::set<std::string> named;
   for (const PlannedFootprint& footprint : plan.footprints) {
-    if (footprint.rings_m.empty() || !named.insert(footprint.building).second) continue;
+    if (footprint.is_obstacle || footprint.rings_m.empty()) continue;
+    if (!named.insert(footprint.building).second) continue;
     Box box;
     for (const Eigen::Vector2d& corner : footprint.rings_m.front()) box.Add(corner);
     const Eigen::Vector2d size = scale.px_per_m * (box.high - box.low);

@@ -138,7 +138,11 @@ void WriteStats(const PlanStats& stats, const std::filesystem::path& path) {
                {"wall_m", Metres(stats.wall_m)},
                {"unobservable_m", Metres(stats.unobservable_m)},
                {"mean", QualityJson(stats.mean)},
-               {"mean_by_length", QualityJson(stats.mean_by_length)}};
+               {"mean_by_length", QualityJson(stats.mean_by_length)},
+               {"horizontal_error_m", Metres(stats.horizontal_error_m)},
+               {"vertical_error_m", Metres(stats.vertical_error_m)}};
+  if (stats.flat_within_m) json["flat_within_m"] = Metres(*stats.flat_within_m);
+  json["warnings"] = stats.warnings;
   std::string text = json.dump(1);
   text.resize(text.size() - 2);  // the closing brace: facades follow, a line each
   text += ",\n \"facades\": [";

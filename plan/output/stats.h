@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,12 @@ struct PlanStats {
   double tsp_gap = 0;  // tour over its lower bound, minus 1
   double wall_m = 0;
   double unobservable_m = 0;
-  FacadeQuality mean;            // over facades, each counting alike
-  FacadeQuality mean_by_length;  // over metres of wall
+  FacadeQuality mean;             // over facades, each counting alike
+  FacadeQuality mean_by_length;   // over metres of wall
+  double horizontal_error_m = 0;  // of map and drone, both a part of d_min
+  double vertical_error_m = 0;
+  std::optional<double> flat_within_m;  // assumed of the ground, where there is no terrain
+  std::vector<std::string> warnings;    // what to know before it is flown, a line each
   std::vector<FacadeStats> facades;
 };
 

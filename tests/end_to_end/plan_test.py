@@ -98,6 +98,37 @@ class GoodMaps(Plan):
         for flight in plan["flights"]:
             self.assertEqual(flight["home_m"], plan["home_m"])
 
+    def test_keeps_clear_of_obstacles_and_says_what_to_mind(self):
+        house = self.map([feature([box(0, 0, 12, 10)], id=1, height=9)])
+        trees = self.map([feature([box(20, -30, 26, -24)], height=12),
+                          feature([box(-30, 0, -26, 4)], height="14 m")], "trees.geojson")
+        done = self.plan(house, "--obstacles", trees, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        folder = self.root / "survey/plan"
+        stats = json.loads((folder / "stats.json").read_text())
+        self.assertEqual(json.loads(done.stdout)["warnings"], stats["warnings"])
+        preview = (folder / "preview.svg").read_text()
+        for words in ("--terrain", "trees, lamps and wires"):
+            self.assertTrue(any(words in line for line in stats["warnings"]), stats["warnings"])
+            self.assertIn(words, preview)
+        plan = json.loads((folder / "plan.json").read_text())
+        self.assertEqual([f["building"] for f in plan["footprints"] if f.get("obstacle")],
+                         ["O0002", "O0001"])
+        self.assertEqual(plan["safe_altitude_m"], 24)
+        checked = subprocess.run([sys.executable, stucco.ROOT / "bench/plan_check.py",
+                                  folder / "plan.json", "--samples", "60"], capture_output=True,
+                                 text=True, check=False)
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        quiet = self.plan(house, "--obstacles", trees, "--quiet", survey="quiet")
+        self.assertIn("warning: no terrain was given", quiet.stderr)
+
+    def test_plans_a_single_shed(self):
+        done = self.plan(self.map([feature([box(0, 0, 3, 2.5)], id=1, height=2.4)]))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        stats = json.loads((self.root / "survey/plan/stats.json").read_text())
+        self.assertEqual(len(stats["facades"]), 4)
+        self.assertTrue(all(facade["views"] > 0 for facade in stats["facades"]))
+
     def test_every_photo_of_the_mission_carries_the_id_of_its_view(self):
         self.assertEqual(self.plan(self.map(HOUSES)).returncode, 0)
         views = {v["id"] for v in
@@ -187,6 +218,18 @@ class BadMaps(Plan):
         bare = self.map([feature([box(0, 0, 12, 10)], id=1)])
         self.assertIn("altitude", self.refused(bare))
         self.assertEqual(self.plan(bare, "--altitude", 30).returncode, 0)
+
+    def test_storeys_are_no_heights(self):
+        storeys = feature([box(0, 0, 12, 10)], **{"id": 1, "building:levels": "4"})
+        message = self.refused(self.map([storeys]))
+        self.assertIn("building:levels", message)
+        self.assertIn("--altitude 35", message)
+
+    def test_an_altitude_below_an_obstacle_is_refused(self):
+        crane = self.map([feature([box(30, -40, 34, -36)], height=45)], "crane.geojson")
+        message = self.refused(self.map(HOUSES), "--obstacles", crane, "--altitude", 40, code=2)
+        self.assertIn("O0001 is 45.0 m high", message)
+        self.assertIn("--altitude 55", message)
 
     def test_an_altitude_below_a_building_is_refused(self):
         self.assertIn("B0004", self.refused(self.map(HOUSES), "--altitude", 15, code=2))

@@ -20,6 +20,31 @@ std::string Preview(const Plan& plan) {
   return PreviewSvg(plan, StatsOf(plan, 1, 0.02));
 }
 
+TEST(PreviewSvg, ShowsWarningsAboveTheMap) {
+  const Plan plan = test::MakePlan();
+  PlanStats stats = StatsOf(plan, 1, 0.02);
+  const std::string without = PreviewSvg(plan, stats);
+  EXPECT_EQ(without.find("Warning: "), std::string::npos);
+  stats.warnings = {"mind the <crane>", std::string(150, 'a') + " " + std::string(150, 'b')};
+  const std::string with = PreviewSvg(plan, stats);
+  pugi::xml_document xml;
+  ASSERT_TRUE(xml.load_string(with.c_str()));
+  EXPECT_EQ(xml.select_nodes("//text[starts-with(@class,'warning')]").size(), 3u);
+  EXPECT_EQ(xml.select_nodes("//path[@fill='#cfe3c4']").size(), 0u);
+  EXPECT_NE(with.find("Warning: mind the &lt;crane&gt;"), std::string::npos);
+}
+
+TEST(PreviewSvg, ObstaclesAreNoBuildings) {
+  Plan plan = test::MakePlan();
+  const std::string before = Preview(plan);
+  EXPECT_NE(before.find("2 buildings"), std::string::npos);
+  EXPECT_EQ(before.find("obstacle"), std::string::npos);
+  plan.footprints[1].is_obstacle = true;
+  const std::string after = Preview(plan);
+  EXPECT_NE(after.find("1 building,"), std::string::npos);
+  EXPECT_NE(after.find("obstacle: tree"), std::string::npos);
+}
+
 // Paths of one look.
 std::vector<std::string> Paths(const std::string& svg, const std::string& attribute,
                                const std::string& value) {

@@ -77,6 +77,24 @@ TEST(Stats, FileHasTheFixedNames) {
   EXPECT_FALSE(json["facades"][0].contains("unobservable_m"));
 }
 
+TEST(Stats, FileSaysWhatSafetyRestsOn) {
+  const test::TemporaryFolder folder;
+  PlanStats stats = StatsOf(test::MakePlan(), 1, 0);
+  stats.horizontal_error_m = 3.8284;
+  stats.vertical_error_m = 4.8284;
+  stats.warnings = {"one", "two \"quoted\""};
+  WriteStats(stats, folder / "stats.json");
+  auto json = nlohmann::json::parse(ReadFile(folder / "stats.json"));
+  EXPECT_EQ(json["horizontal_error_m"], 3.828);
+  EXPECT_EQ(json["vertical_error_m"], 4.828);
+  EXPECT_FALSE(json.contains("flat_within_m"));
+  EXPECT_EQ(json["warnings"], nlohmann::json(stats.warnings));
+  stats.flat_within_m = 1;
+  WriteStats(stats, folder / "stats.json");
+  json = nlohmann::json::parse(ReadFile(folder / "stats.json"));
+  EXPECT_EQ(json["flat_within_m"], 1.0);
+}
+
 TEST(Stats, OfAnEmptyPlanAreZeros) {
   const test::TemporaryFolder folder;
   const PlanStats stats = StatsOf({}, 0, 0);

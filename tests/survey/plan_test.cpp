@@ -81,6 +81,19 @@ void ExpectPosition(const Eigen::VectorXd& read, const Eigen::VectorXd& written)
   EXPECT_LE((read - written).cwiseAbs().maxCoeff(), 0.0005 + 1e-12);
 }
 
+TEST(PlanFile, ObstaclesAreMarked) {
+  Plan plan = MakePlan();
+  plan.footprints.push_back({"O0001", {{{40, 0}, {44, 0}, {44, 4}}}, {0, 12}, 22, true});
+  const TemporaryFolder folder;
+  WritePlan(plan, folder / "plan.json");
+  const Plan read = ReadPlan(folder / "plan.json");
+  EXPECT_FALSE(read.footprints[0].is_obstacle);
+  EXPECT_TRUE(read.footprints[1].is_obstacle);
+  // Buildings are written as ever.
+  const std::string text = ReadFile(folder / "plan.json");
+  EXPECT_EQ(text.find("obstacle"), text.rfind("obstacle"));
+}
+
 TEST(PlanFile, ReadsBackAsWritten) {
   const Plan plan = MakePlan();
   const Plan read = WrittenAndRead(plan);

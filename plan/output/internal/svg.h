@@ -56,6 +56,10 @@ class Svg {
   std::string text_;
 };
 
+// Trees, cranes, wires.
+inline constexpr char kObstacleLook[] =
+    "fill=\"#cfe3c4\" fill-rule=\"evenodd\" stroke=\"#7f9c70\" stroke-width=\"0.5\"";
+
 // From the frame of the plan to the page, and what sizes suit the map.
 struct MapScale {
   Eigen::Vector2d south_west_m = Eigen::Vector2d::Zero();
