@@ -14,8 +14,8 @@
 #include "plan/dipping/dipping_views.h"
 #include "plan/evaluate/evaluate_facades.h"
 #include "plan/evaluate/target_all.h"
+#include "plan/match/expected_matches.h"
 #include "plan/match/link_photos.h"
-#include "plan/match/photo_graph.h"
 #include "plan/path/flights.h"
 #include "plan/planar/planar_views.h"
 #include "plan/safety/error_budget.h"
@@ -51,10 +51,8 @@ void Link(const Task& task, const Obstacles& obstacles, std::vector<Hover>& hove
           Progress& progress) {
   const LinkReport report =
       AddLinkPhotos({task.site, task.camera, task.threads}, obstacles, hovers, progress);
-  progress.Note(
-      fmt::format("{} link photos, {} of them at stops of their own; {} photos stay loose, {} "
-                  "parts, {} bridges",
-                  report.photos, report.stops, report.loose.size(), report.parts, report.bridges));
+  progress.Note(fmt::format("{} link photos, for which there are {} more stops", report.photos,
+                            report.stops));
 }
 
 std::vector<Hover> Cocapture(const Task& task, Progress& progress) {
@@ -179,20 +177,6 @@ void AddFacades(const Task& task, const std::vector<Intervals>& unobservable,
   }
 }
 
-// Partners that a photo has besides are no news.
-constexpr size_t kMostPartners = 12;
-
-void AddPartners(const Task& task, const std::vector<Hover>& hovers, Plan& plan) {
-  const PhotoGraph photos({task.site, task.camera, task.threads}, hovers);
-  const auto partners = StrongPartners(photos, kEnoughStrength, task.threads);
-  for (size_t i = 0; i < partners.size(); ++i) {
-    for (const Partner& partner : partners[i]) {
-      if (plan.views[i].partners.size() == kMostPartners) break;
-      plan.views[i].partners.push_back({plan.views[partner.photo].id, partner.strength});
-    }
-  }
-}
-
 PlannedPace PaceOf(const PlanOptions& options) {
   PlannedPace pace;
   pace.wind_m_per_s = options.wind_m_per_s;
@@ -260,10 +244,14 @@ PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, P
   result.plan.pace = battery.pace;
   AddViews(site, path, result.plan);
   AddFacades(task, unobservable, path.hovers, result.plan);
-  AddPartners(task, path.hovers, result.plan);
+  const MatchStats matches =
+      ExpectMatches({task.site, task.camera, threads}, path.hovers, result.plan);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   result.stats = StatsOf(result.plan, taken.count(), path.tour.gap());
   AddSafety(task, result);
+  result.stats.matches = matches;
+  const std::string loose = LooseFacades(matches);
+  if (!loose.empty()) result.stats.warnings.push_back(loose);
   return result;
 }
 

@@ -169,6 +169,12 @@ void CheckViews(const Checker& check, const Index& facades) {
                               hover->second->id));
     for (const PlannedTarget& target : view.targets) CheckTarget(check, entry, target, facades);
   }
+  for (const PlannedView& view : check.plan.views) {
+    for (const PlannedPartner& partner : view.partners) {
+      check.Require(ids.contains(partner.view), "view " + view.id,
+                    fmt::format("names partner \"{}\", which does not exist", partner.view));
+    }
+  }
 }
 
 // Facades name their views and views their facades: the two must say the same.

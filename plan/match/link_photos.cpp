@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "plan/match/connectivity.h"
 #include "plan/match/link_candidates.h"
 #include "survey/error.h"
 #include "survey/parallel.h"
@@ -21,14 +20,8 @@ constexpr double kStopCost = 3;
 // that counts.
 constexpr float kEnoughAnchor = 0.3F;
 constexpr double kAnchorWeight = 0.5;
-// Two close partners of a photo stand apart, or they are one.
-constexpr double kApart_m = 2;
 // A part that no photo ties to the rest after so many tries stays loose.
 constexpr int kMostTries = 4;
-
-bool IsOfFacade(const Shot& shot) {
-  return shot.kind == ViewKind::kDipping || shot.kind == ViewKind::kDippingFoot;
-}
 
 // Of the walls in the photo that asks, what another shows near in direction and scale.
 float CloseWalls(const SurfaceView& view, std::span<const Sight> asking,
@@ -49,12 +42,6 @@ float CloseWalls(const SurfaceView& view, std::span<const Sight> asking,
   return walls > 0 ? close / walls : 0;
 }
 
-// What a photo of the plan has and lacks.
-struct Ties {
-  std::vector<uint32_t> strong;  // partners
-  std::vector<uint32_t> close;   // of photos of facades, those that stand apart
-};
-
 // A candidate as the graph sees it.
 struct Assessed {
   LinkCandidate candidate;
@@ -71,22 +58,18 @@ class Linker {
   void ServeFacadePhotos();
   void ServeLonePhotos();
   void TieParts();
-  LinkReport Report() const;
+  const LinkReport& report() const { return report_; }
 
  private:
   const Shot& ShotOf(uint32_t photo) const {
     return hovers_[photos_.places[photo].hover].shots[photos_.places[photo].shot];
   }
-  int LacksClose(uint32_t photo) const;
-  int LacksPartners(uint32_t photo) const {
-    return std::max(0, kFewestPartners - static_cast<int>(ties_[photo].strong.size()));
-  }
-  bool IsNew(uint32_t photo, const Eigen::Vector3d& position) const;
+  int LacksClose(uint32_t photo) const { return LackingClose(ties_[photo], ShotOf(photo)); }
+  int LacksPartners(uint32_t photo) const { return LackingPartners(ties_[photo]); }
   template <typename Value>
   std::optional<Assessed> Best(uint32_t photo, bool walls_only, const Value& value) const;
   std::vector<uint32_t> ServedClose(const Assessed& link) const;
   int ServedLone(const Assessed& link) const;
-  Connectivity Connect() const;
   bool Tie(const Connectivity& whole, int block);
   void Add(Assessed link);
   void ThrowIfCancelled() const {
@@ -109,29 +92,7 @@ Linker::Linker(const MatchSetting& setting, const Obstacles& obstacles, std::vec
       progress_(progress),
       threads_(setting.threads),
       photos_(setting, hovers),
-      ties_(photos_.graph.size()) {
-  ParallelFor(ties_.size(), threads_, [&](size_t i) {
-    const auto photo = static_cast<uint32_t>(i);
-    for (const Partner& partner : photos_.graph.PartnersOf(photo)) {
-      if (partner.strength >= kEnoughStrength) ties_[i].strong.push_back(partner.photo);
-      if (partner.close_walls >= kCloseShare && IsOfFacade(ShotOf(photo)) &&
-          IsNew(photo, photos_.graph.position(partner.photo))) {
-        ties_[i].close.push_back(partner.photo);
-      }
-    }
-  });
-}
-
-int Linker::LacksClose(uint32_t photo) const {
-  if (!IsOfFacade(ShotOf(photo))) return 0;
-  return std::max(0, kFewestClose - static_cast<int>(ties_[photo].close.size()));
-}
-
-bool Linker::IsNew(uint32_t photo, const Eigen::Vector3d& position) const {
-  return std::ranges::none_of(ties_[photo].close, [&](uint32_t other) {
-    return (photos_.graph.position(other) - position).norm() < kApart_m;
-  });
-}
+      ties_(TiesOf(photos_, hovers, setting.threads)) {}
 
 double CostOf(LinkPlace place) {
   if (place == LinkPlace::kHover) return 1;
@@ -145,8 +106,8 @@ double CostOf(LinkPlace place) {
 template <typename Value>
 std::optional<Assessed> Linker::Best(uint32_t photo, bool walls_only, const Value& value) const {
   const Gaze gaze = GazeOf(photos_.view, photos_.graph.sights(photo), walls_only);
-  const auto candidates = LinkCandidates(gaze, obstacles_, hovers_,
-                                         static_cast<int>(photos_.places[photo].hover));
+  const auto candidates =
+      LinkCandidates(gaze, obstacles_, hovers_, static_cast<int>(photos_.places[photo].hover));
   std::vector<Assessed> assessed(candidates.size());
   ParallelFor(candidates.size(), threads_, [&](size_t i) {
     Assessed& link = assessed[i];
@@ -171,7 +132,9 @@ std::vector<uint32_t> Linker::ServedClose(const Assessed& link) const {
   std::vector<uint32_t> out;
   for (const Partner& partner : link.partners) {
     const uint32_t photo = partner.photo;
-    if (LacksClose(photo) == 0 || !IsNew(photo, link.candidate.position)) continue;
+    if (LacksClose(photo) == 0 ||
+        !StandsApart(photos_.graph, ties_[photo], link.candidate.position))
+      continue;
     if (CloseWalls(photos_.view, photos_.graph.sights(photo), link.sights) >= kCloseShare) {
       out.push_back(photo);
     }
@@ -193,11 +156,11 @@ void Linker::Add(Assessed link) {
   if (link.candidate.place != LinkPlace::kHover) {
     hover = static_cast<int>(hovers_.size());
     hovers_.push_back({link.candidate.position, {}});
-    report_.stops += link.candidate.place == LinkPlace::kOwn;
+    ++report_.stops;
   }
   hovers_[hover].shots.push_back(link.candidate.shot);
-  photos_.places.push_back({static_cast<uint32_t>(hover),
-                            static_cast<uint32_t>(hovers_[hover].shots.size() - 1)});
+  photos_.places.push_back(
+      {static_cast<uint32_t>(hover), static_cast<uint32_t>(hovers_[hover].shots.size() - 1)});
   const uint32_t self = photos_.graph.Add(link.candidate.position, std::move(link.sights));
   ties_.emplace_back();
   for (const Partner& partner : link.partners) {
@@ -242,16 +205,6 @@ void Linker::ServeLonePhotos() {
   }
 }
 
-Connectivity Linker::Connect() const {
-  std::vector<std::pair<int, int>> edges;
-  for (size_t a = 0; a < ties_.size(); ++a) {
-    for (const uint32_t b : ties_[a].strong) {
-      if (a < b) edges.emplace_back(static_cast<int>(a), static_cast<int>(b));
-    }
-  }
-  return ConnectivityOf(static_cast<int>(ties_.size()), edges);
-}
-
 // Adds a photo that ties a block to the rest, if there is one.
 bool Linker::Tie(const Connectivity& whole, int block) {
   for (uint32_t photo = 0; photo < whole.block.size(); ++photo) {
@@ -276,7 +229,7 @@ bool Linker::Tie(const Connectivity& whole, int block) {
 void Linker::TieParts() {
   for (int tries = 0;; ++tries) {
     ThrowIfCancelled();
-    const Connectivity whole = Connect();
+    const Connectivity whole = ConnectivityOf(ties_);
     if (whole.blocks <= 1) return;
     std::vector<int> sizes(whole.blocks);
     for (const int block : whole.block) ++sizes[block];
@@ -289,19 +242,6 @@ void Linker::TieParts() {
   }
 }
 
-LinkReport Linker::Report() const {
-  LinkReport report = report_;
-  for (uint32_t photo = 0; photo < ties_.size(); ++photo) {
-    if (LacksClose(photo) + LacksPartners(photo) > 0) {
-      report.loose.push_back(photos_.places[photo]);
-    }
-  }
-  const Connectivity whole = Connect();
-  report.parts = whole.parts;
-  report.bridges = static_cast<int>(whole.bridges.size());
-  return report;
-}
-
 }  // namespace
 
 LinkReport AddLinkPhotos(const MatchSetting& setting, const Obstacles& obstacles,
@@ -310,7 +250,7 @@ LinkReport AddLinkPhotos(const MatchSetting& setting, const Obstacles& obstacles
   linker.ServeFacadePhotos();
   linker.ServeLonePhotos();
   linker.TieParts();
-  return linker.Report();
+  return linker.report();
 }
 
 }  // namespace stucco::plan

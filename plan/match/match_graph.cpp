@@ -12,19 +12,16 @@ namespace {
 constexpr double kSamePlace_m = 0.5;
 // Nothing matches on a surface that is seen at less.
 constexpr double kLeastCosine = 0.02;
-// Where half of the features are lost, in octaves: three times the tilt, four times the scale.
-// Fitted to which photos of a flown survey share points (bench/match_graph.py, docs/benchmarks.md).
-constexpr double kHalfTilt = 1.585;
-constexpr double kHalfScale = 2;
-
-double Falling(double value, double half, double slope) {
-  return 1 / (1 + std::exp((value - half) / slope));
-}
+// Where half of the features are lost. Fitted to which photos of a flown survey share points
+// (bench/match_graph.py, docs/benchmarks.md).
+constexpr double kHalfTilt = 3;
+constexpr double kHalfScale = 4;
 
 }  // namespace
 
 // With the tangential parts t1 and t2 of the lines of sight, the pictures stretch the patch by
-// G = I - t t^T; the eigenvalues of G1^-1 G2 are the squares of the stretches from one to the other.
+// G = I - t t^T; the eigenvalues of G1^-1 G2 are the squares of the stretches from one to the
+// other.
 Warp WarpBetween(const Eigen::Vector3f& normal, const Sight& one, const Sight& other) {
   const double c1 = std::max<double>(kLeastCosine, one.way.dot(normal));
   const double c2 = std::max<double>(kLeastCosine, other.way.dot(normal));
@@ -38,8 +35,9 @@ Warp WarpBetween(const Eigen::Vector3f& normal, const Sight& one, const Sight& o
 }
 
 double Likeness(const Warp& warp) {
-  const double of_tilt = Falling(std::log2(warp.tilt), kHalfTilt, 0.3);
-  return of_tilt * Falling(std::log2(warp.scale), kHalfScale, 0.25);
+  const double tilt_square = std::pow(warp.tilt / kHalfTilt, 2);
+  const double scale_square = std::pow(warp.scale / kHalfScale, 2);
+  return 1 / ((1 + tilt_square * tilt_square) * (1 + std::pow(scale_square, 3)));
 }
 
 uint32_t MatchGraph::Add(const Eigen::Vector3d& position, std::vector<Sight> sights) {

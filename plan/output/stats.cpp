@@ -85,6 +85,25 @@ Json FacadeJson(const FacadeStats& facade) {
   return json;
 }
 
+Json MatchesJson(const MatchStats& matches) {
+  Json weakest = Json::array();
+  for (const TiedView& view : matches.weakest) {
+    Json json = {{"view", view.view},
+                 {"partners", view.partners},
+                 {"strength", Share(view.strength)},
+                 {"loose", view.is_loose}};
+    if (!view.facades.empty()) {
+      json["close"] = view.close;
+      json["facades"] = view.facades;
+    }
+    weakest.push_back(std::move(json));
+  }
+  return {{"parts", matches.parts},
+          {"bridges", matches.bridges},
+          {"loose", matches.loose},
+          {"weakest", std::move(weakest)}};
+}
+
 }  // namespace
 
 double FacadeStats::UnobservableLength() const {
@@ -143,6 +162,7 @@ void WriteStats(const PlanStats& stats, const std::filesystem::path& path) {
                {"vertical_error_m", Metres(stats.vertical_error_m)}};
   if (stats.flat_within_m) json["flat_within_m"] = Metres(*stats.flat_within_m);
   json["warnings"] = stats.warnings;
+  json["matches"] = MatchesJson(stats.matches);
   std::string text = json.dump(1);
   text.resize(text.size() - 2);  // the closing brace: facades follow, a line each
   text += ",\n \"facades\": [";

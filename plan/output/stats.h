@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "plan/match/match_stats.h"
 #include "survey/plan.h"
 
 namespace stucco::plan {
@@ -45,6 +46,7 @@ struct PlanStats {
   double vertical_error_m = 0;
   std::optional<double> flat_within_m;  // assumed of the ground, where there is no terrain
   std::vector<std::string> warnings;    // what to know before it is flown, a line each
+  MatchStats matches;                   // expected between the photos
   std::vector<FacadeStats> facades;
 };
 

@@ -38,6 +38,13 @@ std::string Energy(const PlanStats& stats) {
   return text + fmt::format(" of {:.0f} to {:.0f} %", low, high);
 }
 
+std::string Matches(const MatchStats& matches) {
+  const std::string loose =
+      matches.loose == 0 ? "no photo is loose" : fmt::format("{} photos are loose", matches.loose);
+  if (matches.parts <= 1 && matches.bridges == 0) return loose + ", all hang together";
+  return loose + fmt::format(", {} parts, {} bridges", matches.parts, matches.bridges);
+}
+
 std::string Time(const PlanStats& stats) {
   const PlannedTime& parts = stats.parts;
   return fmt::format(
@@ -83,6 +90,7 @@ std::string WorstFacades(const PlanStats& stats) {
 std::string StatsTable(const PlanStats& stats) {
   std::string text = fmt::format("{}, {}\n", stats.method, stats.camera);
   text += Row("photos", fmt::format("{} ({})", stats.photos, Kinds(stats)));
+  text += Row("matches", Matches(stats.matches));
   text += Row("hovers", fmt::format("{}", stats.hovers));
   text += Row("path", fmt::format("{:.0f} m", stats.length_m));
   text += Row("time", Time(stats));

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/match/link_photos.h"
-
 #include <gtest/gtest.h>
 
 #include "plan/camera/preset.h"
 #include "plan/dipping/dipping_views.h"
-#include "plan/match/connectivity.h"
+#include "plan/match/expected_matches.h"
 #include "plan/match/link_candidates.h"
+#include "plan/match/link_photos.h"
 #include "plan/planar/planar_views.h"
 #include "tests/site/made_site.h"
 
@@ -62,9 +61,10 @@ TEST_F(House, ItsFacadePhotosAreLooseWithoutLinksAndTiedWithThem) {
   const std::vector<Hover> before = hovers_;
   const LinkReport report = AddLinkPhotos(setting_, obstacles_, hovers_, progress_);
   EXPECT_EQ(Loose(), 0);
-  EXPECT_TRUE(report.loose.empty());
-  EXPECT_EQ(report.parts, 1);
-  EXPECT_EQ(report.bridges, 0);
+  const PhotoGraph photos(setting_, hovers_);
+  const Connectivity whole = ConnectivityOf(TiesOf(photos, hovers_, 2));
+  EXPECT_EQ(whole.parts, 1);
+  EXPECT_TRUE(whole.bridges.empty());
   int links = 0;
   for (size_t h = 0; h < hovers_.size(); ++h) {
     EXPECT_TRUE(obstacles_.IsFree(hovers_[h].position));
@@ -92,14 +92,46 @@ TEST_F(House, LinksAreTheSameAtAnyNumberOfThreads) {
   }
 }
 
-TEST_F(House, ALoosePhotoThatNoPlaceServesIsReported) {
-  hovers_.resize(1);  // one photo, and nothing above that could see what it sees
-  const LinkReport report = AddLinkPhotos(setting_, obstacles_, hovers_, progress_);
-  EXPECT_LE(report.photos, 8);
+TEST_F(House, GivesUpWhereNoPlaceServes) {
   std::vector<Hover> alone{{{500, 500, 20}, {{.kind = ViewKind::kOblique, .targets = {}}}}};
-  const LinkReport of_nothing = AddLinkPhotos(setting_, obstacles_, alone, progress_);
-  EXPECT_EQ(of_nothing.photos, 0);
-  ASSERT_EQ(of_nothing.loose.size(), 1u);
+  EXPECT_EQ(AddLinkPhotos(setting_, obstacles_, alone, progress_).photos, 0);
+  EXPECT_EQ(alone.size(), 1u);
+  hovers_.resize(1);  // nothing from above that sees what it sees
+  EXPECT_LE(AddLinkPhotos(setting_, obstacles_, hovers_, progress_).photos, 8);
+}
+
+// What the plan says of its matches, against the graph.
+TEST_F(House, SaysWhichPhotosAreLoose) {
+  const auto described = [&](const std::vector<Hover>& hovers) {
+    struct Plan plan;
+    for (size_t h = 0; h < hovers.size(); ++h) {
+      for (const Shot& shot : hovers[h].shots) {
+        PlannedView view;
+        view.id = "v" + std::to_string(plan.views.size());
+        view.kind = shot.kind;
+        for (const Target& target : shot.targets) {
+          view.targets.push_back({site_.facades[target.facade].id, target.along_m, target.z_m});
+        }
+        plan.views.push_back(std::move(view));
+      }
+    }
+    const MatchStats stats = ExpectMatches(setting_, hovers, plan);
+    for (const PlannedView& view : plan.views) {
+      EXPECT_FALSE(view.partners.empty()) << view.id;
+      EXPECT_LE(view.partners.size(), 12u);
+    }
+    return stats;
+  };
+  const MatchStats before = described(hovers_);
+  EXPECT_GE(before.loose, Loose());
+  EXPECT_TRUE(before.weakest.front().is_loose);
+  EXPECT_NE(LooseFacades(before).find("B0001/F0"), std::string::npos);
+  AddLinkPhotos(setting_, obstacles_, hovers_, progress_);
+  const MatchStats after = described(hovers_);
+  EXPECT_EQ(after.loose, 0);
+  EXPECT_EQ(after.parts, 1);
+  EXPECT_TRUE(LooseFacades(after).empty());
+  EXPECT_GE(after.weakest.size(), 10u);
 }
 
 TEST_F(House, CandidatesAreFreeAndNearInDirectionAndScale) {

@@ -57,6 +57,7 @@ Plan MakePlan() {
   facade.unobservable_m = {{2, 3}, {29, 30}};
   plan.facades = {facade};
   plan.views = {MakeView("v0", 0), MakeView("v1", 1)};
+  plan.views[1].partners = {{"v0", 0.23456}};
   plan.flights = {{{{plan.home_m, -1},
                     {plan.views[0].position_m, 0},
                     {plan.views[1].position_m, 1},
@@ -107,6 +108,10 @@ TEST(PlanFile, ReadsBackAsWritten) {
   EXPECT_EQ(read.camera.height_px, 3956);
   EXPECT_EQ(read.d_max_m, 57.123);
   EXPECT_EQ(read.min_altitude_m, 5);
+  EXPECT_TRUE(read.views[0].partners.empty());
+  ASSERT_EQ(read.views[1].partners.size(), 1u);
+  EXPECT_EQ(read.views[1].partners[0].view, "v0");
+  EXPECT_EQ(read.views[1].partners[0].strength, 0.2346);
   ExpectPosition(read.home_m, plan.home_m);
   ASSERT_EQ(read.footprints.size(), 1u);
   EXPECT_EQ(read.footprints[0].rings_m, plan.footprints[0].rings_m);
@@ -251,6 +256,10 @@ TEST(PlanFile, RefusesWhatDoesNotFitTogether) {
       {"target z", "backwards",
        [](Plan& p) {
          p.views[1].targets[0].z_m = {2, 1};
+       }},
+      {"partner", "which does not exist",
+       [](Plan& p) {
+         p.views[0].partners = {{"v9", 1}};
        }},
       {"view", "which does not exist", [](Plan& p) { p.facades[0].views[0] = "v7"; }},
       {"untold", "do not name it", [](Plan& p) { p.facades[0].views.pop_back(); }},
