@@ -74,13 +74,15 @@ TEST_F(Pair, GetsWeakerWithTheRatioOfDistances) {
 }
 
 TEST_F(Pair, GetsWeakerWithTheAngle) {
-  const double d = 12 / std::cos(50 * kDegrees);
-  const auto frontal = Expect(Facing(0, 12), Facing(3, 12));
-  const auto slanted =
-      Expect(Facing(0, 12), Facing(-d * std::sin(50 * kDegrees), d * std::cos(50 * kDegrees), 50));
+  const auto from = [&](double angle_deg) {
+    const double angle = angle_deg * kDegrees;
+    return Expect(Facing(0, 12), Facing(-12 * std::sin(angle), 12 * std::cos(angle), angle_deg));
+  };
+  const auto frontal = from(15), slanted = from(75);
   ASSERT_TRUE(frontal && slanted);
-  EXPECT_GT(frontal->strength, 3 * slanted->strength);
-  EXPECT_LT(slanted->close_walls, kCloseShare);
+  EXPECT_GT(frontal->strength, 2 * slanted->strength);
+  EXPECT_GT(frontal->close_walls, kCloseShare);
+  EXPECT_LT(from(55)->close_walls, kCloseShare);
 }
 
 Sight SightFrom(double azimuth_deg, double elevation_deg, float distance_m) {
