@@ -182,9 +182,8 @@ void AddFacades(const Task& task, const std::vector<Intervals>& unobservable,
 // Partners that a photo has besides are no news.
 constexpr size_t kMostPartners = 12;
 
-void AddPartners(const Task& task, const std::vector<Hover>& hovers, Plan& plan) {
-  const PhotoGraph photos({task.site, task.camera, task.threads}, hovers);
-  const auto partners = StrongPartners(photos, kEnoughStrength, task.threads);
+void AddPartners(const PhotoGraph& photos, int threads, Plan& plan) {
+  const auto partners = StrongPartners(photos, kEnoughStrength, threads);
   for (size_t i = 0; i < partners.size(); ++i) {
     for (const Partner& partner : partners[i]) {
       if (plan.views[i].partners.size() == kMostPartners) break;
@@ -245,6 +244,7 @@ PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, P
   const auto start = std::chrono::steady_clock::now();
   Task task{site, options, FindCamera(options.camera), 0, threads};
   task.d_max_m = DMax(options, task.camera);
+  std::vector<SunDay> days = SunDays(options.date);
   // The tour keeps photos of a facade together, so they have to be assigned before it; where
   // no-fly polygons cut some off, the others stand in.
   std::vector<Hover> hovers = PlanViews(task, progress);
@@ -255,12 +255,16 @@ PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, P
   const std::vector<Intervals> unobservable = NotDippedAt(site, path.hovers);
   if (path.hovers.size() < planned && options.method == "cocapture") Assign(task, path.hovers);
   PlanResult result;
+  result.days = std::move(days);
   result.plan = DescribeSite(task);
   result.plan.flights = path.flights;
   result.plan.pace = battery.pace;
   AddViews(site, path, result.plan);
   AddFacades(task, unobservable, path.hovers, result.plan);
-  AddPartners(task, path.hovers, result.plan);
+  const PhotoGraph photos({site, task.camera, threads}, path.hovers);
+  AddPartners(photos, threads, result.plan);
+  result.coverage = CoverageOf(photos, task.camera.camera);
+  result.flights = FactsOf(result.plan, site.terrain);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   result.stats = StatsOf(result.plan, taken.count(), path.tour.gap());
   AddSafety(task, result);

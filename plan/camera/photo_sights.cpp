@@ -8,7 +8,8 @@
 namespace stucco::plan {
 namespace {
 
-// What of a frame a patch fills that turns to the camera by `facing` (a cosine), `ray` away from it.
+// What of a frame a patch fills that turns to the camera by `facing` (a cosine), `ray` away from
+// it.
 double FrameShare(const Frustum& frame, const Eigen::Vector3d& ray, double facing,
                   double patch_m2) {
   const double distance = ray.norm();
@@ -28,8 +29,7 @@ std::vector<Sight> SightsOf(const SurfaceView& view, double patch_m2,
     const Eigen::Vector3d ray = sample.position - position;
     const double distance = ray.norm();
     const Eigen::Vector3d way = -ray / distance;
-    const double share =
-        FrameShare(place.pictures.front(), ray, way.dot(sample.normal), patch_m2);
+    const double share = FrameShare(place.pictures.front(), ray, way.dot(sample.normal), patch_m2);
     out.push_back({sighting.sample, static_cast<float>(share), way.cast<float>(),
                    static_cast<float>(distance)});
   }

@@ -9,7 +9,7 @@ namespace stucco::plan {
 
 // How an undirected graph hangs together.
 struct Connectivity {
-  std::vector<int> part;   // by node, from 0
+  std::vector<int> part;  // by node, from 0
   int parts = 0;
   std::vector<int> block;  // by node: nodes of one block stay together whichever edge is cut
   int blocks = 0;

@@ -145,8 +145,8 @@ double CostOf(LinkPlace place) {
 template <typename Value>
 std::optional<Assessed> Linker::Best(uint32_t photo, bool walls_only, const Value& value) const {
   const Gaze gaze = GazeOf(photos_.view, photos_.graph.sights(photo), walls_only);
-  const auto candidates = LinkCandidates(gaze, obstacles_, hovers_,
-                                         static_cast<int>(photos_.places[photo].hover));
+  const auto candidates =
+      LinkCandidates(gaze, obstacles_, hovers_, static_cast<int>(photos_.places[photo].hover));
   std::vector<Assessed> assessed(candidates.size());
   ParallelFor(candidates.size(), threads_, [&](size_t i) {
     Assessed& link = assessed[i];
@@ -196,8 +196,8 @@ void Linker::Add(Assessed link) {
     report_.stops += link.candidate.place == LinkPlace::kOwn;
   }
   hovers_[hover].shots.push_back(link.candidate.shot);
-  photos_.places.push_back({static_cast<uint32_t>(hover),
-                            static_cast<uint32_t>(hovers_[hover].shots.size() - 1)});
+  photos_.places.push_back(
+      {static_cast<uint32_t>(hover), static_cast<uint32_t>(hovers_[hover].shots.size() - 1)});
   const uint32_t self = photos_.graph.Add(link.candidate.position, std::move(link.sights));
   ties_.emplace_back();
   for (const Partner& partner : link.partners) {

@@ -24,7 +24,8 @@ double Falling(double value, double half, double slope) {
 }  // namespace
 
 // With the tangential parts t1 and t2 of the lines of sight, the pictures stretch the patch by
-// G = I - t t^T; the eigenvalues of G1^-1 G2 are the squares of the stretches from one to the other.
+// G = I - t t^T; the eigenvalues of G1^-1 G2 are the squares of the stretches from one to the
+// other.
 Warp WarpBetween(const Eigen::Vector3f& normal, const Sight& one, const Sight& other) {
   const double c1 = std::max<double>(kLeastCosine, one.way.dot(normal));
   const double c2 = std::max<double>(kLeastCosine, other.way.dot(normal));

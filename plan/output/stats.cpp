@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plan/output/stats.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "plan/match/link_photos.h"
 #include "survey/files.h"
 #include "survey/numbers.h"
 
@@ -93,6 +95,16 @@ double FacadeStats::UnobservableLength() const {
   return length;
 }
 
+std::vector<WeakPhoto> WeakPhotos(const Plan& plan) {
+  std::vector<WeakPhoto> weak;
+  for (size_t i = 0; i < plan.views.size(); ++i) {
+    const int partners = static_cast<int>(plan.views[i].partners.size());
+    if (partners < kFewestPartners) weak.push_back({i, plan.views[i].id, partners});
+  }
+  std::ranges::stable_sort(weak, {}, &WeakPhoto::partners);
+  return weak;
+}
+
 PlanStats StatsOf(const Plan& plan, double planning_s, double tsp_gap) {
   PlanStats stats;
   stats.method = plan.method;
@@ -118,6 +130,7 @@ PlanStats StatsOf(const Plan& plan, double planning_s, double tsp_gap) {
   stats.planning_s = planning_s;
   stats.tsp_gap = tsp_gap;
   AddFacades(plan, stats);
+  stats.weak_photos = WeakPhotos(plan);
   return stats;
 }
 
@@ -143,6 +156,10 @@ void WriteStats(const PlanStats& stats, const std::filesystem::path& path) {
                {"vertical_error_m", Metres(stats.vertical_error_m)}};
   if (stats.flat_within_m) json["flat_within_m"] = Metres(*stats.flat_within_m);
   json["warnings"] = stats.warnings;
+  json["weak_photos"] = Json::array();
+  for (const WeakPhoto& photo : stats.weak_photos) {
+    json["weak_photos"].push_back({{"id", photo.id}, {"partners", photo.partners}});
+  }
   std::string text = json.dump(1);
   text.resize(text.size() - 2);  // the closing brace: facades follow, a line each
   text += ",\n \"facades\": [";

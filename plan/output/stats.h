@@ -22,6 +22,16 @@ struct FacadeStats {
   double UnobservableLength() const;
 };
 
+// A photo that calibration may lose: fewer than kFewestPartners others should match it.
+struct WeakPhoto {
+  size_t view = 0;  // index into the plan's
+  std::string id;
+  int partners = 0;
+};
+
+// The weakest first, photos with the same number of partners in order of capture.
+std::vector<WeakPhoto> WeakPhotos(const Plan& plan);
+
 // The figures of a plan. Everything but `planning_s` depends on the plan alone.
 struct PlanStats {
   std::string method;
@@ -46,6 +56,7 @@ struct PlanStats {
   std::optional<double> flat_within_m;  // assumed of the ground, where there is no terrain
   std::vector<std::string> warnings;    // what to know before it is flown, a line each
   std::vector<FacadeStats> facades;
+  std::vector<WeakPhoto> weak_photos;
 };
 
 PlanStats StatsOf(const Plan& plan, double planning_s, double tsp_gap);

@@ -29,6 +29,12 @@ std::string Kinds(const PlanStats& stats) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+std::string Matches(const PlanStats& stats) {
+  if (stats.weak_photos.empty()) return "every photo should match three others or more";
+  return fmt::format("{} photo{} should match fewer than three others (weak_photos)",
+                     stats.weak_photos.size(), stats.weak_photos.size() == 1 ? "" : "s");
+}
+
 std::string Energy(const PlanStats& stats) {
   const size_t flights = stats.battery_by_flight.size();
   std::string text = fmt::format("{:.0f} % of a battery, {} flight{}", stats.battery_percent,
@@ -83,6 +89,7 @@ std::string WorstFacades(const PlanStats& stats) {
 std::string StatsTable(const PlanStats& stats) {
   std::string text = fmt::format("{}, {}\n", stats.method, stats.camera);
   text += Row("photos", fmt::format("{} ({})", stats.photos, Kinds(stats)));
+  if (stats.photos > 0) text += Row("matches", Matches(stats));
   text += Row("hovers", fmt::format("{}", stats.hovers));
   text += Row("path", fmt::format("{:.0f} m", stats.length_m));
   text += Row("time", Time(stats));

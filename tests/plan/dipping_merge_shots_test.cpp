@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/dipping/merge_shots.h"
-
 #include <gtest/gtest.h>
 
 #include "plan/dipping/dipping_views.h"
+#include "plan/dipping/merge_shots.h"
 #include "tests/plan/made_hovers.h"
 #include "tests/site/made_site.h"
 

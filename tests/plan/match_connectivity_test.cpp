@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/match/connectivity.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 #include <set>
+
+#include "plan/match/connectivity.h"
 
 namespace stucco::plan {
 namespace {

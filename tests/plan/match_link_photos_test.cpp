@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/match/link_photos.h"
-
 #include <gtest/gtest.h>
 
 #include "plan/camera/preset.h"
 #include "plan/dipping/dipping_views.h"
 #include "plan/match/connectivity.h"
 #include "plan/match/link_candidates.h"
+#include "plan/match/link_photos.h"
 #include "plan/planar/planar_views.h"
 #include "tests/site/made_site.h"
 

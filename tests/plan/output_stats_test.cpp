@@ -95,6 +95,21 @@ TEST(Stats, FileSaysWhatSafetyRestsOn) {
   EXPECT_EQ(json["flat_within_m"], 1.0);
 }
 
+TEST(Stats, NameTheWeakestPhotosFirst) {
+  const test::TemporaryFolder folder;
+  Plan plan = test::MakePlan();
+  for (PlannedView& view : plan.views) view.partners = {{"a", 0.5}, {"b", 0.4}, {"c", 0.3}};
+  EXPECT_TRUE(WeakPhotos(plan).empty());
+  plan.views[1].partners.resize(2);
+  plan.views[4].partners.clear();
+  const PlanStats stats = StatsOf(plan, 0, 0);
+  WriteStats(stats, folder / "stats.json");
+  const auto json = nlohmann::json::parse(ReadFile(folder / "stats.json"));
+  EXPECT_EQ(json["weak_photos"], nlohmann::json({{{"id", plan.views[4].id}, {"partners", 0}},
+                                                 {{"id", plan.views[1].id}, {"partners", 2}}}));
+  EXPECT_NE(StatsTable(stats).find("2 photos should match fewer than three"), std::string::npos);
+}
+
 TEST(Stats, OfAnEmptyPlanAreZeros) {
   const test::TemporaryFolder folder;
   const PlanStats stats = StatsOf({}, 0, 0);
