@@ -83,32 +83,81 @@ void DrawLevels(const std::map<int, PathData>& levels, const Theme& theme, const
   }
 }
 
-void DrawPlaces(const PhotoCoverage& coverage, const Theme& theme, const MapScale& scale,
-                Svg& svg) {
-  std::map<int, PathData> level_by_class;
-  std::map<std::pair<double, double>, int> worst;  // of a wall, by its place on the page
-  for (const CoveredPlace& place : coverage.places) {
-    const Eigen::Vector2d at = OnPage(place, scale);
-    const int level = theme.place(place);
-    if (place.kind != SurfaceKind::kWall) {
-      level_by_class[level].Dot(at);
-      continue;
+// Cells of a grid, which come row by row: neighbours of one class become one stroke.
+class Cells {
+ public:
+  explicit Cells(double size_px) : size_px_(size_px) {}
+
+  void Add(int level, const Eigen::Vector2d& at) {
+    const double left = at.x() - size_px_ / 2;
+    const bool goes_on = has_run_ && level == level_ && std::abs(at.y() - from_.y()) < kSame_px &&
+                         std::abs(left - to_px_) < kSame_px;
+    if (!goes_on) {
+      Flush();
+      level_ = level;
+      from_ = {left, at.y()};
+      has_run_ = true;
     }
-    const auto [found, is_new] = worst.try_emplace({at.x(), at.y()}, level);
-    if (!is_new) found->second = std::min(found->second, level);
+    to_px_ = left + size_px_;
   }
-  DrawLevels(level_by_class, theme, "square", coverage.spacing_m * scale.px_per_m, svg);
-  std::map<int, PathData> walls;
+  const std::map<int, PathData>& Finish() {
+    Flush();
+    return levels_;
+  }
+
+ private:
+  static constexpr double kSame_px = 0.01;
+
+  void Flush() {
+    if (!has_run_) return;
+    levels_[level_].MoveTo(from_);
+    levels_[level_].LineTo({to_px_, from_.y()});
+    has_run_ = false;
+  }
+
+  double size_px_;
+  std::map<int, PathData> levels_;
+  bool has_run_ = false;
+  int level_ = 0;
+  Eigen::Vector2d from_ = Eigen::Vector2d::Zero();
+  double to_px_ = 0;
+};
+
+// By place on the page, the class of the worst of its heights.
+using WallColumns = std::map<std::pair<double, double>, int>;
+
+void DrawWalls(const WallColumns& columns, const Theme& theme, const MapScale& scale, Svg& svg) {
+  std::map<int, PathData> levels;
   PathData all;
-  for (const auto& [at, level] : worst) {
-    walls[level].Dot({at.first, at.second});
+  for (const auto& [at, level] : columns) {
+    levels[level].Dot({at.first, at.second});
     all.Dot({at.first, at.second});
   }
   const double width = std::clamp(1.3 * scale.px_per_m, 3.0, 9.0);
   svg.Path(all, fmt::format("fill=\"none\" stroke=\"#fff\" stroke-width=\"{:.2f}\" "
                             "stroke-linecap=\"round\"",
                             width + 1.6));
-  DrawLevels(walls, theme, "round", width, svg);
+  DrawLevels(levels, theme, "round", width, svg);
+}
+
+void DrawPlaces(const PhotoCoverage& coverage, const Theme& theme, const MapScale& scale,
+                Svg& svg) {
+  constexpr double kSeam_px = 0.3;  // hides hairlines between rows
+  const double size_px = coverage.spacing_m * scale.px_per_m;
+  Cells cells(size_px);
+  WallColumns walls;
+  for (const CoveredPlace& place : coverage.places) {
+    const Eigen::Vector2d at = OnPage(place, scale);
+    const int level = theme.place(place);
+    if (place.kind != SurfaceKind::kWall) {
+      cells.Add(level, at);
+      continue;
+    }
+    const auto [found, is_new] = walls.try_emplace({at.x(), at.y()}, level);
+    if (!is_new) found->second = std::min(found->second, level);
+  }
+  DrawLevels(cells.Finish(), theme, "butt", size_px + kSeam_px, svg);
+  DrawWalls(walls, theme, scale, svg);
 }
 
 void DrawOutlines(const Plan& plan, const MapScale& scale, Svg& svg) {

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/field/checklist.h"
-
 #include <gtest/gtest.h>
 
 #include <pugixml.hpp>
 #include <regex>
 
+#include "plan/field/checklist.h"
 #include "tests/plan/mission_fixture.h"
 
 namespace stucco::plan {
@@ -112,7 +111,9 @@ TEST(Checklist, ListsGroundPointsOrSaysThatThereAreNone) {
   Sheet sheet;
   EXPECT_NE(sheet.Html().find("No ground that is free"), std::string::npos);
   sheet.facts.ground_points = {
-      {"G1", "south-west corner", {{-5, -5, 0}, Eigen::Vector3d::UnitZ(), SurfaceKind::kGround, 12, 0.01}}};
+      {"G1",
+       "south-west corner",
+       {{-5, -5, 0}, Eigen::Vector3d::UnitZ(), SurfaceKind::kGround, 12, 0.01}}};
   const auto rows = Texts(sheet.Html(), "//section[h2[starts-with(.,'Control')]]//tbody/tr");
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_NE(rows[0].find("G1south-west corner"), std::string::npos) << rows[0];

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/field/flight_facts.h"
-
 #include <gtest/gtest.h>
 
+#include "plan/field/flight_facts.h"
 #include "tests/plan/mission_fixture.h"
 
 namespace stucco::plan {

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/field/ground_points.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "plan/field/ground_points.h"
 #include "survey/geometry2d.h"
 #include "tests/plan/mission_fixture.h"
 
@@ -44,9 +43,9 @@ TEST(GroundPoints, KeepOffBuildings) {
   const Plan plan = test::MakePlan();
   for (const GroundPoint& point : ProposeGroundPoints(plan, Ground(6))) {
     for (const PlannedFootprint& footprint : plan.footprints) {
-      EXPECT_GE(Distance(Polygon{footprint.rings_m},
-                         Eigen::Vector2d(point.place.position_m.head<2>())),
-                3)
+      EXPECT_GE(
+          Distance(Polygon{footprint.rings_m}, Eigen::Vector2d(point.place.position_m.head<2>())),
+          3)
           << point.name;
     }
   }

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/field/sun_window.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "plan/field/sun_window.h"
 #include "survey/error.h"
 
 namespace stucco::plan {
@@ -22,8 +21,8 @@ SunDay Equinox() {
   return {{}, 0, 0};
 }
 
-// Meeus, example 25.a: 1992 October 13 at 0 TD has a declination of -7.78507 degrees; noon is half a
-// day later, in which the sun sinks by 0.19 degrees. Example 28.a: the equation of time is 13 min
+// Meeus, example 25.a: 1992 October 13 at 0 TD has a declination of -7.78507 degrees; noon is half
+// a day later, in which the sun sinks by 0.19 degrees. Example 28.a: the equation of time is 13 min
 // 42.6 s, and grows by 14 s a day.
 TEST(SunOn, AgreesWithMeeus) {
   const SunDay day = Day(1992, 10, 13);
@@ -62,8 +61,8 @@ TEST(SunOnWall, ANorthWallHasMorningsAndEveningsInSummer) {
 }
 
 // At the equinox the sun is at hour angle h in the direction (-sin h, -sin l cos h, cos l cos h):
-// 10 degrees in front of a south wall while cos h >= sin 10 / sin l, 5 degrees up while cos h >= sin
-// 5 / cos l.
+// 10 degrees in front of a south wall while cos h >= sin 10 / sin l, 5 degrees up while cos h >=
+// sin 5 / cos l.
 TEST(SunOnWall, ASouthWallHasNoon) {
   const double latitude = 50;
   const double least = std::max(std::sin(10 * kDegree) / std::sin(latitude * kDegree),

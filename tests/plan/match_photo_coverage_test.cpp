@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/match/photo_coverage.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "plan/camera/preset.h"
+#include "plan/match/photo_coverage.h"
 #include "plan/match/photo_graph.h"
 #include "tests/site/made_site.h"
 
@@ -43,7 +42,8 @@ TEST_F(Coverage, APixelStraightAheadIsItsDistanceOverTheFocalLength) {
   const CoveredPlace middle = Middle(coverage);
   EXPECT_EQ(middle.photos, 1);
   EXPECT_EQ(middle.kind, SurfaceKind::kWall);
-  EXPECT_NEAR(middle.gsd_m, 20 * camera_.PixelPitch() / camera_.camera.focal_m, 0.03 * middle.gsd_m);
+  EXPECT_NEAR(middle.gsd_m, 20 * camera_.PixelPitch() / camera_.camera.focal_m,
+              0.03 * middle.gsd_m);
 }
 
 TEST_F(Coverage, CountsPhotosAndKeepsTheFinestPixel) {
