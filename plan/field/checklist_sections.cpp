@@ -22,8 +22,8 @@ constexpr int kDirectionStep_deg = 10;
 constexpr size_t kMostNamed = 40;
 // A pixel may smear over half of another: more shows.
 constexpr double kSmear_px = 0.5;
-// Assumed of a drone that holds its place in a breeze.
-constexpr double kDrift_m_per_s = 0.5;
+// Metres a second, assumed of a drone that holds its place in a breeze.
+constexpr double kDriftSpeed = 0.5;
 // A target's centre is found well in a photo from about this size on.
 constexpr double kTarget_px = 10;
 
@@ -149,7 +149,7 @@ std::string CameraSection(const Plan& plan) {
       "wall ({:g} m, {:.1f} mm a pixel) by half a pixel at most. An app that takes photos in "
       "passing, "
       "at {:g} m/s, needs {} s. Let ISO follow, not the shutter.</li>\n",
-      Shutter(finest, kDrift_m_per_s), kDrift_m_per_s, plan.d_min_m, 1000 * finest,
+      Shutter(finest, kDriftSpeed), kDriftSpeed, plan.d_min_m, 1000 * finest,
       plan.pace.speed_m_per_s, Shutter(finest, plan.pace.speed_m_per_s));
   html +=
       "<li>Mechanical shutter where the camera has one: an electronic one reads line by line and "
@@ -184,7 +184,7 @@ std::string SunSection(const Plan& plan, const FieldFacts& facts) {
   std::vector<std::string> noons;
   for (const SunDay& day : facts.days) {
     noons.push_back(fmt::format("{} UTC on {}",
-                                Clock(SolarNoonUtc_min(day, plan.origin.longitude_deg) / 60),
+                                Clock(SolarNoonUtc(day, plan.origin.longitude_deg) / 60),
                                 DayName(day.date)));
   }
   return html +

@@ -80,7 +80,7 @@ std::vector<SunDay> SunDays(std::string_view date) {
           SunOn(year / std::chrono::December / 21)};
 }
 
-double SolarNoonUtc_min(const SunDay& day, double longitude_deg) {
+double SolarNoonUtc(const SunDay& day, double longitude_deg) {
   const double noon = 720 - 4 * longitude_deg - day.equation_of_time_min;
   return noon - 1440 * std::floor(noon / 1440);
 }

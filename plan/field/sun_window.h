@@ -26,7 +26,7 @@ SunDay SunOn(const Date& date);
 std::vector<SunDay> SunDays(std::string_view date);
 
 // UTC of the local solar noon, in minutes from midnight.
-double SolarNoonUtc_min(const SunDay& day, double longitude_deg);
+double SolarNoonUtc(const SunDay& day, double longitude_deg);
 
 // Lower sun is red, and neighbours hide it.
 inline constexpr double kLowSun_deg = 5;
