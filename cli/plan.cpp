@@ -36,6 +36,7 @@ void PrintSummary(const PlanSummary& summary, const CommonOptions& common) {
                        {"notes", summary.notes},
                        {"stats", in_plan("stats.json")},
                        {"preview", in_plan("preview.svg")},
+                       {"checklist", in_plan("checklist.html")},
                        {"next", next}};
     PrintJson(json);
     return;
@@ -45,9 +46,10 @@ void PrintSummary(const PlanSummary& summary, const CommonOptions& common) {
   for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";
   if (common.quiet) return;
   for (const std::string& note : summary.notes) std::cout << "note: " << note << "\n";
-  std::cout << fmt::format("Preview: {}\nFly it, put the photos into {}, then: {}\n",
-                           in_plan("preview.svg"),
-                           (std::filesystem::path(common.survey) / "photos").string(), next);
+  std::cout << fmt::format(
+      "Preview: {}\nTo take along: {}\nFly it, put the photos into {}, then: {}\n",
+      in_plan("preview.svg"), in_plan("checklist.html"),
+      (std::filesystem::path(common.survey) / "photos").string(), next);
 }
 
 // --gsd and --gsd-m for gsd_m, --wind and --wind-m-per-s for wind_m_per_s; the values end up in

@@ -229,6 +229,7 @@ PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, P
   const auto start = std::chrono::steady_clock::now();
   Task task{site, options, FindCamera(options.camera), 0, threads};
   task.d_max_m = DMax(options, task.camera);
+  std::vector<SunDay> days = SunDays(options.date);
   // The tour keeps photos of a facade together, so they have to be assigned before it; where
   // no-fly polygons cut some off, the others stand in.
   std::vector<Hover> hovers = PlanViews(task, progress);
@@ -239,13 +240,16 @@ PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, P
   const std::vector<Intervals> unobservable = NotDippedAt(site, path.hovers);
   if (path.hovers.size() < planned && options.method == "cocapture") Assign(task, path.hovers);
   PlanResult result;
+  result.days = std::move(days);
   result.plan = DescribeSite(task);
   result.plan.flights = path.flights;
   result.plan.pace = battery.pace;
   AddViews(site, path, result.plan);
   AddFacades(task, unobservable, path.hovers, result.plan);
-  const MatchStats matches =
-      ExpectMatches({task.site, task.camera, threads}, path.hovers, result.plan);
+  const PhotoGraph photos({site, task.camera, threads}, path.hovers);
+  const MatchStats matches = ExpectMatches(photos, path.hovers, threads, result.plan);
+  result.coverage = CoverageOf(photos, task.camera.camera);
+  result.flights = FactsOf(result.plan, site.terrain);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   result.stats = StatsOf(result.plan, taken.count(), path.tour.gap());
   AddSafety(task, result);

@@ -34,11 +34,11 @@ TiedView Describe(const PlannedView& view, const Shot& shot, const Ties& ties,
 
 }  // namespace
 
-MatchStats ExpectMatches(const MatchSetting& setting, std::span<const Hover> hovers, Plan& plan) {
-  const PhotoGraph photos(setting, hovers);
+MatchStats ExpectMatches(const PhotoGraph& photos, std::span<const Hover> hovers, int threads,
+                         Plan& plan) {
   assert(photos.graph.size() == plan.views.size());
-  const std::vector<Ties> ties = TiesOf(photos, hovers, setting.threads);
-  const auto strong = StrongPartners(photos, kEnoughStrength, setting.threads);
+  const std::vector<Ties> ties = TiesOf(photos, hovers, threads);
+  const auto strong = StrongPartners(photos, kEnoughStrength, threads);
   const Connectivity whole = ConnectivityOf(ties);
   MatchStats stats{.parts = whole.parts,
                    .bridges = static_cast<int>(whole.bridges.size()),

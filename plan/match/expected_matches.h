@@ -11,8 +11,9 @@
 
 namespace stucco::plan {
 
-// Fills in the partners of the views of a plan, which are the shots of `hovers` in their order, and
-// says what they come to.
-MatchStats ExpectMatches(const MatchSetting& setting, std::span<const Hover> hovers, Plan& plan);
+// Fills in the partners of the views of a plan, which are the shots of `hovers` in their order, as
+// the photos of the graph are, and says what they come to.
+MatchStats ExpectMatches(const PhotoGraph& photos, std::span<const Hover> hovers, int threads,
+                         Plan& plan);
 
 }  // namespace stucco::plan

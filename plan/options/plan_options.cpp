@@ -47,6 +47,9 @@ void Describe(OptionTable& table, PlanOptions& options) {
       "Share of a battery that one flight may use, less what its way home takes against the wind");
   table.Add("wind_m_per_s", options.wind_m_per_s, 0, kMostWind_m_per_s,
             "Wind that time and energy are reckoned with, in metres a second");
+  table.Add("date", options.date, {},
+            "Day of the flight as 2026-06-21, for the hours of sun on walls in checklist.html; "
+            "empty: equinox and both solstices");
   table.Add("map_layer", options.map_layer, {},
             "Layer of the map with the buildings; empty: one with \"building\" in its name, else "
             "the first "

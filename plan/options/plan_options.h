@@ -30,6 +30,7 @@ struct PlanOptions {
   bool links = true;              // photos between those that would not match
   double battery_percent = 80;    // used up per flight at most
   double wind_m_per_s = 3;        // that flights are reckoned with
+  std::string date;               // of the flight, 2026-06-21; empty: three days of the year
   std::string map_layer;          // empty: one named after buildings, else the first with polygons
   std::string height_field;       // empty: the usual names
   std::string id_field;           // empty: the usual names

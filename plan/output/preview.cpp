@@ -25,25 +25,6 @@ constexpr double kMapWidth = kPageWidth - 3 * kMargin - kLegend;
 constexpr double kTallestMap = 1250;
 constexpr double kLowestPage = 960;  // the legend needs it
 
-constexpr const char* kStyle = R"svg(<style>
-text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:#1f2328}
-.title{font-size:27px;font-weight:600}
-.figures{font-size:16px;fill:#3d444d}
-.warning{font-size:13.5px;fill:#b3261e}
-.heading{font-size:15px;font-weight:600}
-.entry{font-size:13.5px}
-.note{font-size:12px;fill:#59636e}
-.tick{font-size:12px;text-anchor:middle}
-.name{font-size:9px;text-anchor:middle;fill:#54545c}
-.home{font-size:12px;font-weight:700;text-anchor:middle}
-.small{font-size:9.5px}
-</style>
-<defs><pattern id="nofly" width="9" height="9"
- patternUnits="userSpaceOnUse" patternTransform="rotate(45)">
-<rect width="9" height="9" fill="#c0392b" fill-opacity="0.10"/>
-<path d="M0 0V9" stroke="#c0392b" stroke-width="2.4" stroke-opacity="0.55"/></pattern></defs>
-)svg";
-
 std::string Title(const Plan& plan, const PlanStats& stats) {
   const auto buildings = std::ranges::count(plan.footprints, false, &PlannedFootprint::is_obstacle);
   return fmt::format("Flight plan: {} building{}, {} facades ({}, {})", buildings,
@@ -94,7 +75,7 @@ std::string PreviewSvg(const Plan& plan, const PlanStats& stats) {
       "viewBox=\"0 0 {0:.0f} {1:.0f}\">",
       kPageWidth, height);
   svg.Add("<title>{}</title>", internal::EscapeXml(Title(plan, stats)));
-  svg.Add("{}", kStyle);
+  svg.Add("{}", internal::kMapStyle);
   svg.Add("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"#fff\"/>", kPageWidth, height);
   svg.Text({kMargin, 42}, "class=\"title\"", Title(plan, stats));
   svg.Text({kMargin, 71}, "class=\"figures\"", Figures(plan, stats));

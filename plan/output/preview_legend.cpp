@@ -61,6 +61,21 @@ void DrawQualityBar(Column& column) {
   column.Entry("wall seen from above only, or not at all");
 }
 
+// What the match graph adds to the map.
+void DrawMatchSymbols(const Plan& plan, Column& column) {
+  if (std::ranges::find(plan.views, ViewKind::kLink, &PlannedView::kind) != plan.views.end()) {
+    column.svg.Add("<path d=\"M{:.1f} {:.1f}l-9-13a16 16 0 0 1 18 0z\" {}/>", column.X(13),
+                   column.Y(0), kLinkLook);
+    column.Entry("link photos, between those that would not match");
+  }
+  const size_t weak = WeakPhotos(plan).size();
+  if (weak == 0) return;
+  column.svg.Add("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"6\" {}/>", column.X(13), column.Y(-4),
+                 kWeakLook);
+  column.Entry(
+      fmt::format("{} photo{} that fewer than 3 should match", weak, weak == 1 ? "" : "s"));
+}
+
 void DrawSymbols(const Plan& plan, Column& column) {
   column.Heading("Map");
   const auto swatch = [&](const char* look) {
@@ -91,6 +106,7 @@ void DrawSymbols(const Plan& plan, Column& column) {
       "stroke-width=\"1.6\"/>",
       column.X(13), column.Y(-4));
   column.Entry("photos from above");
+  DrawMatchSymbols(plan, column);
   column.svg.Add(
       "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"7\" fill=\"#fff\" stroke=\"#111\" "
       "stroke-width=\"1.4\"/>",

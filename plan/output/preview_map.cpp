@@ -168,7 +168,7 @@ void DrawFacades(const Plan& plan, const MapScale& scale, Svg& svg) {
 
 bool IsDipping(const PlannedView& view) {
   return view.kind == ViewKind::kDipping || view.kind == ViewKind::kDippingFoot ||
-         view.kind == ViewKind::kSurface;
+         view.kind == ViewKind::kSurface || view.kind == ViewKind::kLink;
 }
 
 // A slice of the field of view, which shows direction and angle of a photo.
@@ -203,6 +203,7 @@ void DrawViews(const Plan& plan, const MapScale& scale, Svg& svg) {
   const double radius = SizeOf(2.5, scale, 5, 18);
   const double half_fov = HalfFov(plan.camera);
   PathData wedges;
+  PathData links;
   PathData planar;
   std::map<int, PathData> dots;
   Seen seen_wedges;
@@ -214,7 +215,7 @@ void DrawViews(const Plan& plan, const MapScale& scale, Svg& svg) {
       continue;
     }
     if (IsNew(view, view.yaw_deg, seen_wedges)) {
-      AddWedge(at, view.yaw_deg, half_fov, radius, wedges);
+      AddWedge(at, view.yaw_deg, half_fov, radius, view.kind == ViewKind::kLink ? links : wedges);
     }
     if (IsNew(view, 0, seen_dots)) dots[view.flight].Dot(at);
   }
@@ -230,9 +231,23 @@ void DrawViews(const Plan& plan, const MapScale& scale, Svg& svg) {
   svg.Path(wedges,
            "fill=\"#1b1b1f\" fill-opacity=\"0.28\" stroke=\"#1b1b1f\" "
            "stroke-opacity=\"0.6\" stroke-width=\"0.35\"");
+  svg.Path(links, kLinkLook);
   for (const auto& [flight, path] : dots) {
     svg.Path(path, round("#fff", dot + 1));
     svg.Path(path, round(Hex(FlightColor(flight)).c_str(), dot));
+  }
+}
+
+// A ring around each place with a photo that too few others should match.
+void DrawWeak(const Plan& plan, const MapScale& scale, Svg& svg) {
+  const double radius = SizeOf(1.6, scale, 3.5, 9);
+  Seen seen;
+  for (const WeakPhoto& photo : WeakPhotos(plan)) {
+    const PlannedView& view = plan.views[photo.view];
+    if (!IsNew(view, 0, seen)) continue;
+    const Eigen::Vector2d at = scale.Page(view.position_m.head<2>());
+    svg.Add("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" {}/>", at.x(), at.y(), radius,
+            kWeakLook);
   }
 }
 
@@ -282,6 +297,7 @@ void DrawMap(const Plan& plan, const MapScale& scale, Svg& svg) {
   DrawPaths(plan, scale, svg);
   DrawFacades(plan, scale, svg);
   DrawViews(plan, scale, svg);
+  DrawWeak(plan, scale, svg);
   DrawNames(plan, scale, svg);
   DrawHome(plan, scale, svg);
   svg.Add("</svg>");

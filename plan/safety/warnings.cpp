@@ -41,9 +41,7 @@ Extremes ExtremesOf(const Site& site, const Plan& plan) {
   extremes.stops = stops.size();
   for (const auto& [hover, view] : stops) {
     const double height = above_ground(view->position_m);
-    const Eigen::Vector3d home = plan.flights.empty()
-                                     ? plan.home_m
-                                     : plan.flights[view->flight].home_m.value_or(plan.home_m);
+    const Eigen::Vector3d home = plan.HomeOf(view->flight);
     const double away = (view->position_m - home).head<2>().norm();
     extremes.highest_m = std::max(extremes.highest_m, height);
     extremes.lowest_m = std::min(extremes.lowest_m, height);

@@ -57,7 +57,8 @@ class GoodMaps(Plan):
         done = self.plan(self.map(HOUSES))
         self.assertEqual(done.returncode, 0, done.stderr)
         folder = self.root / "survey/plan"
-        for name in ("plan.json", "stats.json", "preview.svg", "mission.kml", "plan.geojson"):
+        for name in ("plan.json", "stats.json", "preview.svg", "coverage.svg",
+                     "checklist.html", "mission.kml", "plan.geojson"):
             self.assertGreater((folder / name).stat().st_size, 500, name)
         checked = subprocess.run(
             [sys.executable, stucco.ROOT / "bench/plan_check.py", folder / "plan.json",

@@ -8,6 +8,7 @@
 
 #include "site/facades.h"
 #include "site/site_of_plan.h"
+#include "survey/error.h"
 #include "survey/geometry2d.h"
 #include "tests/site/made_site.h"
 
@@ -80,6 +81,26 @@ TEST(MakePlan, KeepsAwayFromObstacles) {
   EXPECT_FALSE(result.stats.warnings.empty());
   ASSERT_TRUE(result.stats.flat_within_m);
   EXPECT_NEAR(*result.stats.flat_within_m, 1, 1e-9);
+}
+
+TEST(MakePlan, TellsWhatTheFieldSheetNeeds) {
+  const Site site = MadeSite({Rectangle(0, 0, 30, 12)}, {.heights_m = {9}});
+  PlanOptions options;
+  options.date = "2026-10-01";
+  const PlanResult result = MakePlan(site, options, 1, SilentProgress());
+  ASSERT_EQ(result.days.size(), 1u);
+  EXPECT_EQ(result.days[0].date, std::chrono::year(2026) / 10 / 1);
+  ASSERT_EQ(result.flights.size(), result.plan.flights.size());
+  int photos = 0;
+  for (const FlightFacts& flight : result.flights) photos += flight.photos;
+  EXPECT_EQ(photos, result.stats.photos);
+  EXPECT_GE(result.flights[0].lowest_m, site.min_altitude_m - 1e-6);
+  EXPECT_FALSE(result.coverage.places.empty());
+  for (const CoveredPlace& place : result.coverage.places) {
+    EXPECT_TRUE(place.kind != SurfaceKind::kRoof || place.photos > 0);
+  }
+  options.date = "someday";
+  EXPECT_THROW(MakePlan(site, options, 1, SilentProgress()), Error);
 }
 
 // A shaft of 6 m is too narrow to dip into: from above at best, and the plan says so.

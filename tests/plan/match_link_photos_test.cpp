@@ -115,7 +115,7 @@ TEST_F(House, SaysWhichPhotosAreLoose) {
         plan.views.push_back(std::move(view));
       }
     }
-    const MatchStats stats = ExpectMatches(setting_, hovers, plan);
+    const MatchStats stats = ExpectMatches(PhotoGraph(setting_, hovers), hovers, 2, plan);
     for (const PlannedView& view : plan.views) {
       EXPECT_LE(view.partners.size(), 12u);
       for (const PlannedPartner& partner : view.partners) {

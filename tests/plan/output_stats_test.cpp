@@ -95,6 +95,35 @@ TEST(Stats, FileSaysWhatSafetyRestsOn) {
   EXPECT_EQ(json["flat_within_m"], 1.0);
 }
 
+TEST(Stats, NameTheWeakestPhotosFirst) {
+  Plan plan = test::MakePlan();
+  for (PlannedView& view : plan.views) view.partners = {{"a", 0.5}, {"b", 0.4}, {"c", 0.3}};
+  EXPECT_TRUE(WeakPhotos(plan).empty());
+  plan.views[1].partners.resize(2);
+  plan.views[4].partners.clear();
+  const std::vector<WeakPhoto> weak = WeakPhotos(plan);
+  ASSERT_EQ(weak.size(), 2u);
+  EXPECT_EQ(weak[0].id, plan.views[4].id);
+  EXPECT_EQ(weak[1].view, 1u);
+  EXPECT_EQ(weak[1].partners, 2);
+}
+
+TEST(Stats, SayHowThePhotosHangTogether) {
+  const test::TemporaryFolder folder;
+  PlanStats stats = StatsOf(test::MakePlan(), 0, 0);
+  stats.matches = {2, 1, 1, {{"h0001v1", 2, 1, 0.25, {"B0001/F00"}, true},
+                             {"h0002v1", 5, 0, 1.5, {}, false}}};
+  WriteStats(stats, folder / "stats.json");
+  const auto matches = nlohmann::json::parse(ReadFile(folder / "stats.json"))["matches"];
+  EXPECT_EQ(matches["parts"], 2);
+  EXPECT_EQ(matches["bridges"], 1);
+  EXPECT_EQ(matches["loose"], 1);
+  EXPECT_EQ(matches["weakest"][0]["close"], 1);
+  EXPECT_EQ(matches["weakest"][0]["facades"][0], "B0001/F00");
+  EXPECT_FALSE(matches["weakest"][1].contains("facades"));
+  EXPECT_NE(StatsTable(stats).find("1 photos are loose, 2 parts, 1 bridges"), std::string::npos);
+}
+
 TEST(Stats, OfAnEmptyPlanAreZeros) {
   const test::TemporaryFolder folder;
   const PlanStats stats = StatsOf({}, 0, 0);
