@@ -36,8 +36,9 @@ struct Partner {
   float close_walls = 0;
 };
 
-// A pair with less is not counted on. Of those with up to half as much again, six to nine in ten came
-// to share 15 points or more, of stronger ones nearly all (bench/match_graph.py, docs/benchmarks.md).
+// A pair with less is not counted on. Of those with up to half as much again, six to nine in ten
+// came to share 15 points or more, of stronger ones nearly all (bench/match_graph.py,
+// docs/benchmarks.md).
 inline constexpr float kEnoughStrength = 0.08F;
 // What a photo of a facade needs two partners within (SIFT on planes: Mikolajczyk et al., "A
 // Comparison of Affine Region Detectors", 2005), for this share of the walls that it shows.

@@ -111,8 +111,8 @@ TEST(Stats, NameTheWeakestPhotosFirst) {
 TEST(Stats, SayHowThePhotosHangTogether) {
   const test::TemporaryFolder folder;
   PlanStats stats = StatsOf(test::MakePlan(), 0, 0);
-  stats.matches = {2, 1, 1, {{"h0001v1", 2, 1, 0.25, {"B0001/F00"}, true},
-                             {"h0002v1", 5, 0, 1.5, {}, false}}};
+  stats.matches = {
+      2, 1, 1, {{"h0001v1", 2, 1, 0.25, {"B0001/F00"}, true}, {"h0002v1", 5, 0, 1.5, {}, false}}};
   WriteStats(stats, folder / "stats.json");
   const auto matches = nlohmann::json::parse(ReadFile(folder / "stats.json"))["matches"];
   EXPECT_EQ(matches["parts"], 2);
