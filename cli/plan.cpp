@@ -32,29 +32,47 @@ void PrintSummary(const PlanSummary& summary, const CommonOptions& common) {
                        {"time_min", summary.time_min},
                        {"battery_percent", summary.battery_percent},
                        {"repairs", summary.repairs},
+                       {"warnings", summary.warnings},
                        {"notes", summary.notes},
                        {"stats", in_plan("stats.json")},
                        {"preview", in_plan("preview.svg")},
+                       {"checklist", in_plan("checklist.html")},
                        {"next", next}};
     PrintJson(json);
     return;
   }
   for (const std::string& repair : summary.repairs) std::cerr << "map: " << repair << "\n";
+  if (!common.quiet) std::cout << summary.table << std::flush;
+  for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";
   if (common.quiet) return;
-  std::cout << summary.table;
   for (const std::string& note : summary.notes) std::cout << "note: " << note << "\n";
-  std::cout << fmt::format("Preview: {}\nFly it, put the photos into {}, then: {}\n",
-                           in_plan("preview.svg"),
-                           (std::filesystem::path(common.survey) / "photos").string(), next);
+  std::cout << fmt::format(
+      "Preview: {}\nTo take along: {}\nFly it, put the photos into {}, then: {}\n",
+      in_plan("preview.svg"), in_plan("checklist.html"),
+      (std::filesystem::path(common.survey) / "photos").string(), next);
 }
 
-// --gsd and --gsd-m for gsd_m; the values end up in `set`.
+// --gsd and --gsd-m for gsd_m, --wind and --wind-m-per-s for wind_m_per_s; the values end up in
+// `set`.
 void AddPlanOptions(CLI::App& verb, std::vector<std::string>& set) {
   ForPlanOptions([&](const Option& option) {
     std::string dashed = option.name;
     std::replace(dashed.begin(), dashed.end(), '_', '-');
     std::string names = "--" + dashed;
-    if (dashed.ends_with("-m")) names = "--" + dashed.substr(0, dashed.size() - 2) + "," + names;
+    if (std::holds_alternative<bool*>(option.value)) {
+      verb.add_flag_function(
+              fmt::format("{},!--no-{}", names, dashed),
+              [&set, name = option.name](int64_t count) {
+                set.push_back(fmt::format("{}={}", name, count > 0));
+              },
+              fmt::format("{} (default {})", option.help, ValueAsToml(option)))
+          ->group("What is planned");
+      return;
+    }
+    for (const std::string_view unit : {"-m", "-m-per-s"}) {
+      if (!dashed.ends_with(unit)) continue;
+      names = "--" + dashed.substr(0, dashed.size() - unit.size()) + "," + names;
+    }
     const std::string allowed = AllowedValues(option);
     verb.add_option_function<std::string>(
             names,
@@ -90,6 +108,9 @@ void AddPlan(CLI::App& app, Program& program) {
                   "Polygons that hold the buildings to capture; others are only in the way")
       ->type_name("FILE");
   verb.add_option("--no-fly", request->no_fly, "Polygons that must not be flown over")
+      ->type_name("FILE");
+  verb.add_option("--obstacles", request->obstacles,
+                  "Trees, wires, cranes: polygons, lines or points with a height, kept clear of")
       ->type_name("FILE");
   verb.add_option("--terrain", request->terrain, "Height of the ground (GeoTIFF)")
       ->type_name("FILE");

@@ -14,8 +14,12 @@
 #include "plan/dipping/dipping_views.h"
 #include "plan/evaluate/evaluate_facades.h"
 #include "plan/evaluate/target_all.h"
+#include "plan/match/expected_matches.h"
+#include "plan/match/link_photos.h"
 #include "plan/path/flights.h"
 #include "plan/planar/planar_views.h"
+#include "plan/safety/error_budget.h"
+#include "plan/safety/warnings.h"
 #include "survey/error.h"
 #include "survey/intervals.h"
 
@@ -43,6 +47,14 @@ double PlanarReach(const Task& task) {
   return std::max(task.d_max_m, kTilted * task.site.safe_altitude_m);
 }
 
+void Link(const Task& task, const Obstacles& obstacles, std::vector<Hover>& hovers,
+          Progress& progress) {
+  const LinkReport report =
+      AddLinkPhotos({task.site, task.camera, task.threads}, obstacles, hovers, progress);
+  progress.Note(fmt::format("{} link photos, for which there are {} more stops", report.photos,
+                            report.stops));
+}
+
 std::vector<Hover> Cocapture(const Task& task, Progress& progress) {
   const Obstacles obstacles(task.site);
   DippingSetting setting = MakeSetting(task.site, obstacles, task.camera, task.d_max_m);
@@ -59,6 +71,7 @@ std::vector<Hover> Cocapture(const Task& task, Progress& progress) {
   std::vector<Hover> above = PlanarViews(task.site, task.camera, planar, dipping.hovers, progress);
   std::vector<Hover> hovers = std::move(dipping.hovers);
   std::move(above.begin(), above.end(), std::back_inserter(hovers));
+  if (task.options.links) Link(task, obstacles, hovers, progress);
   return hovers;
 }
 
@@ -164,6 +177,12 @@ void AddFacades(const Task& task, const std::vector<Intervals>& unobservable,
   }
 }
 
+PlannedPace PaceOf(const PlanOptions& options) {
+  PlannedPace pace;
+  pace.wind_m_per_s = options.wind_m_per_s;
+  return pace;
+}
+
 Plan DescribeSite(const Task& task) {
   const Site& site = task.site;
   Plan plan;
@@ -177,13 +196,21 @@ Plan DescribeSite(const Task& task) {
   plan.min_altitude_m = site.min_altitude_m;
   plan.home_m = site.home;
   for (const Footprint& footprint : site.footprints) {
-    plan.footprints.push_back(
-        {footprint.building, footprint.outline.rings, footprint.z_m, footprint.blocked_to_m});
+    plan.footprints.push_back({footprint.building, footprint.outline.rings, footprint.z_m,
+                               footprint.blocked_to_m, footprint.is_obstacle});
   }
   for (const Polygon& polygon : site.no_fly) {
     for (const Ring& ring : polygon.rings) plan.no_fly_m.push_back(ring);
   }
   return plan;
+}
+
+void AddSafety(const Task& task, PlanResult& result) {
+  const ErrorBudget budget = BudgetOf(task.options);
+  result.stats.horizontal_error_m = budget.horizontal_m;
+  result.stats.vertical_error_m = budget.vertical_m;
+  if (task.site.terrain.IsFlat()) result.stats.flat_within_m = budget.flatness_m;
+  result.stats.warnings = SafetyWarnings(task.site, result.plan, task.options);
 }
 
 double DMax(const PlanOptions& options, const CameraPreset& camera) {
@@ -202,22 +229,33 @@ PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, P
   const auto start = std::chrono::steady_clock::now();
   Task task{site, options, FindCamera(options.camera), 0, threads};
   task.d_max_m = DMax(options, task.camera);
+  std::vector<SunDay> days = SunDays(options.date);
   // The tour keeps photos of a facade together, so they have to be assigned before it; where
   // no-fly polygons cut some off, the others stand in.
   std::vector<Hover> hovers = PlanViews(task, progress);
   Assign(task, hovers);
   const size_t planned = hovers.size();
-  FlightPlan path = PlanFlights(site, {task.camera.battery_scale, options.battery_percent},
-                                std::move(hovers), threads, progress);
+  const Battery battery{task.camera.battery_scale, options.battery_percent, PaceOf(options)};
+  FlightPlan path = PlanFlights(site, battery, std::move(hovers), threads, progress);
   const std::vector<Intervals> unobservable = NotDippedAt(site, path.hovers);
   if (path.hovers.size() < planned && options.method == "cocapture") Assign(task, path.hovers);
   PlanResult result;
+  result.days = std::move(days);
   result.plan = DescribeSite(task);
   result.plan.flights = path.flights;
+  result.plan.pace = battery.pace;
   AddViews(site, path, result.plan);
   AddFacades(task, unobservable, path.hovers, result.plan);
+  const PhotoGraph photos({site, task.camera, threads}, path.hovers);
+  const MatchStats matches = ExpectMatches(photos, path.hovers, threads, result.plan);
+  result.coverage = CoverageOf(photos, task.camera.camera);
+  result.flights = FactsOf(result.plan, site.terrain);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   result.stats = StatsOf(result.plan, taken.count(), path.tour.gap());
+  AddSafety(task, result);
+  result.stats.matches = matches;
+  const std::string loose = LooseFacades(matches);
+  if (!loose.empty()) result.stats.warnings.push_back(loose);
   return result;
 }
 

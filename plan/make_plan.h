@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "plan/camera/preset.h"
+#include "plan/field/flight_facts.h"
+#include "plan/field/sun_window.h"
+#include "plan/match/photo_coverage.h"
 #include "plan/options/plan_options.h"
 #include "plan/output/stats.h"
 #include "site/site.h"
@@ -18,6 +21,9 @@ namespace stucco::plan {
 struct PlanResult {
   Plan plan;
   PlanStats stats;
+  PhotoCoverage coverage;
+  std::vector<FlightFacts> flights;  // by flight of the plan
+  std::vector<SunDay> days;          // that checklist.html has the hours of sun for
 };
 
 // Plans the views for a site with the method of the options, a path through them and its flights.
@@ -25,8 +31,9 @@ struct PlanResult {
 // where nothing can be planned, kInterrupted).
 PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, Progress& progress);
 
-// Writes plan.json, stats.json, preview.svg, plan.geojson and the mission files into a folder that
-// exists. Returns what the user has to know to fly them, a line each.
+// Writes plan.json, stats.json, preview.svg, coverage.svg, checklist.html, plan.geojson and the
+// mission files into a folder that exists. Returns what the user has to know to fly them, a line
+// each.
 std::vector<std::string> WritePlanFolder(const PlanResult& result, const PlanOptions& options,
                                          const std::filesystem::path& folder);
 

@@ -31,6 +31,7 @@ struct Edge {
 struct Cover {
   Interval along_m;
   Interval z_m;
+  bool by_other_building = false;
 };
 
 // Whether the ring goes straight on at a corner, which then only joins a neighbour to the wall.
@@ -97,12 +98,27 @@ std::vector<Cover> CoversOf(const Edge& edge, const std::vector<int>& near,
     const Edge& other = edges[index];
     if (other.footprint == edge.footprint) continue;
     const Footprint& neighbour = footprints[other.footprint];
+    if (neighbour.is_obstacle) continue;
     if (!Overlap(own.z_m, neighbour.z_m)) continue;
     const Interval along = Shared(edge, other);
     if (!(along.length_m() > 0)) continue;
-    const bool only_its_height =
-        neighbour.building == own.building && own.top_known && neighbour.top_known;
-    covers.push_back({along, only_its_height ? neighbour.z_m : own.z_m});
+    const bool is_other = neighbour.building != own.building;
+    const bool only_its_height = own.top_known && neighbour.top_known;
+    // On a slope the ground under two buildings differs: there is no wall below a neighbour's foot.
+    const Interval to_its_top{own.z_m.from_m, neighbour.z_m.to_m};
+    covers.push_back({along,
+                      !only_its_height ? own.z_m
+                      : is_other       ? to_its_top
+                                       : neighbour.z_m,
+                      is_other});
+  }
+  return covers;
+}
+
+// The same where other buildings hide all of the edge that they touch, whatever their heights.
+std::vector<Cover> WholePartyWalls(std::vector<Cover> covers, const Interval& z) {
+  for (Cover& cover : covers) {
+    if (cover.by_other_building) cover.z_m = z;
   }
   return covers;
 }
@@ -155,6 +171,18 @@ std::vector<Cover> FreePieces(double length, const Interval& z, const std::vecto
   return pieces;
 }
 
+// What stands free above other buildings only.
+std::vector<Cover> PiecesAboveNeighbours(double length, const Interval& z,
+                                         std::vector<Cover> covers) {
+  std::vector<Interval> neighbours;
+  for (const Cover& cover : covers) {
+    if (cover.by_other_building) neighbours.push_back(cover.along_m);
+  }
+  if (neighbours.empty()) return {};
+  for (const Interval& gap : Without({0, length}, neighbours)) covers.push_back({gap, z});
+  return FreePieces(length, z, covers);
+}
+
 // F03, then F03b, F03c ... (F03-27 after the last letter).
 std::string FacadeId(const std::string& building, int wall, int piece) {
   std::string id = fmt::format("{}/F{:02}", building, wall);
@@ -162,6 +190,51 @@ std::string FacadeId(const std::string& building, int wall, int piece) {
   if (piece > 0) id += static_cast<char>('a' + piece);
   return id;
 }
+
+// Facades on the edges [first, last) of one wall.
+class WallFacades {
+ public:
+  WallFacades(const std::vector<Footprint>& footprints, const std::vector<Edge>& edges,
+              std::vector<Facade>& facades)
+      : footprints_(footprints), edges_(edges), facades_(facades) {}
+
+  void Add(size_t first, size_t last, const BoxGrid& grid,
+           const std::vector<Eigen::AlignedBox2d>& boxes) {
+    const Interval& z = footprints_[edges_[first].footprint].z_m;
+    std::vector<std::vector<Cover>> above(last - first);
+    pieces_ = 0;
+    for (size_t i = first; i < last; ++i) {
+      const double length = (edges_[i].b - edges_[i].a).norm();
+      const auto covers = CoversOf(edges_[i], grid.Touching(boxes[i]), edges_, footprints_);
+      AddPieces(edges_[i], FreePieces(length, z, WholePartyWalls(covers, z)));
+      above[i - first] = PiecesAboveNeighbours(length, z, covers);
+    }
+    for (size_t i = first; i < last; ++i) AddPieces(edges_[i], above[i - first]);
+  }
+
+ private:
+  void AddPieces(const Edge& edge, const std::vector<Cover>& pieces) {
+    const Footprint& footprint = footprints_[edge.footprint];
+    const double length = (edge.b - edge.a).norm();
+    const auto at = [&](double along) -> Eigen::Vector2d {
+      if (along == length) return edge.b;
+      return edge.a + along / length * (edge.b - edge.a);
+    };
+    for (const Cover& piece : pieces) {
+      facades_.push_back({.id = FacadeId(footprint.building, edge.wall, pieces_++),
+                          .footprint = edge.footprint,
+                          .a = at(piece.along_m.from_m),
+                          .b = at(piece.along_m.to_m),
+                          .z_m = piece.z_m,
+                          .top_known = footprint.top_known});
+    }
+  }
+
+  const std::vector<Footprint>& footprints_;
+  const std::vector<Edge>& edges_;
+  std::vector<Facade>& facades_;
+  int pieces_ = 0;  // of the wall so far
+};
 
 }  // namespace
 
@@ -183,28 +256,14 @@ std::vector<Facade> MakeFacades(const std::vector<Footprint>& footprints) {
   }
   const BoxGrid grid(boxes, kCell_m);
   std::vector<Facade> facades;
-  int pieces_of_wall = 0;
-  for (size_t i = 0; i < edges.size(); ++i) {
-    const Edge& edge = edges[i];
-    const Footprint& footprint = footprints[edge.footprint];
-    const bool same_wall =
-        i > 0 && edges[i - 1].footprint == edge.footprint && edges[i - 1].wall == edge.wall;
-    if (!same_wall) pieces_of_wall = 0;
-    if (!footprint.in_area) continue;
-    const double length = (edge.b - edge.a).norm();
-    const auto covers = CoversOf(edge, grid.Touching(boxes[i]), edges, footprints);
-    const auto at = [&](double along) -> Eigen::Vector2d {
-      if (along == length) return edge.b;
-      return edge.a + along / length * (edge.b - edge.a);
-    };
-    for (const Cover& piece : FreePieces(length, footprint.z_m, covers)) {
-      facades.push_back({.id = FacadeId(footprint.building, edge.wall, pieces_of_wall++),
-                         .footprint = edge.footprint,
-                         .a = at(piece.along_m.from_m),
-                         .b = at(piece.along_m.to_m),
-                         .z_m = piece.z_m,
-                         .top_known = footprint.top_known});
+  WallFacades walls(footprints, edges, facades);
+  for (size_t first = 0, last = 0; first < edges.size(); first = last) {
+    for (last = first; last < edges.size() && edges[last].footprint == edges[first].footprint &&
+                       edges[last].wall == edges[first].wall;) {
+      ++last;
     }
+    const Footprint& footprint = footprints[edges[first].footprint];
+    if (footprint.in_area) walls.Add(first, last, grid, boxes);
   }
   return facades;
 }

@@ -16,14 +16,15 @@ inline constexpr double kSnap_m = 0.05;
 Ring FromSouthWest(Ring ring);
 
 // The walls of the footprints that stand free, from 10 cm length and half a metre height on. Where
-// two buildings share an edge or a part of it, that part is a party wall and no facade, whatever
-// their heights. Where two parts of one building touch, the higher one's wall above the other is a
-// facade, from a metre on. Footprints that are obstacles only (`in_area` false) get none.
+// two buildings or parts of one share an edge or a piece of it, that is a party wall and no facade
+// up to the lower top; the higher one's wall above it is a facade, from a metre on, where both tops
+// are known. Footprints beside the area (`in_area` false) get none; obstacles make no party walls.
 //
 // Ids count the walls of a building from corner to corner, party walls included, over its
 // footprints and rings, so that a neighbour that is built or torn down renumbers nothing:
 // B0012/F03. Of a wall that falls into several facades, as where a neighbour begins, the later ones
-// get a letter: B0012/F03b.
+// get a letter: B0012/F03b. Those above the roofs of other buildings come last, whatever their
+// place along the wall, so that the height of a neighbour renumbers nothing either.
 std::vector<Facade> MakeFacades(const std::vector<Footprint>& footprints);
 
 }  // namespace stucco

@@ -129,6 +129,20 @@ Interval GroundUnder(const Polygon& polygon, const TerrainGrid& terrain) {
   return ground;
 }
 
+namespace {
+
+// Heights above `ground` as z. `highest_top` bounds a top that is not known.
+Interval OnGround(const Footprint& footprint, const Interval& ground, double highest_top) {
+  const Interval& above = footprint.z_m;
+  const double foot = above.from_m + ground.from_m;
+  if (footprint.top_known) return {foot, above.to_m + ground.from_m};
+  const bool is_expected = above.to_m > above.from_m;
+  const double top = is_expected ? std::min(above.to_m + ground.to_m, highest_top) : highest_top;
+  return {foot, std::max(foot, top)};
+}
+
+}  // namespace
+
 void PlaceOnGround(Site& site) {
   struct Building {
     Interval ground{std::numeric_limits<double>::infinity(),
@@ -146,11 +160,13 @@ void PlaceOnGround(Site& site) {
   for (Footprint& footprint : site.footprints) {
     const Building& building = buildings.at(footprint.building);
     const double highest_blocked = building.ground.to_m + site.safe_altitude_m;
-    footprint.z_m.from_m += building.ground.from_m;
-    footprint.z_m.to_m = footprint.top_known ? footprint.z_m.to_m + building.ground.from_m
-                                             : highest_blocked - site.d_min_m;
+    footprint.z_m = OnGround(footprint, building.ground, highest_blocked - site.d_min_m);
     footprint.blocked_to_m =
         building.tops_known ? footprint.z_m.to_m + site.d_min_m : highest_blocked;
+    const bool unknown = footprint.overgrown_to_m == std::numeric_limits<double>::infinity();
+    footprint.blocked_to_m =
+        std::max(footprint.blocked_to_m,
+                 unknown ? highest_blocked : footprint.overgrown_to_m + site.d_min_m);
   }
   site.ceiling = site.terrain.IsFlat() ? TerrainGrid{} : CeilingOf(site);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,16 +13,21 @@
 
 namespace stucco {
 
-// A building, or a part of one with a height of its own.
+// A building, or a part of one with a height of its own, or an obstacle such as a tree.
 struct Footprint {
-  std::string building;  // B0012
+  std::string building;  // B0012; O0003 of an obstacle
   Polygon outline;
   Interval z_m;  // underside (ground, or above it for a part that stands on another) and top
-  bool top_known = false;  // false: the top is the highest that the safe altitude allows
+  // False: no flight relies on the top. It is where the walls are expected to end, by the storeys
+  // that the map counts, else the highest that the safe altitude allows.
+  bool top_known = false;
   // Nothing flies within d_min of the outline below this z: the ceiling, or d_min above the top for
-  // the parts of a building whose heights are all known.
+  // the parts of a building whose heights are all known; more where an obstacle reaches over it.
   double blocked_to_m = 0;
-  bool in_area = true;  // false: an obstacle only, its walls are not captured
+  bool in_area = true;       // false: in the way only, its walls are not captured
+  bool is_obstacle = false;  // no building: hides walls, has none, joins none
+  // z that obstacles reach to over the outline, such as a mast on the roof; infinite: not known.
+  double overgrown_to_m = -std::numeric_limits<double>::infinity();
 };
 
 // A wall to capture: an edge of a footprint that stands free over `z_m`.
@@ -57,13 +63,16 @@ struct Site {
   std::vector<Polygon> no_fly;        // disjoint
   Polygon area;                       // grids of views stay inside it
   Eigen::Vector3d home = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> take_off;  // other places where a flight may start; may be empty
   TerrainGrid terrain;
   GroundRule ground = GroundRule::kTerrain;
   double d_min_m = 10;               // the dilation of footprints
   double safe_altitude_m = 0;        // H: above the ground, d_min above the highest top
   double min_altitude_m = 5;         // above the ground
   std::vector<std::string> repairs;  // what was wrong with the map and was mended, a line each
-  TerrainGrid ceiling;               // of CeilingAt; no samples: the safe altitude everywhere
+  // What the map leaves open that safety rests on, a line each.
+  std::vector<std::string> warnings = {};
+  TerrainGrid ceiling;  // of CeilingAt; no samples: the safe altitude everywhere
 
   // z from which on nothing of the site is within d_min: H above the highest ground nearby (30 m),
   // and not below the `blocked_to_m` of any footprint within d_min. A constant where the terrain is

@@ -76,7 +76,8 @@ Site SiteOfPlan(const Plan& plan) {
                                .outline = {planned.rings_m},
                                .z_m = planned.z_m,
                                .blocked_to_m = planned.blocked_to_m,
-                               .in_area = false});
+                               .in_area = false,
+                               .is_obstacle = planned.is_obstacle});
   }
   AddFacades(plan, footprints, site);
   return site;

@@ -152,7 +152,7 @@ void SampleGround(const Site& site, const SampleOptions& options, std::vector<Su
   std::vector<GridCell> near, built;
   for (const Footprint& footprint : site.footprints) {
     const std::vector<GridCell> inside = CellsInside(footprint.outline, size);
-    if (footprint.in_area) {
+    if (footprint.in_area || !options.area_only) {
       Append(near, CellsNear(footprint.outline, size, options.ground_reach_m));
       Append(near, inside);
     }
@@ -164,7 +164,7 @@ void SampleGround(const Site& site, const SampleOptions& options, std::vector<Su
   near.erase(std::unique(near.begin(), near.end()), near.end());
   for (const GridCell& cell : Without(near, std::move(built))) {
     const Eigen::Vector2d at = CenterOf(cell, size);
-    if (!Contains(site.area, at)) continue;
+    if (options.area_only && !Contains(site.area, at)) continue;
     AddLevel(at, site.terrain.HeightAt(at), SurfaceKind::kGround, options, out);
   }
 }
@@ -173,7 +173,9 @@ void SampleRoofsAndTerrain(const Site& site, const SampleOptions& options,
                            std::vector<SurfaceSample>& out) {
   const Stacks stacks = StacksOf(site);
   for (size_t i = 0; i < site.footprints.size(); ++i) {
-    if (site.footprints[i].in_area) SampleRoof(site, stacks, i, options, out);
+    if (site.footprints[i].in_area || !options.area_only) {
+      SampleRoof(site, stacks, i, options, out);
+    }
   }
   SampleGround(site, options, out);
 }

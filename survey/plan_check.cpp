@@ -64,6 +64,30 @@ void CheckFrame(const Checker& check) {
   check.Require(check.plan.home_m.allFinite(), "\"home_m\"", "must be finite");
 }
 
+void CheckPace(const Checker& check) {
+  const PlannedPace& pace = check.plan.pace;
+  for (const auto& [name, rate] : std::initializer_list<std::pair<const char*, double>>{
+           {"speed_m_per_s", pace.speed_m_per_s},
+           {"transfer_speed_m_per_s", pace.transfer_speed_m_per_s},
+           {"climb_m_per_s", pace.climb_m_per_s},
+           {"sink_m_per_s", pace.sink_m_per_s},
+           {"yaw_deg_per_s", pace.yaw_deg_per_s},
+           {"tilt_deg_per_s", pace.tilt_deg_per_s}}) {
+    check.Require(rate > 0 && std::isfinite(rate), fmt::format("\"pace.{}\"", name),
+                  "must be more than 0");
+  }
+  for (const auto& [name, value] :
+       std::initializer_list<std::pair<const char*, double>>{{"hold_s", pace.hold_s},
+                                                             {"shutter_s", pace.shutter_s},
+                                                             {"ground_s", pace.ground_s},
+                                                             {"corner_s", pace.corner_s},
+                                                             {"stop_s", pace.stop_s},
+                                                             {"wind_m_per_s", pace.wind_m_per_s}}) {
+    check.Require(value >= 0 && std::isfinite(value), fmt::format("\"pace.{}\"", name),
+                  "must not be negative");
+  }
+}
+
 void CheckRing(const Checker& check, const std::vector<Eigen::Vector2d>& ring,
                const std::string& entry) {
   check.Require(ring.size() >= 3, entry, "has a ring with fewer than 3 corners");
@@ -145,6 +169,12 @@ void CheckViews(const Checker& check, const Index& facades) {
                               hover->second->id));
     for (const PlannedTarget& target : view.targets) CheckTarget(check, entry, target, facades);
   }
+  for (const PlannedView& view : check.plan.views) {
+    for (const PlannedPartner& partner : view.partners) {
+      check.Require(ids.contains(partner.view), "view " + view.id,
+                    fmt::format("names partner \"{}\", which does not exist", partner.view));
+    }
+  }
 }
 
 // Facades name their views and views their facades: the two must say the same.
@@ -182,7 +212,10 @@ void CheckFlights(const Checker& check) {
   std::set<int> reached;
   for (int i = 0; i < flights; ++i) {
     const std::string entry = fmt::format("flight {}", i);
-    for (const PlannedWaypoint& waypoint : check.plan.flights[i].waypoints) {
+    const PlannedFlight& flight = check.plan.flights[i];
+    check.Require(!flight.home_m || flight.home_m->allFinite(), entry,
+                  "has a \"home_m\" that is not finite");
+    for (const PlannedWaypoint& waypoint : flight.waypoints) {
       check.Require(waypoint.position_m.allFinite(), entry, "has a waypoint that is not finite");
       if (waypoint.hover < 0) continue;
       const auto found = flight_of_hover.find(waypoint.hover);
@@ -231,6 +264,7 @@ void ResolveWholeFacades(Plan& plan) {
 void CheckPlan(const Plan& plan, const std::string& file) {
   const Checker check{plan, file};
   CheckFrame(check);
+  CheckPace(check);
   CheckOutlines(check);
   CheckViews(check, CheckFacades(check));
   CheckFlights(check);

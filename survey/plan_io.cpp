@@ -63,6 +63,7 @@ void Round(PlannedView& view) {
     target.along_m = Metres(target.along_m);
     target.z_m = Metres(target.z_m);
   }
+  for (PlannedPartner& partner : view.partners) partner.strength = Share(partner.strength);
 }
 
 void Round(PlannedFlight& flight) {
@@ -70,8 +71,13 @@ void Round(PlannedFlight& flight) {
     waypoint.position_m = Metres(waypoint.position_m);
   }
   flight.length_m = Metres(flight.length_m);
-  flight.time_min = RoundTo(flight.time_min, 1e3);
-  flight.battery_percent = RoundTo(flight.battery_percent, 1e3);
+  PlannedTime& parts = flight.parts;
+  for (double* value :
+       {&flight.time_min, &flight.battery_percent, &flight.reserve_percent, &parts.transfer_min,
+        &parts.legs_min, &parts.stops_min, &parts.photos_min}) {
+    *value = RoundTo(*value, 1e3);
+  }
+  if (flight.home_m) flight.home_m = Metres(*flight.home_m);
 }
 
 Plan Rounded(Plan plan) {
@@ -144,6 +150,12 @@ static void Fields(Archive& archive, T& target) {
   IntervalField(archive, "z_m", target.z_m);
 }
 
+template <typename Archive, internal::Is<PlannedPartner> T>
+static void Fields(Archive& archive, T& partner) {
+  archive.Required("view", partner.view);
+  archive.Required("strength", partner.strength);
+}
+
 template <typename Archive, internal::Is<PlannedView> T>
 static void Fields(Archive& archive, T& view) {
   archive.Required("id", view.id);
@@ -163,6 +175,7 @@ static void Fields(Archive& archive, T& view) {
   std::vector<std::string> facades = internal::FacadesOf(view);
   archive.Required("facades", facades);
   archive.Optional("targets", view.targets);
+  archive.Optional("partners", view.partners);
   if constexpr (Archive::kReads) {
     for (const std::string& facade : facades) {
       const auto known = internal::FacadesOf(view);
@@ -198,6 +211,9 @@ static void Fields(Archive& archive, T& footprint) {
   archive.Required("building", footprint.building);
   IntervalField(archive, "z_m", footprint.z_m);
   archive.Optional("blocked_to_m", footprint.blocked_to_m);
+  if (Archive::kReads || footprint.is_obstacle) {
+    archive.Optional("obstacle", footprint.is_obstacle);
+  }
   archive.Required("rings_m", footprint.rings_m);
 }
 
@@ -207,11 +223,38 @@ static void Fields(Archive& archive, T& waypoint) {
   archive.Optional("hover", waypoint.hover);
 }
 
+template <typename Archive, internal::Is<PlannedTime> T>
+static void Fields(Archive& archive, T& parts) {
+  archive.Optional("transfer_min", parts.transfer_min);
+  archive.Optional("legs_min", parts.legs_min);
+  archive.Optional("stops_min", parts.stops_min);
+  archive.Optional("photos_min", parts.photos_min);
+}
+
+template <typename Archive, internal::Is<PlannedPace> T>
+static void Fields(Archive& archive, T& pace) {
+  archive.Optional("speed_m_per_s", pace.speed_m_per_s);
+  archive.Optional("transfer_speed_m_per_s", pace.transfer_speed_m_per_s);
+  archive.Optional("hold_s", pace.hold_s);
+  archive.Optional("climb_m_per_s", pace.climb_m_per_s);
+  archive.Optional("sink_m_per_s", pace.sink_m_per_s);
+  archive.Optional("yaw_deg_per_s", pace.yaw_deg_per_s);
+  archive.Optional("tilt_deg_per_s", pace.tilt_deg_per_s);
+  archive.Optional("shutter_s", pace.shutter_s);
+  archive.Optional("ground_s", pace.ground_s);
+  archive.Optional("corner_s", pace.corner_s);
+  archive.Optional("stop_s", pace.stop_s);
+  archive.Optional("wind_m_per_s", pace.wind_m_per_s);
+}
+
 template <typename Archive, internal::Is<PlannedFlight> T>
 static void Fields(Archive& archive, T& flight) {
   archive.Optional("length_m", flight.length_m);
   archive.Optional("time_min", flight.time_min);
   archive.Optional("battery_percent", flight.battery_percent);
+  archive.Optional("reserve_percent", flight.reserve_percent);
+  archive.Optional("parts", flight.parts);
+  archive.Optional("home_m", flight.home_m);
   archive.Required("waypoints", flight.waypoints);
 }
 
@@ -248,6 +291,7 @@ static void Fields(Archive& archive, T& plan) {
   archive.Optional("no_fly_m", plan.no_fly_m);
   archive.Required("facades", plan.facades);
   archive.Required("views", plan.views);
+  archive.Optional("pace", plan.pace);
   archive.Optional("flights", plan.flights);
 }
 

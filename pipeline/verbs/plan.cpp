@@ -49,6 +49,7 @@ plan::SiteInputs InputsOf(const PlanRequest& request) {
   inputs.map = request.map;
   if (!request.area.empty()) inputs.area_of_interest = request.area;
   if (!request.no_fly.empty()) inputs.no_fly = request.no_fly;
+  if (!request.obstacles.empty()) inputs.obstacles = request.obstacles;
   if (!request.terrain.empty()) inputs.dem = request.terrain;
   if (!request.home.empty()) inputs.home = request.home;
   return inputs;
@@ -65,6 +66,7 @@ PlanSummary Summarise(const plan::PlanResult& result, const Site& site) {
   summary.battery_percent = result.stats.battery_percent;
   summary.table = plan::StatsTable(result.stats);
   summary.repairs = site.repairs;
+  summary.warnings = result.stats.warnings;
   return summary;
 }
 

@@ -18,6 +18,7 @@ struct PlanRequest {
   std::filesystem::path map;
   std::filesystem::path area;    // polygons: what to capture
   std::filesystem::path no_fly;  // polygons
+  std::filesystem::path obstacles;
   std::filesystem::path terrain;
   std::string home;              // "latitude,longitude"
   std::vector<std::string> set;  // options of planning, "gsd_m=0.02"
@@ -32,9 +33,10 @@ struct PlanSummary {
   double length_m = 0;
   double time_min = 0;
   double battery_percent = 0;
-  std::string table;                 // all figures, for people
-  std::vector<std::string> repairs;  // of the map
-  std::vector<std::string> notes;    // what to know before flying
+  std::string table;                  // all figures, for people
+  std::vector<std::string> repairs;   // of the map
+  std::vector<std::string> warnings;  // what makes the flight less safe
+  std::vector<std::string> notes;     // what to know before flying
 };
 
 // Plans a survey and puts the result into SURVEY/plan. A folder that is no survey yet becomes one

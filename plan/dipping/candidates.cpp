@@ -23,7 +23,6 @@ constexpr double kGridM = 6;  // of regular points
 constexpr double kRayStep = 1.5 * M_PI / 180;
 constexpr double kWallStepM = 1;        // between the rays' starting points on unseen walls
 constexpr double kClearOfLineM = 0.05;  // how far beyond the border of the zone a point is put
-constexpr double kUsedWidth = 0.95;     // of a photo, so that neighbours meet on the wall
 constexpr size_t kBlock = 64;           // points looked at as one piece of work
 
 // Points of a lattice inside the convex hull of nothing but the area's bounding box; those outside
@@ -58,7 +57,7 @@ std::vector<Vector2d> FrontalPoints(const Facade& facade, const DippingSetting& 
   for (const double distance :
        {setting.d_min_m + kClearOfLineM, 2 * setting.d_min_m, 4 * setting.d_min_m}) {
     if (distance > setting.d_max_m) break;
-    const double photos = facade.length_m() / (kUsedWidth * setting.width_per_m * distance);
+    const double photos = facade.length_m() / ((1 - kOverlap) * setting.width_per_m * distance);
     const int few = std::max(1, static_cast<int>(std::ceil(photos)));
     AddRow(facade, distance, few, points);
     AddRow(facade, distance, 2 * few, points);

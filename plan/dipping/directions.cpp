@@ -34,8 +34,7 @@ std::vector<std::vector<Observer>> ObserversByFacade(size_t facades,
 WallView ViewWith(const DippingSetting& setting, const Candidate& candidate, const SeenFacade& seen,
                   double turn) {
   const Facade& facade = setting.site.facades[seen.facade];
-  const Interval window = FieldWindow(facade, candidate.position, turn, setting.hfov_rad);
-  return {seen.facade, turn, false, InField(seen.seen, window)};
+  return {seen.facade, turn, false, InPhoto(setting, facade, candidate.position, turn, seen.seen)};
 }
 
 double BestTurn(const DippingSetting& setting, std::span<const Candidate> candidates,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plan/dipping/merge_shots.h"
+
 namespace stucco::plan {
 namespace {
 
@@ -73,9 +75,10 @@ Shot LevelShot(const WallView& view, const Facade& facade, Interval z) {
 
 }  // namespace
 
-Dip MakeDip(const Level& level, const DippingSetting& setting, const Facade& facade,
-            const Eigen::Vector2d& p) {
-  const double distance = DistanceTo(facade, p);
+Dip MakeDip(const Level& level, const DippingSetting& setting, const Eigen::Vector2d& p,
+            const WallView& view) {
+  const Facade& facade = setting.site.facades[view.facade];
+  const double distance = LeastDepth(facade, p, view);
   Dip dip;
   dip.height_m = setting.height_per_m * distance;
   const double spare = (1 - setting.vertical_step) / 2 * dip.height_m;
@@ -117,7 +120,7 @@ std::vector<Hover> Lift(const Level& level, const DippingSetting& setting,
                         const DippingPoint& point) {
   std::vector<Dip> dips;
   for (const WallView& view : point.views) {
-    dips.push_back(MakeDip(level, setting, setting.site.facades[view.facade], point.position));
+    dips.push_back(MakeDip(level, setting, point.position, view));
   }
   const auto take = [](Shot shot, Hover& hover) {
     if (!shot.targets.empty()) hover.shots.push_back(std::move(shot));
@@ -139,6 +142,8 @@ std::vector<Hover> Lift(const Level& level, const DippingSetting& setting,
         take(std::move(foot), hover);
       }
     }
+    hover.shots = MergeAlike(setting, hover);
+    for (Shot& shot : hover.shots) shot = Aimed(setting, hover, shot);
     if (!hover.shots.empty()) hovers.push_back(std::move(hover));
   }
   return hovers;

@@ -23,9 +23,11 @@ struct Dip {
 // the wall's top to its foot as far as the lowest altitude allows. The paper starts at the safe
 // altitude H for want of a better bound; here the first photo holds the top of the wall, or the
 // highest that the wall can have (d_min below H), with half the overlap to spare, and the steps are
-// equal. A foot that the last one does not show gets a photo tilted down at the same place.
-Dip MakeDip(const Level& level, const DippingSetting& setting, const Facade& facade,
-            const Eigen::Vector2d& p);
+// equal. A turned photo shows more of a wall than one straight at it from as near: what counts is
+// the distance along its axis (the paper, whose views are nearly frontal, takes that from the
+// wall's line). A foot that the last one does not show gets a photo tilted down at the same place.
+Dip MakeDip(const Level& level, const DippingSetting& setting, const Eigen::Vector2d& p,
+            const WallView& view);
 
 // Paper, section 4.3: the number of hovers of the sequences that start from one point, less what
 // merging photos at nearly the same height saves: delta(d) for both orders of a pair. The paper
@@ -34,7 +36,8 @@ Dip MakeDip(const Level& level, const DippingSetting& setting, const Facade& fac
 double HoveringCost(std::span<const Dip> dips, double vertical_step);
 
 // The hovers of a point: photos of different sequences that are nearer to each other than their
-// overlap are taken from their middle.
+// overlap are taken from their middle. Of photos that look nearly the same way from one stop, as at
+// walls in one line, one is taken where it holds what all are meant for.
 std::vector<Hover> Lift(const Level& level, const DippingSetting& setting,
                         const DippingPoint& point);
 

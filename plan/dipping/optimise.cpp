@@ -137,7 +137,7 @@ class Optimiser {
   double CostOf(const DippingPoint& point) const {
     std::vector<Dip> dips;
     for (const WallView& view : point.views) {
-      dips.push_back(MakeDip(level_, setting_, FacadeOf(view), point.position));
+      dips.push_back(MakeDip(level_, setting_, point.position, view));
     }
     return HoveringCost(dips, setting_.vertical_step);
   }
@@ -155,8 +155,7 @@ class Optimiser {
     for (WallView& view : moved.point.views) {
       const SeenFacade* seen = Find(moved.visible, view.facade);
       if (seen == nullptr) return std::nullopt;
-      view.seen = InField(seen->seen,
-                          FieldWindow(FacadeOf(view), position, view.turn_rad, setting_.hfov_rad));
+      view.seen = InPhoto(setting_, FacadeOf(view), position, view.turn_rad, seen->seen);
       if (view.seen.empty()) return std::nullopt;
     }
     return moved;
@@ -274,8 +273,7 @@ class Optimiser {
         const SeenFacade* seen = Find(states_[user.point].visible, facade);
         if (seen == nullptr) return std::nullopt;
         view.turn_rad = turn;
-        view.seen =
-            InField(seen->seen, FieldWindow(FacadeOf(view), position, turn, setting_.hfov_rad));
+        view.seen = InPhoto(setting_, FacadeOf(view), position, turn, seen->seen);
         if (view.seen.empty()) return std::nullopt;
       }
       views.push_back(std::move(view));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "site/incidence.h"
 
@@ -17,6 +18,11 @@ constexpr double kLeastPieceM = 0.05;
 // Along the facade's line from a, in metres.
 double FootOf(const Facade& facade, const Vector2d& p) {
   return (p - facade.a).dot(facade.along());
+}
+
+// To whole centimetres, inwards.
+Interval Rounded(const Interval& window) {
+  return {std::ceil(window.from_m * 100) / 100, std::floor(window.to_m * 100) / 100};
 }
 
 }  // namespace
@@ -46,11 +52,28 @@ double TurnTowards(const Facade& facade, const Vector2d& p, double along_m) {
   return std::atan2(along_m - FootOf(facade, p), DistanceTo(facade, p));
 }
 
-Intervals InField(std::span<const Interval> visible, const Interval& window) {
-  const Interval rounded{std::ceil(window.from_m * 100) / 100, std::floor(window.to_m * 100) / 100};
+double LeastDepth(const Facade& facade, const Vector2d& p, const WallView& view) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Interval& part : view.seen) {
+    for (const double along : {part.from_m, part.to_m}) {
+      const Vector2d ray = facade.a + along * facade.along() - p;
+      least = std::min(least, ray.dot(Direction(facade, view.turn_rad)));
+    }
+  }
+  return std::isfinite(least) ? least : DistanceTo(facade, p);
+}
+
+Intervals InPhoto(const DippingSetting& setting, const Facade& facade, const Vector2d& p,
+                  double turn_rad, std::span<const Interval> visible) {
+  const double used_rad = 2 * std::atan((1 - kOverlap) * std::tan(setting.hfov_rad / 2));
+  const Interval whole = Rounded(FieldWindow(facade, p, turn_rad, setting.hfov_rad));
+  const Interval used = FieldWindow(facade, p, turn_rad, used_rad);
   Intervals result;
-  for (const Interval& part : Intersection(visible, rounded)) {
-    if (part.length_m() >= kLeastPieceM) result.push_back(part);
+  for (const Interval& part : visible) {
+    Interval seen{std::max(part.from_m, whole.from_m), std::min(part.to_m, whole.to_m)};
+    if (part.from_m < whole.from_m) seen.from_m = Rounded(used).from_m;
+    if (part.to_m > whole.to_m) seen.to_m = Rounded(used).to_m;
+    if (seen.length_m() >= kLeastPieceM) result.push_back(seen);
   }
   return result;
 }

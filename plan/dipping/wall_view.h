@@ -13,6 +13,9 @@
 
 namespace stucco::plan {
 
+// Of the width of a photo, what neighbours on a wall share at least (docs/planning.md).
+inline constexpr double kOverlap = 0.22;
+
 // A level view at one facade, on the map. Its direction is the facade's inverse normal turned by
 // `turn_rad` towards b.
 struct WallView {
@@ -39,11 +42,16 @@ Interval FrontalWindow(const Facade& facade, const Eigen::Vector2d& p);
 // in WallView.
 Interval FieldWindow(const Facade& facade, const Eigen::Vector2d& p, double turn_rad,
                      double hfov_rad);
+// How far the nearest of what a view shows lies along its axis, in metres: the picture is the
+// smallest there.
+double LeastDepth(const Facade& facade, const Eigen::Vector2d& p, const WallView& view);
 // The turn that aims from p at a point of the facade, `along_m` from a.
 double TurnTowards(const Facade& facade, const Eigen::Vector2d& p, double along_m);
 
-// `visible` as SeenFrom gives it, cut to the field of view, rounded as there.
-Intervals InField(std::span<const Interval> visible, const Interval& window);
+// What a photo from p captures of `visible` (as SeenFrom gives it, and rounded as there). Where the
+// photo ends before the visible part does, half of kOverlap of its width is left to the neighbour.
+Intervals InPhoto(const DippingSetting& setting, const Facade& facade, const Eigen::Vector2d& p,
+                  double turn_rad, std::span<const Interval> visible);
 
 SeenPart PartOf(const Facade& facade, const Eigen::Vector2d& p, const WallView& view);
 // Eq. 2 for a view from p.

@@ -32,10 +32,16 @@ std::vector<Footprint> FootprintsOf(const MapFeature& feature, RepairLog& repair
   for (Polygon& outline : internal::CleanOutlines(feature, repairs)) {
     footprints.push_back({.building = feature.building,
                           .outline = std::move(outline),
-                          .z_m = {feature.min_height_m, feature.height_m.value_or(0)},
+                          .z_m = {feature.min_height_m,
+                                  feature.height_m.value_or(feature.guessed_height_m.value_or(0))},
                           .top_known = feature.height_m.has_value()});
   }
   return footprints;
+}
+
+// A top that is known or guessed: what stands on what does not depend on the metre.
+bool HasTop(const Footprint& footprint) {
+  return footprint.top_known || footprint.z_m.to_m > footprint.z_m.from_m;
 }
 
 BoxGrid GridOf(const std::vector<Footprint>& footprints) {
@@ -159,12 +165,12 @@ class OverlapCutter {
 
   // Parts of one building at different heights may share ground.
   static bool StandsAbove(const Footprint& a, const Footprint& b) {
-    return a.building == b.building && ((a.top_known && a.z_m.to_m <= b.z_m.from_m) ||
-                                        (b.top_known && b.z_m.to_m <= a.z_m.from_m));
+    return a.building == b.building &&
+           ((HasTop(a) && a.z_m.to_m <= b.z_m.from_m) || (HasTop(b) && b.z_m.to_m <= a.z_m.from_m));
   }
 
   static bool IsHigher(const Footprint& a, const Footprint& b) {
-    return a.top_known && b.top_known && a.z_m.to_m > b.z_m.to_m;
+    return HasTop(a) && HasTop(b) && a.z_m.to_m > b.z_m.to_m;
   }
 
   void Separate(int first, int second) {
@@ -195,7 +201,7 @@ class OverlapCutter {
   void SeparateParts(int higher, int lower) {
     const Footprint& high = footprints_[higher];
     const Footprint& low = footprints_[lower];
-    if (high.top_known && low.top_known && high.z_m.from_m > low.z_m.from_m) {
+    if (HasTop(high) && HasTop(low) && high.z_m.from_m > low.z_m.from_m) {
       lifts_.emplace(higher, lower);
     } else {
       cuts_[lower].push_back(higher);
@@ -205,6 +211,8 @@ class OverlapCutter {
   void PutInside(int smaller, int larger) {
     if (!IsHigher(footprints_[smaller], footprints_[larger])) {
       Drop(smaller, larger, "lies inside {}; left out");
+      // It may rise above the other: nobody knows.
+      if (!footprints_[smaller].top_known) footprints_[larger].top_known = false;
       return;
     }
     Note(smaller, larger, "stands inside {} and rises above it; made a part of it");
@@ -224,6 +232,8 @@ class OverlapCutter {
     } else if (from.top_known && Area(from.outline) > kSame * Area(into.outline)) {
       into.top_known = true;
       into.z_m.to_m = from.z_m.to_m;
+    } else if (!into.top_known) {
+      into.z_m.to_m = std::max(into.z_m.to_m, from.z_m.to_m);
     }
     explained_.insert(from.building);
     into.z_m.from_m = std::min(into.z_m.from_m, from.z_m.from_m);

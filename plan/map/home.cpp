@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <regex>
@@ -40,6 +41,14 @@ class Hazards {
     return "";
   }
 
+  bool IsInCourtyard(const Eigen::Vector2d& position) const {
+    for (const int index : grid_.Touching({position, position})) {
+      const Polygon block{{site_.footprints[index].outline.rings.front()}};
+      if (Distance(block, position) <= 0) return true;
+    }
+    return false;
+  }
+
  private:
   static std::vector<Eigen::AlignedBox2d> Boxes(const Site& site) {
     std::vector<Eigen::AlignedBox2d> boxes;
@@ -68,6 +77,43 @@ Eigen::Vector3d OnGround(const Site& site, const Eigen::Vector2d& position) {
 }
 
 }  // namespace
+
+// Safe places in a grid over what is captured and a little beyond.
+static std::vector<Eigen::Vector2d> SafeGrid(const Site& site) {
+  constexpr double kMostPlaces = 2500;
+  constexpr double kFinest_m = 10;
+  constexpr double kBeyond_m = 5;
+  const Hazards hazards(site);
+  Eigen::AlignedBox2d bounds = Captured(site);
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(site.d_min_m + kBeyond_m);
+  bounds = {bounds.min() - margin, bounds.max() + margin};
+  const double step = std::max(kFinest_m, std::sqrt(bounds.volume() / kMostPlaces));
+  std::vector<Eigen::Vector2d> places;
+  for (double y = bounds.min().y(); y <= bounds.max().y(); y += step) {
+    for (double x = bounds.min().x(); x <= bounds.max().x(); x += step) {
+      const Eigen::Vector2d place(x, y);
+      if (hazards.At(place).empty() && !hazards.IsInCourtyard(place)) places.push_back(place);
+    }
+  }
+  return places;
+}
+
+std::vector<Eigen::Vector3d> TakeOffPlaces(const Site& site, size_t most) {
+  constexpr double kApart_m = 40;  // nearer ones save less than it takes to carry the things there
+  const std::vector<Eigen::Vector2d> places = SafeGrid(site);
+  std::vector<double> away;
+  for (const auto& place : places) away.push_back((place - site.home.head<2>()).norm());
+  std::vector<Eigen::Vector3d> chosen;
+  while (chosen.size() < most && !places.empty()) {
+    const auto farthest = std::ranges::max_element(away) - away.begin();
+    if (away[farthest] < kApart_m) break;
+    chosen.push_back(OnGround(site, places[farthest]));
+    for (size_t i = 0; i < places.size(); ++i) {
+      away[i] = std::min(away[i], (places[i] - places[farthest]).norm());
+    }
+  }
+  return chosen;
+}
 
 Geodetic ParseHome(const std::string& text) {
   static const std::regex form(R"(\s*(-?\d+(?:\.\d+)?)\s*[,; ]\s*(-?\d+(?:\.\d+)?)\s*)");

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "site/site.h"
 #include "survey/plan_frame.h"
@@ -17,6 +18,10 @@ Geodetic ParseHome(const std::string& text);
 // middle of the buildings. Safe: outside every no-fly zone and farther than d_min from every
 // building. Throws Error where the site has no such place.
 Eigen::Vector3d DefaultHome(const Site& site);
+
+// At most `most` other safe places spread over the site, each as far as possible from those before
+// it and from `site.home`, for flights that begin near their photos. Not in courtyards.
+std::vector<Eigen::Vector3d> TakeOffPlaces(const Site& site, size_t most);
 
 // The given place on the ground. Throws Error (kUsage) where it is not safe, or not near the site.
 Eigen::Vector3d CheckedHome(const Site& site, const Eigen::Vector2d& position);

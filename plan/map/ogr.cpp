@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "survey/error.h"
 #include "survey/geometry2d.h"
@@ -32,6 +34,18 @@ void AddPolygons(const OGRGeometry& geometry, std::vector<Polygon>& polygons) {
     for (const OGRGeometry* member : *collection) AddPolygons(*member, polygons);
   } else if (const auto* surface = dynamic_cast<const OGRPolyhedralSurface*>(&geometry)) {
     for (const OGRPolygon* face : *surface) AddPolygons(*face, polygons);
+  }
+}
+
+void AddLines(const OGRGeometry& geometry, std::vector<Polygon>& lines) {
+  if (const auto* point = dynamic_cast<const OGRPoint*>(&geometry)) {
+    if (!point->IsEmpty()) lines.push_back({{{{point->getX(), point->getY()}}}});
+  } else if (const auto* line = dynamic_cast<const OGRLineString*>(&geometry)) {
+    Ring& ring = lines.emplace_back().rings.emplace_back();
+    for (int i = 0; i < line->getNumPoints(); ++i) ring.emplace_back(line->getX(i), line->getY(i));
+    if (ring.empty()) lines.pop_back();
+  } else if (const auto* collection = dynamic_cast<const OGRGeometryCollection*>(&geometry)) {
+    for (const OGRGeometry* member : *collection) AddLines(*member, lines);
   }
 }
 
@@ -108,6 +122,13 @@ std::vector<Polygon> RawPolygons(const OGRGeometry& geometry) {
   return polygons;
 }
 
+std::vector<Polygon> RawLines(const OGRGeometry& geometry) {
+  std::vector<Polygon> lines;
+  const std::unique_ptr<OGRGeometry> linear(geometry.getLinearGeometry());
+  if (linear) AddLines(*linear, lines);
+  return lines;
+}
+
 bool HasOpenRing(const OGRGeometry& geometry) {
   if (const auto* polygon = dynamic_cast<const OGRPolygon*>(&geometry)) {
     for (const OGRLinearRing* ring : *polygon) {
@@ -155,6 +176,27 @@ std::vector<Polygon> Difference(const Polygon& from, const std::vector<Polygon>&
 std::vector<Polygon> Intersection(const Polygon& a, const Polygon& b) {
   const QuietGdal quiet;
   return PolygonsOrNone(std::unique_ptr<OGRGeometry>(ToOgr(a)->Intersection(ToOgr(b).get())));
+}
+
+std::vector<Polygon> Around(const Ring& line, double radius_m) {
+  const QuietGdal quiet;
+  OGRLineString string;
+  for (const Eigen::Vector2d& point : line) string.addPoint(point.x(), point.y());
+  // GEOS puts the corners of a circle on it; here its sides shall be.
+  constexpr int kQuarterCircle = 4;
+  const double radius = radius_m / std::cos(std::numbers::pi / (4 * kQuarterCircle));
+  if (line.size() > 1) {
+    return PolygonsOrNone(std::unique_ptr<OGRGeometry>(string.Buffer(radius, kQuarterCircle)));
+  }
+  const OGRPoint point(line.front().x(), line.front().y());
+  return PolygonsOrNone(std::unique_ptr<OGRGeometry>(point.Buffer(radius, kQuarterCircle)));
+}
+
+std::vector<Polygon> Around(const Polygon& polygon, double radius_m) {
+  constexpr int kQuarterCircle = 2;
+  const QuietGdal quiet;
+  return PolygonsOrNone(
+      std::unique_ptr<OGRGeometry>(ToOgr(polygon)->Buffer(radius_m, kQuarterCircle)));
 }
 
 double SharedArea(const Polygon& a, const Polygon& b) {

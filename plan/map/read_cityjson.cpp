@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -170,9 +171,36 @@ class Reader {
     for (const Solid& solid : solids) ground = std::min(ground, HeightsOf(solid).from_m);
     const size_t before = map_.features.size();
     for (const Solid& solid : solids) AddFeature(name, solid, ground);
-    if (map_.features.size() != before + 1) return;
-    map_.features.back().is_part = false;
-    UseMeasuredHeight(building, HeightsOf(solids[0]), map_.features.back());
+    if (map_.features.size() == before) return;
+    if (map_.features.size() == before + 1) {
+      map_.features.back().is_part = false;
+      UseMeasuredHeight(building, HeightsOf(solids[0]), map_.features.back());
+    }
+    if (options_.height_field.empty()) RaiseToRoof(building, ground, before);
+  }
+
+  // Prisms of 3D BAG end at a percentile of the points on the roof, and its attributes state others
+  // (elevations): the features of a building, from `first` on, must be as high as the highest.
+  void RaiseToRoof(const Json& building, double ground, size_t first) {
+    static constexpr std::array kStems = {"b3_h_dak_", "b3_h_roof_", "b3_h_"};
+    static constexpr std::array kSteps = {"max", "99p", "95p", "90p", "75p", "70p", "50p"};
+    for (const char* name : {"b3_h_maaiveld", "b3_h_ground"}) {
+      const Json value = Attribute(building, name);
+      if (value.is_number()) ground = value.get<double>();
+    }
+    double height = 0;
+    for (const char* stem : kStems) {
+      for (const char* step : kSteps) {
+        const Json value = Attribute(building, std::string(stem) + step);
+        if (value.is_number()) height = std::max(height, value.get<double>() - ground);
+      }
+    }
+    MapFeature& highest =
+        *std::max_element(map_.features.begin() + static_cast<std::ptrdiff_t>(first),
+                          map_.features.end(), [](const MapFeature& a, const MapFeature& b) {
+                            return a.height_m.value_or(0) < b.height_m.value_or(0);
+                          });
+    if (height > highest.height_m.value_or(0)) highest.height_m = height;
   }
 
   std::string OwnId(const std::string& id, const Json& building) const {
@@ -199,8 +227,11 @@ class Reader {
     constexpr double kSame_m = 0.02;
     const bool is_elevation =
         std::abs(*height - z.to_m) < kSame_m && std::abs(z.from_m) > kSame_m && z.length_m() > 0;
-    if (named || !is_elevation) {
+    if (named) {
       feature.height_m = height;
+    } else if (!is_elevation) {
+      // It may be that of the eaves, and the geometry a block up to some percentile of the roof.
+      feature.height_m = std::max(*height, feature.height_m.value_or(0));
     } else {
       map_.repairs.Add(feature.building,
                        "measuredHeight is the elevation of the roof; height of the geometry used");

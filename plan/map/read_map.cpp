@@ -19,7 +19,12 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kMetresPerLevel = 3;
+constexpr double kMetresPerLevel = 3;  // to undersides: the convention of Simple 3D Buildings
+// To tops. New houses have 3 m, those of 1900 have 4: what is too high costs a photo of the sky,
+// what is too low the upper end of a wall.
+constexpr double kMostMetresPerLevel = 4;
+constexpr double kLeastMetresPerLevel = 2;   // a height below that is a mistake
+constexpr double kObstacleRadius_m = 3;      // the crown of a young tree; more than wires sway
 constexpr double kHighestBuilding_m = 1000;  // higher is a mistake in the map
 
 // By which names attributes go, as Normalized gives them.
@@ -27,6 +32,10 @@ constexpr std::array kIdNames = {"id",          "osm_id",   "osm_way_id", "uid",
                                  "building_id", "objectid", "ogc_fid",    "gid", "fid"};
 constexpr std::array kHeightNames = {"height", "building_height", "measuredheight", "hoehe", "h"};
 constexpr std::array kLevelsNames = {"building_levels", "levels"};
+constexpr std::array kRoofHeightNames = {"roof_height"};
+constexpr std::array kRoofLevelsNames = {"roof_levels"};
+constexpr std::array kRadiusNames = {"radius", "radius_m"};
+constexpr std::array kDiameterNames = {"diameter_crown", "crown_diameter", "width"};
 constexpr std::array kMinHeightNames = {"min_height", "building_min_height"};
 constexpr std::array kMinLevelNames = {"building_min_level", "min_level"};
 constexpr std::array kBuildingWords = {"building", "gebaeude", "gebäude", "pand",
@@ -39,7 +48,7 @@ constexpr char kOsmSettings[] =
     "[multipolygons]\n"
     "osm_id=yes\n"
     "attributes=building,building:part,height,building:height,min_height,building:min_height,"
-    "building:levels,building:min_level\n";
+    "building:levels,building:min_level,roof:height,roof:levels\n";
 constexpr char kOsmSettingsPath[] = "/vsimem/stucco_osm.ini";
 
 // Lower case, with '_' for what stands between words: building:levels is building_levels.
@@ -59,6 +68,10 @@ struct Columns {
   std::vector<int> id;
   std::vector<int> height;
   std::vector<int> levels;
+  std::vector<int> roof_height;
+  std::vector<int> roof_levels;
+  std::vector<int> radius;
+  std::vector<int> diameter;
   std::vector<int> min_height;
   std::vector<int> min_level;
   std::vector<int> building;
@@ -104,6 +117,10 @@ Columns ColumnsOf(OGRLayer& layer, const std::filesystem::path& path, const Plan
   Columns columns{.id = FindColumns(names, kIdNames),
                   .height = FindColumns(names, kHeightNames),
                   .levels = FindColumns(names, kLevelsNames),
+                  .roof_height = FindColumns(names, kRoofHeightNames),
+                  .roof_levels = FindColumns(names, kRoofLevelsNames),
+                  .radius = FindColumns(names, kRadiusNames),
+                  .diameter = FindColumns(names, kDiameterNames),
                   .min_height = FindColumns(names, kMinHeightNames),
                   .min_level = FindColumns(names, kMinLevelNames),
                   .building = FindColumns(names, std::array{"building"}),
@@ -117,6 +134,7 @@ Columns ColumnsOf(OGRLayer& layer, const std::filesystem::path& path, const Plan
   if (!options.height_field.empty()) {
     columns.height = NamedColumn(names, options.height_field, "height-field", path);
     columns.levels.clear();
+    columns.roof_height.clear();
   }
   return columns;
 }
@@ -141,32 +159,63 @@ std::optional<double> FirstLength(OGRFeature& feature, const std::vector<int>& c
   return std::nullopt;
 }
 
-std::optional<double> Length(OGRFeature& feature, const std::vector<int>& metres,
-                             const std::vector<int>& levels) {
-  if (const auto length = FirstLength(feature, metres)) return length;
-  if (const auto count = FirstLength(feature, levels)) return *count * kMetresPerLevel;
-  return std::nullopt;
+// From the storeys; building:levels counts none that are in the roof.
+std::optional<double> GuessedHeight(OGRFeature& feature, const Columns& columns) {
+  const auto levels = FirstLength(feature, columns.levels);
+  if (!levels || !(*levels > 0)) return std::nullopt;
+  const double roof_levels = FirstLength(feature, columns.roof_levels).value_or(0);
+  const double roof =
+      FirstLength(feature, columns.roof_height).value_or(roof_levels * kMostMetresPerLevel);
+  const double height = *levels * kMostMetresPerLevel + std::max(roof, 0.0);
+  return height <= kHighestBuilding_m ? std::optional(height) : std::nullopt;
+}
+
+std::optional<double> Underside(OGRFeature& feature, const Columns& columns) {
+  if (const auto height = FirstLength(feature, columns.min_height)) return height;
+  const auto level = FirstLength(feature, columns.min_level);
+  return level ? std::optional(*level * kMetresPerLevel) : std::nullopt;
+}
+
+// The roof is a part of the height: where it is stated to be higher than the whole, the stated
+// height is that of the eaves.
+double WithRoof(double height, OGRFeature& feature, const Columns& columns) {
+  const double roof = FirstLength(feature, columns.roof_height).value_or(0);
+  return roof >= height ? height + roof : height;
 }
 
 void ReadHeights(OGRFeature& feature, const Columns& columns, RepairLog& repairs,
                  MapFeature& result) {
   const std::string stated = Text(feature, columns.height);
-  const auto height = Length(feature, columns.height, columns.levels);
-  const auto underside = Length(feature, columns.min_height, columns.min_level);
+  const auto height = FirstLength(feature, columns.height);
+  const auto underside = Underside(feature, columns);
   if (!stated.empty() && !internal::ParseLength(stated)) {
     repairs.Add(result.building, fmt::format("height {:?} is no length; ignored", stated));
   }
-  if (height && *height > 0 && *height <= kHighestBuilding_m) {
-    result.height_m = height;
+  result.guessed_height_m = GuessedHeight(feature, columns);
+  const double least = FirstLength(feature, columns.levels).value_or(0) * kLeastMetresPerLevel;
+  if (height && *height > 0 && *height <= kHighestBuilding_m && !(*height < least)) {
+    result.height_m = WithRoof(*height, feature, columns);
   } else if (height) {
-    repairs.Add(result.building, fmt::format("height {} m is impossible; ignored", *height));
+    repairs.Add(result.building,
+                fmt::format("height {} m is impossible{}; ignored", *height,
+                            *height > 0 && *height < least ? " for its storeys" : ""));
   }
   if (!underside) return;
-  if (*underside > 0 && *underside < result.height_m.value_or(kHighestBuilding_m)) {
+  const double top = result.height_m.value_or(result.guessed_height_m.value_or(kHighestBuilding_m));
+  if (*underside > 0 && *underside < top) {
     result.min_height_m = *underside;
   } else {
     repairs.Add(result.building, fmt::format("min_height {} m is impossible; ignored", *underside));
   }
+}
+
+// Of points and lines.
+double Radius(OGRFeature& feature, const Columns& columns) {
+  constexpr double kMost_m = 100;
+  const auto across = FirstLength(feature, columns.diameter);
+  const auto radius = FirstLength(feature, columns.radius);
+  const double stated = radius ? *radius : across ? *across / 2 : kObstacleRadius_m;
+  return stated > 0 && stated <= kMost_m ? stated : kObstacleRadius_m;
 }
 
 bool MayHavePolygons(OGRLayer& layer) {
@@ -195,6 +244,8 @@ constexpr char kGiveBuildings[] =
     "give a map with the outlines of buildings as areas, not as points or lines";
 constexpr char kGiveAreas[] =
     "give polygons, not points or lines, or leave the option out if there are none";
+constexpr char kGiveObstacles[] =
+    "give points, lines or polygons, or leave the option out if there are none";
 
 [[noreturn]] void FailNoPolygons(const std::filesystem::path& path, const std::string& layer,
                                  const char* remedy) {
@@ -204,13 +255,22 @@ constexpr char kGiveAreas[] =
               remedy);
 }
 
+// What is read of a map.
+struct Content {
+  bool points_and_lines = false;  // beside areas
+  const char* remedy = "";        // where there is nothing of it
+};
+constexpr Content kBuildings{.remedy = kGiveBuildings};
+constexpr Content kAreas{.remedy = kGiveAreas};
+constexpr Content kObstacles{.points_and_lines = true, .remedy = kGiveObstacles};
+
 OGRLayer& ChooseLayer(GDALDataset& dataset, const std::filesystem::path& path,
-                      const std::string& wanted, const char* remedy, RepairLog& repairs) {
+                      const std::string& wanted, const Content& content, RepairLog& repairs) {
   std::vector<std::string> names;
   std::vector<OGRLayer*> candidates;
   for (OGRLayer* layer : dataset.GetLayers()) {
     names.emplace_back(layer->GetName());
-    if (MayHavePolygons(*layer)) candidates.push_back(layer);
+    if (content.points_and_lines || MayHavePolygons(*layer)) candidates.push_back(layer);
   }
   if (!wanted.empty()) {
     const auto found = std::find(names.begin(), names.end(), wanted);
@@ -219,7 +279,7 @@ OGRLayer& ChooseLayer(GDALDataset& dataset, const std::filesystem::path& path,
                 fmt::format("{}: has no layer {:?} (--map-layer)", path.string(), wanted),
                 fmt::format("give one of {}", fmt::join(names, ", ")));
   }
-  if (candidates.empty()) FailNoPolygons(path, "", remedy);
+  if (candidates.empty()) FailNoPolygons(path, "", content.remedy);
   const auto named = std::find_if(candidates.begin(), candidates.end(),
                                   [](OGRLayer* layer) { return NamesBuildings(*layer); });
   OGRLayer& chosen = named != candidates.end() ? **named : *candidates.front();
@@ -256,10 +316,18 @@ bool HasOwnFids(OGRLayer& layer) {
 // Features of a layer in the order of the file.
 class LayerReader {
  public:
-  LayerReader(OGRLayer& layer, const Columns& columns, bool is_osm, RawMap& map)
-      : layer_(layer), columns_(columns), is_osm_(is_osm), map_(map) {
+  struct Kind {
+    bool is_osm = false;
+    bool points_and_lines = false;
+  };
+  LayerReader(OGRLayer& layer, const Columns& columns, const Kind& kind, RawMap& map)
+      : layer_(layer),
+        columns_(columns),
+        is_osm_(kind.is_osm),
+        points_and_lines_(kind.points_and_lines),
+        map_(map) {
     use_fid_ =
-        *layer.GetFIDColumn() != '\0' || (!is_osm && columns.id.empty() && HasOwnFids(layer));
+        *layer.GetFIDColumn() != '\0' || (!is_osm_ && columns.id.empty() && HasOwnFids(layer));
   }
 
   void Read() {
@@ -287,6 +355,10 @@ class LayerReader {
     if (geometry != nullptr) geometry->flattenTo2D();
     MapFeature result;
     if (geometry != nullptr) result.polygons = internal::RawPolygons(*geometry);
+    if (points_and_lines_ && geometry != nullptr && result.polygons.empty()) {
+      result.polygons = internal::RawLines(*geometry);
+      result.radius_m = Radius(feature, columns_);
+    }
     if (result.polygons.empty()) {
       ++without_area_;
       return;
@@ -316,6 +388,7 @@ class LayerReader {
   OGRLayer& layer_;
   const Columns& columns_;
   bool is_osm_;
+  bool points_and_lines_;
   RawMap& map_;
   bool use_fid_ = false;
   internal::BuildingIds ids_;
@@ -333,18 +406,18 @@ GDALDatasetUniquePtr OpenMap(const std::filesystem::path& path) {
 }
 
 RawMap ReadLayer(const std::filesystem::path& path, const PlanOptions& options,
-                 const char* remedy) {
+                 const Content& content) {
   RawMap map;
   map.path = path;
   const GDALDatasetUniquePtr dataset = OpenMap(path);
   const bool is_osm = std::string_view(dataset->GetDriverName()) == "OSM";
   if (is_osm) dataset->ExecuteSQL("SET interest_layers = multipolygons", nullptr, nullptr);
   OGRLayer& layer = is_osm ? *dataset->GetLayerByName("multipolygons")
-                           : ChooseLayer(*dataset, path, options.map_layer, remedy, map.repairs);
+                           : ChooseLayer(*dataset, path, options.map_layer, content, map.repairs);
   const Columns columns = ColumnsOf(layer, path, options);
   map.crs = CrsOf(layer);
-  LayerReader(layer, columns, is_osm, map).Read();
-  if (map.features.empty()) FailNoPolygons(path, layer.GetName(), remedy);
+  LayerReader(layer, columns, {is_osm, content.points_and_lines}, map).Read();
+  if (map.features.empty()) FailNoPolygons(path, layer.GetName(), content.remedy);
   return map;
 }
 
@@ -352,11 +425,15 @@ RawMap ReadLayer(const std::filesystem::path& path, const PlanOptions& options,
 
 RawMap ReadMap(const std::filesystem::path& path, const PlanOptions& options) {
   if (internal::LooksLikeCityJson(path)) return internal::ReadCityJson(path, options);
-  return ReadLayer(path, options, kGiveBuildings);
+  return ReadLayer(path, options, kBuildings);
 }
 
 RawMap ReadAreas(const std::filesystem::path& path) {
-  return ReadLayer(path, {}, kGiveAreas);
+  return ReadLayer(path, {}, kAreas);
+}
+
+RawMap ReadObstacleMap(const std::filesystem::path& path) {
+  return ReadLayer(path, {}, kObstacles);
 }
 
 }  // namespace stucco::plan

@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "plan/map/clean.h"
@@ -17,6 +16,9 @@
 #include "plan/map/internal/outlines.h"
 #include "plan/map/read_dem.h"
 #include "plan/map/read_map.h"
+#include "plan/map/read_obstacles.h"
+#include "plan/map/safe_altitude.h"
+#include "plan/safety/error_budget.h"
 #include "site/facades.h"
 #include "site/ground.h"
 #include "survey/error.h"
@@ -179,80 +181,6 @@ void MarkArea(const SiteInputs& inputs, const std::vector<Polygon>& area, Site& 
   if (touched.empty()) FailNotInArea(inputs);
 }
 
-std::map<std::string, double> HeightsByBuilding(const Site& site, int& unknown) {
-  std::map<std::string, double> heights;
-  std::set<std::string> without;
-  for (const Footprint& footprint : site.footprints) {
-    if (footprint.top_known) {
-      double& height = heights[footprint.building];
-      height = std::max(height, footprint.z_m.to_m);
-    } else {
-      without.insert(footprint.building);
-    }
-  }
-  unknown = static_cast<int>(without.size());
-  return heights;
-}
-
-// The first of the heights that the map has and nobody can use, as " (B0001: height ...)".
-std::string UnusableHeights(const RepairLog& repairs) {
-  for (const std::string& line : repairs.Lines()) {
-    if (line.find(": height ") != std::string::npos) return fmt::format(" ({})", line);
-  }
-  return "";
-}
-
-double SafeAltitude(const Site& site, const SiteInputs& inputs, const PlanOptions& options,
-                    const RepairLog& repairs) {
-  int unknown = 0;
-  const std::map<std::string, double> heights = HeightsByBuilding(site, unknown);
-  double tallest = 0;
-  std::string building;
-  for (const auto& [name, height] : heights) {
-    if (height <= tallest) continue;
-    tallest = height;
-    building = name;
-  }
-  if (tallest + options.d_min_m > kMostAltitude_m) {
-    throw Error(
-        ErrorKind::kBadInput,
-        fmt::format("{}: building {} is {:.1f} m high, and {:g} m above it is more than "
-                    "the highest safe altitude of {:g} m",
-                    inputs.map.string(), building, tallest, options.d_min_m, kMostAltitude_m),
-        "check the unit of the height attribute (metres are read unless it says ft), or "
-        "name another: --height-field NAME");
-  }
-  if (options.altitude_m == 0) {
-    if (unknown == 0) return std::max(tallest + options.d_min_m, options.min_altitude_m);
-    throw Error(
-        ErrorKind::kBadInput,
-        fmt::format("{}: {} of {} buildings have no height, so that a safe altitude cannot "
-                    "be told{}",
-                    inputs.map.string(), unknown,
-                    std::max<size_t>(unknown, heights.size() + unknown), UnusableHeights(repairs)),
-        "give the safe altitude, as --altitude 60 (metres above the ground, d_min above the "
-        "highest roof), or name the attribute with the heights: --height-field NAME");
-  }
-  if (options.altitude_m < std::max(options.min_altitude_m, options.d_min_m)) {
-    throw Error(
-        ErrorKind::kUsage,
-        fmt::format("--altitude {:g}: is lower than the lowest flight ({:g} m) or the distance to "
-                    "buildings ({:g} m)",
-                    options.altitude_m, options.min_altitude_m, options.d_min_m),
-        "give a higher safe altitude");
-  }
-  if (options.altitude_m < tallest + options.d_min_m) {
-    throw Error(
-        ErrorKind::kUsage,
-        fmt::format("--altitude {:g}: building {} is {:.1f} m high, and {:g} m are to be kept "
-                    "from it",
-                    options.altitude_m, building, tallest, options.d_min_m),
-        fmt::format("give at least --altitude {:.0f}, or correct the height in the map",
-                    std::ceil(tallest + options.d_min_m)));
-  }
-  return options.altitude_m;
-}
-
 // Around the buildings to capture: an area of interest says which those are, not that the fields
 // beside them are wanted too.
 Polygon AreaAround(const Site& site, double margin_m) {
@@ -291,6 +219,7 @@ void AddNoFly(const std::filesystem::path& path, const PlanOptions& options, Sit
 }  // namespace
 
 Site ReadSite(const SiteInputs& inputs, const PlanOptions& options) {
+  CheckBudget(options);
   Site site;
   site.d_min_m = options.d_min_m;
   site.min_altitude_m = options.min_altitude_m;
@@ -308,12 +237,19 @@ Site ReadSite(const SiteInputs& inputs, const PlanOptions& options) {
                 "check the coordinate system of the map: its outlines enclose no area");
   }
   MarkArea(inputs, located.area_of_interest, site);
-  site.safe_altitude_m = SafeAltitude(site, inputs, options, repairs);
+  std::vector<MapObstacle> obstacles;
+  if (inputs.obstacles) {
+    obstacles = ReadObstacles(*inputs.obstacles, options, site.origin, repairs);
+  }
+  const HighThings things{inputs.map, site.footprints, obstacles};
+  site.safe_altitude_m = SafeAltitude(things, options, repairs);
+  site.warnings = AltitudeWarnings(things, site.safe_altitude_m, options.d_min_m);
   const double margin = options.margin_m > 0 ? options.margin_m : site.safe_altitude_m;
   site.area = AreaAround(site, margin);
   if (inputs.no_fly) AddNoFly(*inputs.no_fly, options, site);
   TerrainGrid ground;
   if (inputs.dem) ground = AddTerrain(*inputs.dem, site, repairs);
+  AddObstacles(std::move(obstacles), site);
   PlaceOnGround(site);
   site.facades = MakeFacades(site.footprints);
   site.home = inputs.home
@@ -321,6 +257,9 @@ Site ReadSite(const SiteInputs& inputs, const PlanOptions& options) {
                   : DefaultHome(site);
   // Drones count heights from where they take off: a home too high would have them fly too low.
   site.home.z() = ground.HeightAt(site.home.head<2>());
+  constexpr size_t kMostTakeOffPlaces = 15;
+  if (!inputs.home) site.take_off = TakeOffPlaces(site, kMostTakeOffPlaces);
+  for (Eigen::Vector3d& place : site.take_off) place.z() = ground.HeightAt(place.head<2>());
   site.repairs = repairs.Lines();
   return site;
 }

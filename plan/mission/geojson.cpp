@@ -116,7 +116,8 @@ void AddFacades(Writer& writer) {
 std::string PlanGeoJson(const Plan& plan) {
   Writer writer = {plan, ""};
   for (const PlannedFootprint& footprint : plan.footprints) {
-    writer.Add("footprint", "Polygon", Polygon(writer, footprint.rings_m),
+    writer.Add(footprint.is_obstacle ? "obstacle" : "footprint", "Polygon",
+               Polygon(writer, footprint.rings_m),
                {{"building", footprint.building},
                 {"foot_m", Rounded(footprint.z_m.from_m)},
                 {"top_m", Rounded(footprint.z_m.to_m)}});
@@ -127,7 +128,9 @@ std::string PlanGeoJson(const Plan& plan) {
   AddFacades(writer);
   AddPaths(writer);
   AddViews(writer);
-  writer.Add("home", "Point", writer.At(plan.home_m), Json::object());
+  for (const Eigen::Vector3d& home : plan.Homes()) {
+    writer.Add("home", "Point", writer.At(home), Json::object());
+  }
   return "{\"type\":\"FeatureCollection\",\"features\":[\n" + writer.text + "\n]}\n";
 }
 

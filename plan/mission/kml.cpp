@@ -115,6 +115,17 @@ void AddView(pugi::xml_node folder, const PlannedView& view, const Writer& write
   Put(point, "coordinates", writer.Coordinate(view.position_m));
 }
 
+void AddHomes(pugi::xml_node document, const Writer& writer) {
+  const std::vector<Eigen::Vector3d> homes = writer.plan.Homes();
+  for (size_t i = 0; i < homes.size(); ++i) {
+    pugi::xml_node home = document.append_child("Placemark");
+    Put(home, "name", homes.size() == 1 ? "Home" : fmt::format("Home {}", i + 1));
+    pugi::xml_node point = home.append_child("Point");
+    Put(point, "altitudeMode", writer.altitude_mode);
+    Put(point, "coordinates", writer.Coordinate(homes[i]));
+  }
+}
+
 void AddFlight(pugi::xml_node parent, size_t index, const Writer& writer) {
   const PlannedFlight& flight = writer.plan.flights[index];
   pugi::xml_node folder = AddFolder(parent, fmt::format("Flight {}", index + 1));
@@ -188,11 +199,7 @@ std::string PlanKml(const Plan& plan) {
   pugi::xml_node document = kml.append_child("Document");
   Put(document, "name", fmt::format("Flight plan ({})", plan.method));
   AddStyles(document, plan.flights.size());
-  pugi::xml_node home = document.append_child("Placemark");
-  Put(home, "name", "Home");
-  pugi::xml_node point = home.append_child("Point");
-  Put(point, "altitudeMode", writer.altitude_mode);
-  Put(point, "coordinates", writer.Coordinate(plan.home_m));
+  AddHomes(document, writer);
   for (size_t i = 0; i < plan.flights.size(); ++i) AddFlight(document, i, writer);
   pugi::xml_node facades = AddFolder(document, "Facades");
   for (const PlannedFacade& facade : plan.facades) AddFacade(facades, facade, writer);

@@ -38,7 +38,7 @@ std::vector<Action> ActionsFor(const PlannedView* before, const PlannedView& vie
   if (before != nullptr && std::abs(view.pitch_deg - before->pitch_deg) > kSmallTurn) {
     actions.push_back({kTilt, static_cast<int>(std::lround(view.pitch_deg))});
   }
-  actions.push_back({kStay, static_cast<int>(std::lround(1000 * options.hover_s))});
+  actions.push_back({kStay, static_cast<int>(std::lround(1000 * options.pace.hold_s))});
   actions.push_back({kPhoto, 0});
   return actions;
 }
@@ -111,7 +111,7 @@ std::string Line(const MissionStop& stop, const MissionOptions& options, Attitud
   for (const Action& action : actions) {
     line += fmt::format(",{},{}", static_cast<int>(action.type), action.param);
   }
-  return line + fmt::format(",0,{:.1f},0,0,0,0,-1,-1\n", options.speed_m_per_s);
+  return line + fmt::format(",0,{:.1f},0,0,0,0,-1,-1\n", options.pace.speed_m_per_s);
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ std::vector<std::string> LitchiSettings(const MissionRoute& route, const Mission
       "Heading Mode: Custom (WD); else all headings are ignored",
       "Path Mode: Straight Lines; curves leave the free space",
       "Finish Action: RTH",
-      fmt::format("Cruising Speed and Max Flight Speed: {:.0f} m/s", options.speed_m_per_s),
+      fmt::format("Cruising Speed and Max Flight Speed: {:.0f} m/s", options.pace.speed_m_per_s),
       "Default Gimbal Pitch Mode: Interpolate; altitudes relative to take-off, not above ground",
       fmt::format("Return-to-home altitude (in the DJI app): {:.0f} m",
                   std::ceil(route.return_height_m)),

@@ -22,6 +22,12 @@ void Write(const std::filesystem::path& folder, const std::string& name, const s
   files.names.push_back(name);
 }
 
+// A file of the route with this number.
+void Add(const std::string& name, size_t route, MissionFiles& files) {
+  files.names.push_back(name);
+  files.flights[route].names.push_back(name);
+}
+
 // DJI Fly opens no longer ones.
 constexpr size_t kDjiFlyWaypoints = 200;
 
@@ -45,7 +51,7 @@ void WriteDji(const Plan& plan, const std::vector<MissionRoute>& routes,
                               findings[0].text, findings[0].rule),
                   "this is a fault of the planner; please report it with the map");
     }
-    files.names.push_back(name);
+    Add(name, i, files);
     if (options.dji.drone == kDjiFlyDrone && routes[i].stops.size() > kDjiFlyWaypoints) {
       files.notes.push_back(fmt::format(
           "{} has {} waypoints, more than the {} of DJI Fly: plan with a smaller battery share",
@@ -66,7 +72,8 @@ void WriteLitchi(const Plan& plan, const std::vector<MissionRoute>& routes,
     for (size_t part = 0; part < flights[i].size(); ++part) {
       const std::string name = has_parts ? fmt::format("mission_{}_{}.csv", i + 1, part + 1)
                                          : NumberedName("mission", ".csv", i, flights.size());
-      Write(folder, name, flights[i][part], files);
+      WriteFile(folder / name, flights[i][part]);
+      Add(name, i, files);
     }
   }
   if (has_parts) {
@@ -86,6 +93,9 @@ MissionFiles WriteMissionFiles(const Plan& plan, const MissionOptions& options,
                                const std::filesystem::path& folder) {
   MissionFiles files;
   std::vector<MissionRoute> routes = MissionRoutes(plan);
+  for (size_t i = 0; i < routes.size(); ++i) {
+    if (!routes[i].stops.empty()) files.flights.push_back({i, routes[i].return_height_m, {}});
+  }
   std::erase_if(routes, [](const MissionRoute& route) { return route.stops.empty(); });
   if (routes.empty()) {
     throw Error(ErrorKind::kStageFailed, "no flight of the plan leaves the ground");
@@ -93,8 +103,9 @@ MissionFiles WriteMissionFiles(const Plan& plan, const MissionOptions& options,
   WriteDji(plan, routes, options, folder, files);
   WriteLitchi(plan, routes, options, folder, files);
   for (size_t i = 0; i < routes.size(); ++i) {
-    Write(folder, NumberedName("mission", ".plan", i, routes.size()),
-          QGroundControlPlan(plan, routes[i], options), files);
+    const std::string name = NumberedName("mission", ".plan", i, routes.size());
+    WriteFile(folder / name, QGroundControlPlan(plan, routes[i], options));
+    Add(name, i, files);
   }
   Write(folder, "mission.kml", PlanKml(plan), files);
   Write(folder, "plan.geojson", PlanGeoJson(plan), files);

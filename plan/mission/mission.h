@@ -10,9 +10,17 @@
 
 namespace stucco::plan {
 
+// The files of one flight, in every format.
+struct FlightFiles {
+  size_t flight = 0;           // of the plan, from 0
+  double return_height_m = 0;  // above its take-off point, which the files ask for
+  std::vector<std::string> names;
+};
+
 struct MissionFiles {
-  std::vector<std::string> names;  // in the folder, sorted by kind
-  std::vector<std::string> notes;  // what the user has to know or to set, a line each
+  std::vector<std::string> names;    // in the folder, sorted by kind
+  std::vector<FlightFiles> flights;  // that leave the ground
+  std::vector<std::string> notes;    // what the user has to know or to set, a line each
 };
 
 // Writes mission.kmz (DJI WPML; checked by LintKmz), mission.csv (Litchi), mission.plan

@@ -89,7 +89,7 @@ void AddStop(const MissionStop& stop, const MissionOptions& options, Items& item
     if (before == nullptr || std::abs(view.pitch_deg - before->pitch_deg) > kSmallTurn) {
       items.AddCommand(kGimbal, {Centi(view.pitch_deg), 0, 0, 0, 0, 0, kMavlinkTargeting});
     }
-    items.AddCommand(kDelay, {options.hover_s, -1, -1, -1});
+    items.AddCommand(kDelay, {options.pace.hold_s, -1, -1, -1});
     items.AddCommand(kPhoto, {0, 0, 1, view.order + 1});
     before = &view;
   }
@@ -115,10 +115,10 @@ Json FencePolygon(const Plan& plan, const std::vector<Eigen::Vector2d>& ring) {
 
 std::string QGroundControlPlan(const Plan& plan, const MissionRoute& route,
                                const MissionOptions& options) {
-  const Geodetic home = GeodeticFromPlan(plan.origin, plan.home_m.head<2>());
+  const Geodetic home = GeodeticFromPlan(plan.origin, route.home_m.head<2>());
   Items items;
   items.AddPlace(kTakeOff, {0, 0, 0, nullptr}, home, route.take_off_height_m);
-  items.AddCommand(kSpeed, {1, options.speed_m_per_s, -1});
+  items.AddCommand(kSpeed, {1, options.pace.speed_m_per_s, -1});
   for (const MissionStop& stop : WithApproach(plan, route, route.stops)) {
     AddStop(stop, options, items);
   }
@@ -133,12 +133,12 @@ std::string QGroundControlPlan(const Plan& plan, const MissionRoute& route,
        {{"version", 2},
         {"firmwareType", kPx4},
         {"vehicleType", kQuadrotor},
-        {"cruiseSpeed", options.transfer_speed_m_per_s},
-        {"hoverSpeed", options.speed_m_per_s},
+        {"cruiseSpeed", options.pace.transfer_speed_m_per_s},
+        {"hoverSpeed", options.pace.speed_m_per_s},
         {"globalPlanAltitudeMode", kRelativeAltitude},
         {"plannedHomePosition",
          {Degrees8(home.latitude_deg), Degrees8(home.longitude_deg),
-          Centi(plan.origin.height_m + plan.home_m.z())}},
+          Centi(plan.origin.height_m + route.home_m.z())}},
         {"items", items.Take()}}},
       {"geoFence", {{"version", 2}, {"circles", Json::array()}, {"polygons", polygons}}},
       {"rallyPoints", {{"version", 2}, {"points", Json::array()}}},

@@ -20,13 +20,14 @@ constexpr double kAtHome = 1;
 constexpr double kSamePoint = 0.05;
 
 // Take-off and landing are the autopilot's own business: a waypoint on the ground is none.
-bool IsOnTheGround(const Plan& plan, const PlannedWaypoint& waypoint) {
-  return waypoint.hover < 0 && (waypoint.position_m - plan.home_m).norm() < kAtHome;
+bool IsOnTheGround(const Eigen::Vector3d& home, const PlannedWaypoint& waypoint) {
+  return waypoint.hover < 0 && (waypoint.position_m - home).norm() < kAtHome;
 }
 
-std::vector<PlannedWaypoint> InTheAir(const Plan& plan, std::vector<PlannedWaypoint> waypoints) {
+std::vector<PlannedWaypoint> InTheAir(const Eigen::Vector3d& home,
+                                      std::vector<PlannedWaypoint> waypoints) {
   const auto flies = [&](const PlannedWaypoint& waypoint) {
-    return !IsOnTheGround(plan, waypoint);
+    return !IsOnTheGround(home, waypoint);
   };
   const auto first = std::ranges::find_if(waypoints, flies);
   const auto last = std::find_if(waypoints.rbegin(), waypoints.rend(), flies).base();
@@ -46,14 +47,15 @@ ViewsOfHover ByHover(const Plan& plan) {
 }
 
 void Append(const Plan& plan, const Eigen::Vector3d& position, std::vector<PlannedView> views,
-            std::vector<MissionStop>& stops) {
+            MissionRoute& route) {
+  std::vector<MissionStop>& stops = route.stops;
   if (!stops.empty() && (stops.back().position_m - position).norm() < kSamePoint) {
     std::ranges::move(views, std::back_inserter(stops.back().views));
     return;
   }
   stops.push_back({.position_m = position,
                    .geodetic = GeodeticFromPlan(plan.origin, position.head<2>()),
-                   .height_m = position.z() - plan.home_m.z(),
+                   .height_m = position.z() - route.home_m.z(),
                    .views = std::move(views)});
 }
 
@@ -70,15 +72,15 @@ void SetYaws(std::vector<MissionStop>& stops) {
 }
 
 // Above home, over everything that stands anywhere on the site.
-double ReturnHeight(const Plan& plan) {
+double ReturnHeight(const Plan& plan, const Eigen::Vector3d& home) {
   double highest = plan.safe_altitude_m;
   for (const PlannedFootprint& footprint : plan.footprints) {
-    highest = std::max({highest, footprint.blocked_to_m - plan.home_m.z(),
-                        footprint.z_m.to_m + plan.d_min_m - plan.home_m.z()});
+    highest = std::max(
+        {highest, footprint.blocked_to_m - home.z(), footprint.z_m.to_m + plan.d_min_m - home.z()});
   }
   for (const PlannedFlight& flight : plan.flights) {
     for (const PlannedWaypoint& waypoint : flight.waypoints) {
-      highest = std::max(highest, waypoint.position_m.z() - plan.home_m.z());
+      highest = std::max(highest, waypoint.position_m.z() - home.z());
     }
   }
   return highest;
@@ -87,36 +89,36 @@ double ReturnHeight(const Plan& plan) {
 // Nearer than this to the wished height is there already.
 constexpr double kSameHeight = 1;
 
-MissionStop Above(const Plan& plan, const MissionStop& stop, double z) {
+MissionStop Above(const Plan& plan, const MissionStop& stop, double by_m) {
   MissionStop above = stop;
   above.views.clear();
-  above.position_m.z() = z;
+  above.position_m.z() += by_m;
   above.geodetic = GeodeticFromPlan(plan.origin, above.position_m.head<2>());
-  above.height_m = z - plan.home_m.z();
+  above.height_m += by_m;
   return above;
 }
 
 // Autopilots want two points at least: the second is straight above the only one.
 void AddPointAbove(const Plan& plan, double height_m, std::vector<MissionStop>& stops) {
   if (stops.size() != 1) return;
-  const double z = std::max(plan.home_m.z() + height_m, stops.front().position_m.z() + kSameHeight);
-  stops.insert(stops.begin(), Above(plan, stops.front(), z));
+  const double by_m = std::max(height_m - stops.front().height_m, kSameHeight);
+  stops.insert(stops.begin(), Above(plan, stops.front(), by_m));
 }
 
 MissionRoute MissionRouteOf(const Plan& plan, const PlannedFlight& flight,
                             const ViewsOfHover& hovers) {
   MissionRoute route;
+  route.home_m = plan.HomeOf(flight);
   route.length_m = flight.length_m;
   route.time_min = flight.time_min;
-  for (const PlannedWaypoint& waypoint : InTheAir(plan, flight.waypoints)) {
+  for (const PlannedWaypoint& waypoint : InTheAir(route.home_m, flight.waypoints)) {
     const auto found = hovers.find(waypoint.hover);
     if (waypoint.hover >= 0 && found == hovers.end()) {
       throw Error(ErrorKind::kStageFailed,
                   fmt::format("a flight stops at hover {}, which has no views", waypoint.hover));
     }
     const bool passes = waypoint.hover < 0;
-    Append(plan, waypoint.position_m, passes ? std::vector<PlannedView>() : found->second,
-           route.stops);
+    Append(plan, waypoint.position_m, passes ? std::vector<PlannedView>() : found->second, route);
   }
   SetYaws(route.stops);
   return route;
@@ -143,13 +145,10 @@ std::string NumberedName(const std::string& stem, const std::string& extension, 
 std::vector<MissionStop> WithApproach(const Plan& plan, const MissionRoute& route,
                                       std::vector<MissionStop> stops) {
   if (stops.empty()) return stops;
-  const double z = plan.home_m.z() + route.return_height_m;
-  if (z - stops.front().position_m.z() > kSameHeight) {
-    stops.insert(stops.begin(), Above(plan, stops.front(), z));
-  }
-  if (z - stops.back().position_m.z() > kSameHeight) {
-    stops.push_back(Above(plan, stops.back(), z));
-  }
+  const double begin_m = route.return_height_m - stops.front().height_m;
+  const double end_m = route.return_height_m - stops.back().height_m;
+  if (end_m > kSameHeight) stops.push_back(Above(plan, stops.back(), end_m));
+  if (begin_m > kSameHeight) stops.insert(stops.begin(), Above(plan, stops.front(), begin_m));
   return stops;
 }
 
@@ -159,10 +158,10 @@ std::vector<MissionRoute> MissionRoutes(const Plan& plan) {
                 "plan the path first: the views alone do not say how to get there");
   }
   const ViewsOfHover hovers = ByHover(plan);
-  const double return_height = ReturnHeight(plan);
   std::vector<MissionRoute> routes;
   for (const PlannedFlight& flight : plan.flights) {
     MissionRoute& route = routes.emplace_back(MissionRouteOf(plan, flight, hovers));
+    const double return_height = ReturnHeight(plan, route.home_m);
     AddPointAbove(plan, return_height, route.stops);
     route.return_height_m = return_height;
     // The way to the first point is the drone's own: it goes above everything.

@@ -24,8 +24,9 @@ struct MissionStop {
 // flies straight lines.
 struct MissionRoute {
   std::vector<MissionStop> stops;
-  double take_off_height_m = 0;  // above home: climb to it before anything else
-  double return_height_m = 0;    // above home: nothing of the site reaches it
+  Eigen::Vector3d home_m = Eigen::Vector3d::Zero();  // where it takes off, in the frame of the plan
+  double take_off_height_m = 0;                      // above home: climb to it before anything else
+  double return_height_m = 0;                        // above home: nothing of the site reaches it
   double length_m = 0;
   double time_min = 0;
 };

@@ -78,12 +78,12 @@ void AddConfig(pugi::xml_node document, const Plan* plan, const MissionRoute& ro
   PutHeight(config, "wpml:takeOffSecurityHeight",
             std::clamp(route.take_off_height_m, kLowestTakeOff, kHighestTakeOff));
   if (plan != nullptr) {
-    const Geodetic home = GeodeticFromPlan(plan->origin, plan->home_m.head<2>());
+    const Geodetic home = GeodeticFromPlan(plan->origin, route.home_m.head<2>());
     Put(config, "wpml:takeOffRefPoint",
         fmt::format("{:.8f},{:.8f},{:.2f}", home.latitude_deg, home.longitude_deg,
-                    plan->origin.height_m + plan->home_m.z()));
+                    plan->origin.height_m + route.home_m.z()));
   }
-  PutDecimal(config, "wpml:globalTransitionalSpeed", options.transfer_speed_m_per_s, 1);
+  PutDecimal(config, "wpml:globalTransitionalSpeed", options.pace.transfer_speed_m_per_s, 1);
   PutHeight(config, "wpml:globalRTHHeight", route.return_height_m);
   pugi::xml_node drone = config.append_child("wpml:droneInfo");
   Put(drone, "wpml:droneEnumValue", options.dji.drone);
@@ -125,7 +125,7 @@ void AddTilt(pugi::xml_node group, int& id, double pitch_deg, const MissionOptio
 
 void AddPhoto(pugi::xml_node group, int& id, const std::string& view,
               const MissionOptions& options) {
-  PutDecimal(AddAction(group, id, "hover"), "wpml:hoverTime", options.hover_s, 1);
+  PutDecimal(AddAction(group, id, "hover"), "wpml:hoverTime", options.pace.hold_s, 1);
   pugi::xml_node param = AddAction(group, id, "takePhoto");
   Put(param, "wpml:fileSuffix", view);
   Put(param, "wpml:payloadPositionIndex", 0);
@@ -193,7 +193,7 @@ void AddTemplateFolder(pugi::xml_node document, const MissionRoute& route,
   Put(system, "wpml:coordinateMode", "WGS84");
   Put(system, "wpml:heightMode", "relativeToStartPoint");
   Put(system, "wpml:positioningType", "GPS");
-  PutDecimal(folder, "wpml:autoFlightSpeed", options.speed_m_per_s, 1);
+  PutDecimal(folder, "wpml:autoFlightSpeed", options.pace.speed_m_per_s, 1);
   PutHeight(folder, "wpml:globalHeight", route.return_height_m);
   Put(folder, "wpml:gimbalPitchMode", "usePointSetting");
   AddHeading(folder, "wpml:globalWaypointHeadingParam", 0, options);
@@ -246,13 +246,13 @@ std::string WpmlWaylines(const MissionRoute& route, const MissionOptions& option
   Put(folder, "wpml:waylineId", 0);
   PutDecimal(folder, "wpml:distance", route.length_m, 1);
   PutDecimal(folder, "wpml:duration", 60 * route.time_min, 1);
-  PutDecimal(folder, "wpml:autoFlightSpeed", options.speed_m_per_s, 1);
+  PutDecimal(folder, "wpml:autoFlightSpeed", options.pace.speed_m_per_s, 1);
   int group = 0;
   for (size_t i = 0; i < route.stops.size(); ++i) {
     const MissionStop& stop = route.stops[i];
     pugi::xml_node placemark = AddPlacemark(folder, stop, i);
     PutHeight(placemark, "wpml:executeHeight", stop.height_m);
-    PutDecimal(placemark, "wpml:waypointSpeed", options.speed_m_per_s, 1);
+    PutDecimal(placemark, "wpml:waypointSpeed", options.pace.speed_m_per_s, 1);
     AddHeading(placemark, "wpml:waypointHeadingParam", stop.yaw_deg, options);
     AddTurnMode(placemark);
     Put(placemark, "wpml:useStraightLine", 1);

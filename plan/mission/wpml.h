@@ -20,9 +20,7 @@ inline constexpr int kDjiFlyDrone = 68;  // all that fly with DJI Fly share it
 
 struct MissionOptions {
   DroneEnums dji;
-  double speed_m_per_s = 5;           // between photos; slow enough to stop within d_min
-  double transfer_speed_m_per_s = 8;  // to the first point and home
-  double hover_s = 1.5;               // at rest before a photo, for the gimbal to settle
+  PlannedPace pace;
   // Stands in the files instead of the clock, so that they depend on the plan alone.
   int64_t created_ms = 1767225600000;  // 2026-01-01
 };

@@ -15,7 +15,15 @@ void Describe(OptionTable& table, PlanOptions& options) {
             "Safe altitude above the ground, over every building; 0: d_min_m above the tallest one "
             "of a map with heights");
   table.Add("gsd_m", options.gsd_m, 0.001, 1, "Coarsest size of a pixel on a wall, in metres");
-  table.Add("d_min_m", options.d_min_m, 2, 100, "Least distance to buildings, in metres");
+  table.Add("d_min_m", options.d_min_m, 2, 100,
+            "Least distance to buildings and obstacles of the map, in metres; the three errors "
+            "below are a part of it");
+  table.Add("map_error_m", options.map_error_m, 0, 20,
+            "How far outlines of the map may be off, in metres");
+  table.Add("height_error_m", options.height_error_m, 0, 50,
+            "How far heights of the map may be too low, in metres");
+  table.Add("position_error_m", options.position_error_m, 0, 20,
+            "How far the drone may be from where it should be, in metres, in any direction");
   table.Add("d_max_m", options.d_max_m, 0, 1000,
             "Farthest wall that a photo counts for, in metres; 0: from gsd_m");
   table.Add("min_altitude_m", options.min_altitude_m, 2, 500,
@@ -32,8 +40,16 @@ void Describe(OptionTable& table, PlanOptions& options) {
       "reconstructability", options.reconstructability, 0, 100,
       "Least reconstructability that thinning out leaves at every point of the surface; 0: ten "
       "times that of one good pair of photos");
-  table.Add("battery_percent", options.battery_percent, 10, 100,
-            "Share of a battery that one flight may use");
+  table.Add("links", options.links,
+            "Add photos between those that would not match by themselves (method cocapture)");
+  table.Add(
+      "battery_percent", options.battery_percent, 10, 100,
+      "Share of a battery that one flight may use, less what its way home takes against the wind");
+  table.Add("wind_m_per_s", options.wind_m_per_s, 0, kMostWind_m_per_s,
+            "Wind that time and energy are reckoned with, in metres a second");
+  table.Add("date", options.date, {},
+            "Day of the flight as 2026-06-21, for the hours of sun on walls in checklist.html; "
+            "empty: equinox and both solstices");
   table.Add("map_layer", options.map_layer, {},
             "Layer of the map with the buildings; empty: one with \"building\" in its name, else "
             "the first "

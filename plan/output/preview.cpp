@@ -17,32 +17,16 @@ using internal::Svg;
 constexpr double kPageWidth = 1600;
 constexpr double kMargin = 24;
 constexpr double kTitle = 92;
+constexpr double kWarningLine = 19;
+constexpr size_t kWarningLetters = 190;  // in a line
 constexpr double kLegend = 330;
 constexpr double kBelowMap = 48;
 constexpr double kMapWidth = kPageWidth - 3 * kMargin - kLegend;
 constexpr double kTallestMap = 1250;
 constexpr double kLowestPage = 960;  // the legend needs it
 
-constexpr const char* kStyle = R"svg(<style>
-text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:#1f2328}
-.title{font-size:27px;font-weight:600}
-.figures{font-size:16px;fill:#3d444d}
-.heading{font-size:15px;font-weight:600}
-.entry{font-size:13.5px}
-.note{font-size:12px;fill:#59636e}
-.tick{font-size:12px;text-anchor:middle}
-.name{font-size:9px;text-anchor:middle;fill:#54545c}
-.home{font-size:12px;font-weight:700;text-anchor:middle}
-.small{font-size:9.5px}
-</style>
-<defs><pattern id="nofly" width="9" height="9"
- patternUnits="userSpaceOnUse" patternTransform="rotate(45)">
-<rect width="9" height="9" fill="#c0392b" fill-opacity="0.10"/>
-<path d="M0 0V9" stroke="#c0392b" stroke-width="2.4" stroke-opacity="0.55"/></pattern></defs>
-)svg";
-
 std::string Title(const Plan& plan, const PlanStats& stats) {
-  const size_t buildings = plan.footprints.size();
+  const auto buildings = std::ranges::count(plan.footprints, false, &PlannedFootprint::is_obstacle);
   return fmt::format("Flight plan: {} building{}, {} facades ({}, {})", buildings,
                      buildings == 1 ? "" : "s", plan.facades.size(), stats.method, stats.camera);
 }
@@ -61,25 +45,47 @@ std::string Figures(const Plan& plan, const PlanStats& stats) {
   return text + fmt::format("  ·  safe altitude {:.0f} m", plan.safe_altitude_m);
 }
 
+// Broken where they are too long for the page.
+std::vector<std::string> WarningLines(const PlanStats& stats) {
+  std::vector<std::string> lines;
+  for (const std::string& warning : stats.warnings) {
+    std::string text = "Warning: " + warning;
+    while (text.size() > kWarningLetters) {
+      const size_t end = text.rfind(' ', kWarningLetters);
+      if (end == std::string::npos || end < kWarningLetters / 2) break;
+      lines.push_back(text.substr(0, end));
+      text = "     " + text.substr(end);
+    }
+    lines.push_back(text);
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::string PreviewSvg(const Plan& plan, const PlanStats& stats) {
-  const Eigen::Vector2d corner(kMargin, kTitle);
+  const std::vector<std::string> warnings = WarningLines(stats);
+  const double top = kTitle + kWarningLine * static_cast<double>(warnings.size());
+  const Eigen::Vector2d corner(kMargin, top);
   const MapScale scale = internal::FitMap(plan, corner, {kMapWidth, kTallestMap});
-  const double height = std::max(kTitle + scale.Height() + kBelowMap, kLowestPage);
+  const double height = std::max(scale.Height() + kBelowMap, kLowestPage - kTitle) + top;
   Svg svg;
   svg.Add(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
       "viewBox=\"0 0 {0:.0f} {1:.0f}\">",
       kPageWidth, height);
   svg.Add("<title>{}</title>", internal::EscapeXml(Title(plan, stats)));
-  svg.Add("{}", kStyle);
+  svg.Add("{}", internal::kMapStyle);
   svg.Add("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"#fff\"/>", kPageWidth, height);
   svg.Text({kMargin, 42}, "class=\"title\"", Title(plan, stats));
   svg.Text({kMargin, 71}, "class=\"figures\"", Figures(plan, stats));
+  for (size_t i = 0; i < warnings.size(); ++i) {
+    svg.Text({kMargin, kTitle + kWarningLine * static_cast<double>(i)},
+             "class=\"warning\" xml:space=\"preserve\"", warnings[i]);
+  }
   internal::DrawMap(plan, scale, svg);
   internal::DrawScaleBar(scale, svg);
-  internal::DrawLegend(plan, stats, {2 * kMargin + kMapWidth, kTitle}, svg);
+  internal::DrawLegend(plan, stats, {2 * kMargin + kMapWidth, top}, svg);
   svg.Add("</svg>");
   return svg.text();
 }

@@ -61,6 +61,21 @@ void DrawQualityBar(Column& column) {
   column.Entry("wall seen from above only, or not at all");
 }
 
+// What the match graph adds to the map.
+void DrawMatchSymbols(const Plan& plan, Column& column) {
+  if (std::ranges::find(plan.views, ViewKind::kLink, &PlannedView::kind) != plan.views.end()) {
+    column.svg.Add("<path d=\"M{:.1f} {:.1f}l-9-13a16 16 0 0 1 18 0z\" {}/>", column.X(13),
+                   column.Y(0), kLinkLook);
+    column.Entry("link photos, between those that would not match");
+  }
+  const size_t weak = WeakPhotos(plan).size();
+  if (weak == 0) return;
+  column.svg.Add("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"6\" {}/>", column.X(13), column.Y(-4),
+                 kWeakLook);
+  column.Entry(
+      fmt::format("{} photo{} that fewer than 3 should match", weak, weak == 1 ? "" : "s"));
+}
+
 void DrawSymbols(const Plan& plan, Column& column) {
   column.Heading("Map");
   const auto swatch = [&](const char* look) {
@@ -69,6 +84,10 @@ void DrawSymbols(const Plan& plan, Column& column) {
   };
   swatch("fill=\"#cfd2d8\" stroke=\"#8d929c\" stroke-width=\"0.5\"");
   column.Entry("building");
+  if (std::ranges::any_of(plan.footprints, &PlannedFootprint::is_obstacle)) {
+    swatch(kObstacleLook);
+    column.Entry("obstacle: tree, crane, wire");
+  }
   swatch("fill=\"#f6ead6\"");
   column.Entry(fmt::format("nearer than {:g} m: flown above only", plan.d_min_m));
   if (!plan.no_fly_m.empty()) {
@@ -87,24 +106,28 @@ void DrawSymbols(const Plan& plan, Column& column) {
       "stroke-width=\"1.6\"/>",
       column.X(13), column.Y(-4));
   column.Entry("photos from above");
+  DrawMatchSymbols(plan, column);
   column.svg.Add(
       "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"7\" fill=\"#fff\" stroke=\"#111\" "
       "stroke-width=\"1.4\"/>",
       column.X(13), column.Y(-4));
   column.svg.Text({column.X(13), column.Y(-0.6)}, "class=\"home small\"", "H");
-  column.Entry("home: take-off and landing");
+  column.Entry("take-off and landing");
 }
 
 void DrawFlights(const Plan& plan, Column& column) {
   column.Heading(plan.flights.size() == 1 ? "Flight" : "Flights");
   column.Note("dashed at the safe altitude, solid below it");
   column.Down(5);
+  const std::vector<Eigen::Vector3d> homes = plan.Homes();
   for (size_t i = 0; i < std::min(plan.flights.size(), kMostFlights); ++i) {
     const PlannedFlight& flight = plan.flights[i];
     column.svg.Add("<path d=\"M{:.1f} {:.1f}h26\" stroke=\"{}\" stroke-width=\"3\"/>", column.X(0),
                    column.Y(-4), Hex(FlightColor(static_cast<int>(i))));
-    column.Entry(fmt::format("{}: {:.0f} m, {:.0f} min, {:.0f} % battery", i + 1, flight.length_m,
-                             flight.time_min, flight.battery_percent));
+    const auto home = std::ranges::find(homes, plan.HomeOf(flight)) - homes.begin();
+    column.Entry(fmt::format("{}: {:.0f} m, {:.0f} min, {:.0f} % battery{}", i + 1, flight.length_m,
+                             flight.time_min, flight.battery_percent,
+                             homes.size() > 1 ? fmt::format(", H{}", home + 1) : ""));
   }
   if (plan.flights.size() > kMostFlights) {
     column.Entry(fmt::format("and {} more, colours repeat", plan.flights.size() - kMostFlights));

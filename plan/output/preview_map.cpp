@@ -42,7 +42,7 @@ Box ExtentOf(const Plan& plan) {
       box.Add(waypoint.position_m.head<2>());
     }
   }
-  box.Add(plan.home_m.head<2>());
+  for (const Eigen::Vector3d& home : plan.Homes()) box.Add(home.head<2>());
   return box;
 }
 
@@ -53,13 +53,19 @@ double SizeOf(double metres, const MapScale& scale, double least_px, double most
 
 void DrawGround(const Plan& plan, const MapScale& scale, Svg& svg) {
   PathData outlines;
+  PathData obstacles;
   for (const PlannedFootprint& footprint : plan.footprints) {
-    for (const auto& ring : footprint.rings_m) outlines.Ring(scale.Page(ring));
+    PathData& path = footprint.is_obstacle ? obstacles : outlines;
+    for (const auto& ring : footprint.rings_m) path.Ring(scale.Page(ring));
   }
   // A stroke with round joins is the dilation itself.
-  svg.Path(outlines, fmt::format("fill=\"#f6ead6\" fill-rule=\"evenodd\" stroke=\"#f6ead6\" "
-                                 "stroke-linejoin=\"round\" stroke-width=\"{:.2f}\"",
-                                 2 * plan.d_min_m * scale.px_per_m));
+  const std::string dilated = fmt::format(
+      "fill=\"#f6ead6\" fill-rule=\"evenodd\" stroke=\"#f6ead6\" stroke-linejoin=\"round\" "
+      "stroke-width=\"{:.2f}\"",
+      2 * plan.d_min_m * scale.px_per_m);
+  svg.Path(outlines, dilated);
+  svg.Path(obstacles, dilated);
+  svg.Path(obstacles, kObstacleLook);
   svg.Path(outlines,
            "fill=\"#cfd2d8\" fill-rule=\"evenodd\" stroke=\"#8d929c\" "
            "stroke-width=\"0.5\"");
@@ -87,7 +93,8 @@ void DrawNames(const Plan& plan, const MapScale& scale, Svg& svg) {
   if (plan.footprints.size() > kMost) return;
   std::set<std::string> named;
   for (const PlannedFootprint& footprint : plan.footprints) {
-    if (footprint.rings_m.empty() || !named.insert(footprint.building).second) continue;
+    if (footprint.is_obstacle || footprint.rings_m.empty()) continue;
+    if (!named.insert(footprint.building).second) continue;
     Box box;
     for (const Eigen::Vector2d& corner : footprint.rings_m.front()) box.Add(corner);
     const Eigen::Vector2d size = scale.px_per_m * (box.high - box.low);
@@ -161,7 +168,7 @@ void DrawFacades(const Plan& plan, const MapScale& scale, Svg& svg) {
 
 bool IsDipping(const PlannedView& view) {
   return view.kind == ViewKind::kDipping || view.kind == ViewKind::kDippingFoot ||
-         view.kind == ViewKind::kSurface;
+         view.kind == ViewKind::kSurface || view.kind == ViewKind::kLink;
 }
 
 // A slice of the field of view, which shows direction and angle of a photo.
@@ -196,6 +203,7 @@ void DrawViews(const Plan& plan, const MapScale& scale, Svg& svg) {
   const double radius = SizeOf(2.5, scale, 5, 18);
   const double half_fov = HalfFov(plan.camera);
   PathData wedges;
+  PathData links;
   PathData planar;
   std::map<int, PathData> dots;
   Seen seen_wedges;
@@ -207,7 +215,7 @@ void DrawViews(const Plan& plan, const MapScale& scale, Svg& svg) {
       continue;
     }
     if (IsNew(view, view.yaw_deg, seen_wedges)) {
-      AddWedge(at, view.yaw_deg, half_fov, radius, wedges);
+      AddWedge(at, view.yaw_deg, half_fov, radius, view.kind == ViewKind::kLink ? links : wedges);
     }
     if (IsNew(view, 0, seen_dots)) dots[view.flight].Dot(at);
   }
@@ -223,19 +231,40 @@ void DrawViews(const Plan& plan, const MapScale& scale, Svg& svg) {
   svg.Path(wedges,
            "fill=\"#1b1b1f\" fill-opacity=\"0.28\" stroke=\"#1b1b1f\" "
            "stroke-opacity=\"0.6\" stroke-width=\"0.35\"");
+  svg.Path(links, kLinkLook);
   for (const auto& [flight, path] : dots) {
     svg.Path(path, round("#fff", dot + 1));
     svg.Path(path, round(Hex(FlightColor(flight)).c_str(), dot));
   }
 }
 
+// A ring around each place with a photo that too few others should match.
+void DrawWeak(const Plan& plan, const MapScale& scale, Svg& svg) {
+  const double radius = SizeOf(1.6, scale, 3.5, 9);
+  Seen seen;
+  for (const WeakPhoto& photo : WeakPhotos(plan)) {
+    const PlannedView& view = plan.views[photo.view];
+    if (!IsNew(view, 0, seen)) continue;
+    const Eigen::Vector2d at = scale.Page(view.position_m.head<2>());
+    svg.Add("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" {}/>", at.x(), at.y(), radius,
+            kWeakLook);
+  }
+}
+
 void DrawHome(const Plan& plan, const MapScale& scale, Svg& svg) {
-  const Eigen::Vector2d at = scale.Page(plan.home_m.head<2>());
-  svg.Add(
-      "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"9\" fill=\"#fff\" stroke=\"#111\" "
-      "stroke-width=\"1.6\"/>",
-      at.x(), at.y());
-  svg.Text(at + Eigen::Vector2d(0, 4.2), "class=\"home\"", "H");
+  const std::vector<Eigen::Vector3d> homes = plan.Homes();
+  for (size_t i = 0; i < homes.size(); ++i) {
+    const Eigen::Vector2d at = scale.Page(homes[i].head<2>());
+    svg.Add(
+        "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"9\" fill=\"#fff\" stroke=\"#111\" "
+        "stroke-width=\"1.6\"/>",
+        at.x(), at.y());
+    if (homes.size() == 1) {
+      svg.Text(at + Eigen::Vector2d(0, 4.2), "class=\"home\"", "H");
+    } else {
+      svg.Text(at + Eigen::Vector2d(0, 3.4), "class=\"home small\"", fmt::format("H{}", i + 1));
+    }
+  }
 }
 
 }  // namespace
@@ -268,6 +297,7 @@ void DrawMap(const Plan& plan, const MapScale& scale, Svg& svg) {
   DrawPaths(plan, scale, svg);
   DrawFacades(plan, scale, svg);
   DrawViews(plan, scale, svg);
+  DrawWeak(plan, scale, svg);
   DrawNames(plan, scale, svg);
   DrawHome(plan, scale, svg);
   svg.Add("</svg>");

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plan/output/stats.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "plan/match/ties.h"
 #include "survey/files.h"
 #include "survey/numbers.h"
 
@@ -62,11 +64,46 @@ Json PartsJson(const std::vector<Interval>& parts) {
   return json;
 }
 
+Json PartsJson(const PlannedTime& parts) {
+  return {{"transfer", Metres(parts.transfer_min)},
+          {"legs", Metres(parts.legs_min)},
+          {"stops", Metres(parts.stops_min)},
+          {"photos", Metres(parts.photos_min)}};
+}
+
+Json AssumedJson(const PlannedPace& pace) {
+  return {{"speed_m_per_s", pace.speed_m_per_s},
+          {"stop_s", pace.stop_s},
+          {"photo_s", Metres(pace.hold_s + pace.shutter_s)},
+          {"yaw_deg_per_s", pace.yaw_deg_per_s},
+          {"tilt_deg_per_s", pace.tilt_deg_per_s},
+          {"wind_m_per_s", pace.wind_m_per_s}};
+}
+
 Json FacadeJson(const FacadeStats& facade) {
   Json json = {{"id", facade.id}, {"length_m", Metres(facade.length_m)}, {"views", facade.views}};
   AddQuality(facade.quality, json);
   if (!facade.unobservable_m.empty()) json["unobservable_m"] = PartsJson(facade.unobservable_m);
   return json;
+}
+
+Json MatchesJson(const MatchStats& matches) {
+  Json weakest = Json::array();
+  for (const TiedView& view : matches.weakest) {
+    Json json = {{"view", view.view},
+                 {"partners", view.partners},
+                 {"strength", Share(view.strength)},
+                 {"loose", view.is_loose}};
+    if (!view.facades.empty()) {
+      json["close"] = view.close;
+      json["facades"] = view.facades;
+    }
+    weakest.push_back(std::move(json));
+  }
+  return {{"parts", matches.parts},
+          {"bridges", matches.bridges},
+          {"loose", matches.loose},
+          {"weakest", std::move(weakest)}};
 }
 
 }  // namespace
@@ -75,6 +112,16 @@ double FacadeStats::UnobservableLength() const {
   double length = 0;
   for (const Interval& part : unobservable_m) length += part.length_m();
   return length;
+}
+
+std::vector<WeakPhoto> WeakPhotos(const Plan& plan) {
+  std::vector<WeakPhoto> weak;
+  for (size_t i = 0; i < plan.views.size(); ++i) {
+    const int partners = static_cast<int>(plan.views[i].partners.size());
+    if (partners < kFewestPartners) weak.push_back({i, plan.views[i].id, partners});
+  }
+  std::ranges::stable_sort(weak, {}, &WeakPhoto::partners);
+  return weak;
 }
 
 PlanStats StatsOf(const Plan& plan, double planning_s, double tsp_gap) {
@@ -93,7 +140,12 @@ PlanStats StatsOf(const Plan& plan, double planning_s, double tsp_gap) {
     stats.time_min += flight.time_min;
     stats.battery_percent += flight.battery_percent;
     stats.battery_by_flight.push_back(flight.battery_percent);
+    stats.parts.transfer_min += flight.parts.transfer_min;
+    stats.parts.legs_min += flight.parts.legs_min;
+    stats.parts.stops_min += flight.parts.stops_min;
+    stats.parts.photos_min += flight.parts.photos_min;
   }
+  stats.pace = plan.pace;
   stats.planning_s = planning_s;
   stats.tsp_gap = tsp_gap;
   AddFacades(plan, stats);
@@ -108,14 +160,21 @@ void WriteStats(const PlanStats& stats, const std::filesystem::path& path) {
                {"hovers", stats.hovers},
                {"length_m", Metres(stats.length_m)},
                {"time_min", Metres(stats.time_min)},
+               {"time_parts_min", PartsJson(stats.parts)},
                {"battery_percent", Metres(stats.battery_percent)},
                {"flights", stats.battery_by_flight.size()},
+               {"assumed", AssumedJson(stats.pace)},
                {"planning_s", Metres(stats.planning_s)},
                {"tsp_gap", RoundTo(stats.tsp_gap, 1e5)},
                {"wall_m", Metres(stats.wall_m)},
                {"unobservable_m", Metres(stats.unobservable_m)},
                {"mean", QualityJson(stats.mean)},
-               {"mean_by_length", QualityJson(stats.mean_by_length)}};
+               {"mean_by_length", QualityJson(stats.mean_by_length)},
+               {"horizontal_error_m", Metres(stats.horizontal_error_m)},
+               {"vertical_error_m", Metres(stats.vertical_error_m)}};
+  if (stats.flat_within_m) json["flat_within_m"] = Metres(*stats.flat_within_m);
+  json["warnings"] = stats.warnings;
+  json["matches"] = MatchesJson(stats.matches);
   std::string text = json.dump(1);
   text.resize(text.size() - 2);  // the closing brace: facades follow, a line each
   text += ",\n \"facades\": [";

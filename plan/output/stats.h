@@ -4,9 +4,11 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "plan/match/match_stats.h"
 #include "survey/plan.h"
 
 namespace stucco::plan {
@@ -21,6 +23,16 @@ struct FacadeStats {
   double UnobservableLength() const;
 };
 
+// A photo that calibration may lose: fewer than kFewestPartners others should match it.
+struct WeakPhoto {
+  size_t view = 0;  // index into the plan's
+  std::string id;
+  int partners = 0;
+};
+
+// The weakest first, photos with the same number of partners in order of capture.
+std::vector<WeakPhoto> WeakPhotos(const Plan& plan);
+
 // The figures of a plan. Everything but `planning_s` depends on the plan alone.
 struct PlanStats {
   std::string method;
@@ -32,12 +44,19 @@ struct PlanStats {
   double time_min = 0;
   double battery_percent = 0;  // of all flights together
   std::vector<double> battery_by_flight;
+  PlannedTime parts;  // of time_min
+  PlannedPace pace;   // what time and battery rest on
   double planning_s = 0;
   double tsp_gap = 0;  // tour over its lower bound, minus 1
   double wall_m = 0;
   double unobservable_m = 0;
-  FacadeQuality mean;            // over facades, each counting alike
-  FacadeQuality mean_by_length;  // over metres of wall
+  FacadeQuality mean;             // over facades, each counting alike
+  FacadeQuality mean_by_length;   // over metres of wall
+  double horizontal_error_m = 0;  // of map and drone, both a part of d_min
+  double vertical_error_m = 0;
+  std::optional<double> flat_within_m;  // assumed of the ground, where there is no terrain
+  std::vector<std::string> warnings;    // what to know before it is flown, a line each
+  MatchStats matches;                   // expected between the photos
   std::vector<FacadeStats> facades;
 };
 

@@ -38,6 +38,26 @@ std::string Energy(const PlanStats& stats) {
   return text + fmt::format(" of {:.0f} to {:.0f} %", low, high);
 }
 
+std::string Matches(const MatchStats& matches) {
+  const std::string loose =
+      matches.loose == 0 ? "no photo is loose" : fmt::format("{} photos are loose", matches.loose);
+  if (matches.parts <= 1 && matches.bridges == 0) return loose + ", all hang together";
+  return loose + fmt::format(", {} parts, {} bridges", matches.parts, matches.bridges);
+}
+
+std::string Time(const PlanStats& stats) {
+  const PlannedTime& parts = stats.parts;
+  return fmt::format(
+      "{:.1f} min: {:.1f} photos, {:.1f} stops and turns, {:.1f} legs, {:.1f} transfer",
+      stats.time_min, parts.photos_min, parts.stops_min, parts.legs_min, parts.transfer_min);
+}
+
+std::string Assumed(const PlannedPace& pace) {
+  return fmt::format("{:g} m/s, {:.1f} s a photo besides turns, {:.1f} s a stop, wind {:g} m/s",
+                     pace.speed_m_per_s, pace.hold_s + pace.shutter_s, pace.stop_s,
+                     pace.wind_m_per_s);
+}
+
 std::string FacadeRow(const FacadeStats& facade, size_t id_width) {
   const FacadeQuality& q = facade.quality;
   return fmt::format(
@@ -70,10 +90,12 @@ std::string WorstFacades(const PlanStats& stats) {
 std::string StatsTable(const PlanStats& stats) {
   std::string text = fmt::format("{}, {}\n", stats.method, stats.camera);
   text += Row("photos", fmt::format("{} ({})", stats.photos, Kinds(stats)));
+  text += Row("matches", Matches(stats.matches));
   text += Row("hovers", fmt::format("{}", stats.hovers));
   text += Row("path", fmt::format("{:.0f} m", stats.length_m));
-  text += Row("time", fmt::format("{:.1f} min", stats.time_min));
+  text += Row("time", Time(stats));
   text += Row("energy", Energy(stats));
+  text += Row("assumed", Assumed(stats.pace));
   text += Row("tour", fmt::format("{:.1f} % above its lower bound", 100 * stats.tsp_gap));
   text += Row("planned in", fmt::format("{:.1f} s", stats.planning_s));
   if (stats.facades.empty()) return text + Row("facades", "none");

@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "plan/path/energy.h"
+#include "plan/path/facade_cuts.h"
+#include "plan/path/flight_work.h"
 #include "plan/path/split.h"
 #include "survey/error.h"
 #include "survey/median.h"
@@ -20,7 +23,17 @@ using Eigen::Vector3d;
 namespace {
 
 // A flight that fits exactly still fits when its sum is rounded.
-constexpr double kRounding_m = 1e-6;
+constexpr double kRounding_percent = 1e-6;
+
+// What a facade whose photos are taken in two flights is worth: about twenty seconds.
+constexpr double kCutFacade_percent = 1;
+
+// Where flights may start.
+struct Place {
+  Vector3d ground;
+  Vector3d start;            // straight above, as low as the drone may be
+  double transfer_height_m;  // above the ground: nothing of the site reaches it
+};
 
 // What all steps need.
 struct Task {
@@ -30,19 +43,43 @@ struct Task {
   int threads;
   Progress& progress;
 
-  Vector3d Start() const {  // above home
-    const auto at = site.home.head<2>();
-    return {at.x(), at.y(), std::max(site.home.z(), site.FloorAt(at))};
+  const PlannedPace& pace() const { return battery.pace; }
+  double Percent(const FlightWork& work) const {
+    return BatteryPercent(work, battery.pace, battery.scale);
   }
-  double Climb() const { return Start().z() - site.home.z(); }
 };
+
+Vector3d StartAbove(const Site& site, const Vector3d& ground) {
+  return {ground.x(), ground.y(), std::max(ground.z(), site.FloorAt(ground.head<2>()))};
+}
+
+// As missions have it: above all that stands anywhere, and above every photo.
+Place PlaceAt(const Site& site, const Vector3d& ground, const std::vector<Hover>& hovers) {
+  double height_m = site.safe_altitude_m;
+  for (const Footprint& footprint : site.footprints) {
+    height_m = std::max({height_m, footprint.blocked_to_m - ground.z(),
+                         footprint.z_m.to_m + site.d_min_m - ground.z()});
+  }
+  for (const Hover& hover : hovers) height_m = std::max(height_m, hover.position.z() - ground.z());
+  return {ground, StartAbove(site, ground), height_m};
+}
+
+// Home first.
+std::vector<Place> PlacesOf(const Task& task, const std::vector<Hover>& hovers) {
+  std::vector<Place> places{PlaceAt(task.site, task.site.home, hovers)};
+  for (const Vector3d& ground : task.site.take_off) {
+    const Place place = PlaceAt(task.site, ground, hovers);
+    if (task.space.obstacles().IsFree(place.start)) places.push_back(place);
+  }
+  return places;
+}
 
 void ThrowIfCancelled(const Progress& progress) {
   if (progress.Cancelled()) throw Error(ErrorKind::kInterrupted, "interrupted");
 }
 
 void CheckHome(const Task& task) {
-  if (task.space.obstacles().IsFree(task.Start())) return;
+  if (task.space.obstacles().IsFree(StartAbove(task.site, task.site.home))) return;
   const Vector3d& home = task.site.home;
   const double distance = task.space.obstacles().HorizontalDistance(home.head<2>(), home.z());
   throw Error(
@@ -69,20 +106,59 @@ void CheckFree(const Task& task, const std::vector<Hover>& hovers) {
   }
 }
 
-// Leaves out what cannot be reached, and returns the distances from home of the others.
-std::vector<double> KeepReachable(const Task& task, std::vector<Hover>& hovers) {
-  std::vector<double> all(hovers.size());
-  task.progress.Begin("distances from home", hovers.size());
-  ParallelFor(hovers.size(), task.threads, [&](size_t k) {
+// Ways from one place to every hover and back, in percent of a battery.
+SplitHome CostsFrom(const Task& task, const Place& place, const std::vector<Hover>& hovers) {
+  constexpr double kNoWay = std::numeric_limits<double>::infinity();
+  const size_t n = hovers.size();
+  SplitHome home;
+  home.fixed = task.Percent(
+      GroundWork(place.transfer_height_m, place.start.z() - place.ground.z(), task.pace()));
+  home.out.assign(n, kNoWay);
+  home.back.assign(n, kNoWay);
+  home.reserve.assign(n, 0);
+  ParallelFor(n, task.threads, [&](size_t k) {
     ThrowIfCancelled(task.progress);
-    all[k] = task.space.Distance(task.Start(), hovers[k].position);
+    const Vector3d& at = hovers[k].position;
+    if (auto route = task.space.ShortestRoute(place.start, at)) {
+      home.out[k] =
+          task.Percent(TransferWork(*route, task.pace()) + FirstTiltWork(hovers[k], task.pace()));
+      std::reverse(route->points.begin(), route->points.end());
+      home.back[k] = task.Percent(TransferWork(*route, task.pace()));
+    }
+    home.reserve[k] = WayHomePercent(
+        {(at - place.ground).head<2>().norm(), at.z() - place.ground.z(), place.transfer_height_m},
+        task.pace(), task.battery.scale);
     task.progress.Advance();
   });
-  std::vector<double> distances;
+  return home;
+}
+
+std::vector<SplitHome> CostsFromHomes(const Task& task, const std::vector<Place>& places,
+                                      const std::vector<Hover>& hovers) {
+  task.progress.Begin("ways from home", places.size() * hovers.size());
+  std::vector<SplitHome> homes;
+  for (const Place& place : places) homes.push_back(CostsFrom(task, place, hovers));
+  return homes;
+}
+
+// Keeps the stops `kept` in this order.
+void Reorder(const std::vector<int>& kept, std::vector<SplitHome>& homes) {
+  for (SplitHome& home : homes) {
+    for (std::vector<double>* costs : {&home.out, &home.back, &home.reserve}) {
+      std::vector<double> ordered;
+      for (const int k : kept) ordered.push_back((*costs)[k]);
+      *costs = std::move(ordered);
+    }
+  }
+}
+
+// Leaves out what cannot be reached from home.
+void KeepReachable(const Task& task, std::vector<Hover>& hovers, std::vector<SplitHome>& homes) {
+  std::vector<int> reached;
   std::vector<Hover> kept;
   for (size_t k = 0; k < hovers.size(); ++k) {
-    if (!std::isfinite(all[k])) continue;
-    distances.push_back(all[k]);
+    if (!std::isfinite(homes.front().out[k])) continue;
+    reached.push_back(static_cast<int>(k));
     kept.push_back(std::move(hovers[k]));
   }
   if (kept.size() < hovers.size()) {
@@ -97,21 +173,37 @@ std::vector<double> KeepReachable(const Task& task, std::vector<Hover>& hovers) 
                 "give another home point (--home), or correct the no-fly polygons");
   }
   hovers = std::move(kept);
-  return distances;
+  Reorder(reached, homes);
+}
+
+double StopPercent(const Task& task, const Hover& hover) {
+  return task.Percent(StopWork(hover, task.pace()));
+}
+
+// What a flight to this hover alone uses, with the reserve, from where that is least.
+double AlonePercent(const std::vector<SplitHome>& homes, size_t hover, double stop) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const SplitHome& home : homes) {
+    least = std::min(least,
+                     home.fixed + home.out[hover] + stop + home.back[hover] + home.reserve[hover]);
+  }
+  return least;
 }
 
 void CheckBattery(const Task& task, const std::vector<Hover>& hovers,
-                  const std::vector<double>& distances) {
+                  const std::vector<SplitHome>& homes) {
   for (size_t k = 0; k < hovers.size(); ++k) {
-    const double length = 2 * (distances[k] + task.Climb());
-    const double percent = EstimateEffort(length, 1, task.battery.scale).battery_percent;
+    const double percent = AlonePercent(homes, k, StopPercent(task, hovers[k]));
     if (percent <= task.battery.use_percent) continue;
     const Vector3d& p = hovers[k].position;
     throw Error(
         ErrorKind::kBadInput,
-        fmt::format("a photo at ({:.0f}, {:.0f}, {:.0f}) m is {:.0f} m from home: there and "
-                    "back takes {:.0f} % of a battery, and a flight may use {:.0f} %",
-                    p.x(), p.y(), p.z(), distances[k], percent, task.battery.use_percent),
+        fmt::format(
+            "the photos at ({:.0f}, {:.0f}, {:.0f}) m, {:.0f} m from home, take {:.0f} % of "
+            "a battery, the ways there and back and the reserve for wind of {:g} m/s "
+            "included, and a flight may use {:.0f} %",
+            p.x(), p.y(), p.z(), (p - task.site.home).head<2>().norm(), percent,
+            task.pace().wind_m_per_s, task.battery.use_percent),
         "give a home point nearer to the buildings, split the area, or allow more with "
         "--battery-percent");
   }
@@ -131,74 +223,99 @@ std::vector<Route> FindLegs(const Task& task, const std::vector<Hover>& hovers) 
   return legs;
 }
 
-std::vector<Stretch> Split(const Task& task, const std::vector<double>& home_m,
-                           const std::vector<Route>& legs) {
+// A tour with all that its flights are made of.
+struct Cuttable {
+  std::vector<Hover> hovers;
+  std::vector<Route> legs;  // to the next, the last to the first
+  std::vector<Place> places;
+  std::vector<SplitHome> homes;  // by place, for hovers in the tour's order
+
+  const Hover& At(int k) const { return hovers[k % hovers.size()]; }
+  const Route& LegFrom(int k) const { return legs[k % legs.size()]; }
+};
+
+std::vector<Stretch> Split(const Task& task, const Cuttable& tour) {
   SplitProblem problem;
-  problem.home_m = home_m;
-  for (const Route& leg : legs) problem.next_m.push_back(leg.length_m);
-  const double per_metre = EstimateEffort(1, 0, task.battery.scale).battery_percent;
-  const double per_stop = EstimateEffort(0, 1, task.battery.scale).battery_percent;
-  problem.length_budget_m = task.battery.use_percent / per_metre - 2 * task.Climb() + kRounding_m;
-  problem.stop_length_m = per_stop / per_metre;
+  problem.homes = tour.homes;
+  const std::vector<int> divided = FacadesDivided(tour.hovers, task.site.facades.size());
+  for (int k = 0; k < static_cast<int>(tour.hovers.size()); ++k) {
+    const FlightWork hop = HopWork(tour.At(k), tour.LegFrom(k), tour.At(k + 1), task.pace());
+    problem.stop.push_back(StopPercent(task, tour.At(k)));
+    problem.next.push_back(task.Percent(hop));
+    problem.cut.push_back(kCutFacade_percent * divided[k]);
+  }
+  problem.budget = task.battery.use_percent + kRounding_percent;
   return SplitTour(problem);
 }
 
-// Adds the points of a route after the first.
-void Append(const Route& route, std::vector<PlannedWaypoint>& waypoints) {
-  for (size_t k = 1; k < route.points.size(); ++k) waypoints.push_back({route.points[k], -1});
-}
-
-// `first`: the index in order of capture of the stretch's first hover.
-PlannedFlight MakeFlight(const Task& task, const std::vector<Hover>& tour,
-                         const std::vector<Route>& legs, const Stretch& stretch, int first) {
-  const size_t n = tour.size();
-  const size_t last = (static_cast<size_t>(stretch.first) + stretch.count - 1) % n;
-  const auto out = task.space.ShortestRoute(task.Start(), tour[stretch.first].position);
-  auto back = task.space.ShortestRoute(task.Start(), tour[last].position);
-  std::reverse(back->points.begin(), back->points.end());
-  PlannedFlight flight;
-  flight.waypoints.push_back({task.Start(), -1});
-  Append(*out, flight.waypoints);
-  flight.length_m = 2 * task.Climb() + out->length_m + back->length_m;
+// For the way home from the farthest stop.
+double ReserveOf(const SplitHome& home, const Stretch& stretch) {
+  double reserve = 0;
   for (int k = 0; k < stretch.count; ++k) {
-    flight.waypoints.back().hover = first + k;
-    if (k + 1 == stretch.count) break;
-    const Route& leg = legs[(stretch.first + k) % n];
-    Append(leg, flight.waypoints);
-    flight.length_m += leg.length_m;
+    reserve = std::max(reserve, home.reserve[(stretch.first + k) % home.reserve.size()]);
   }
-  Append(*back, flight.waypoints);
-  const Effort effort = EstimateEffort(flight.length_m, stretch.count, task.battery.scale);
-  flight.time_min = effort.time_min;
-  flight.battery_percent = effort.battery_percent;
-  return flight;
+  return reserve;
 }
 
-// When each hover is reached, in minutes of flight from the first take-off.
-std::vector<double> TimesOfHovers(const FlightPlan& plan) {
-  std::vector<double> times(plan.hovers.size());
-  double before = 0;
-  for (const PlannedFlight& flight : plan.flights) {
-    double length = 0;
-    int hovers = 0;
-    for (size_t k = 0; k < flight.waypoints.size(); ++k) {
-      const PlannedWaypoint& point = flight.waypoints[k];
-      if (k > 0) length += (point.position_m - flight.waypoints[k - 1].position_m).norm();
-      if (point.hover < 0) continue;
-      times[point.hover] = before + EstimateEffort(length, hovers++, 1).time_min;
-    }
-    before += flight.time_min;
-  }
-  return times;
+struct Flown {
+  PlannedFlight flight;
+  std::vector<double> reached_min;  // each stop, after take-off
+};
+
+Route RouteBetween(const Task& task, const Vector3d& from, const Vector3d& to) {
+  const auto route = task.space.ShortestRoute(from, to);
+  if (!route) throw Error(ErrorKind::kStageFailed, "a hovering position has no safe way home");
+  return *route;
 }
 
-double MedianFacadeSpan(const FlightPlan& plan, size_t facades) {
+// Adds the points of a route after the first.
+void Append(const Route& route, PlannedFlight& flight) {
+  for (size_t k = 1; k < route.points.size(); ++k)
+    flight.waypoints.push_back({route.points[k], -1});
+  flight.length_m += route.length_m;
+}
+
+// `number`: the index in order of capture of the stretch's first hover.
+Flown MakeFlight(const Task& task, const Cuttable& tour, const Stretch& stretch, int number) {
+  const Place& place = tour.places[stretch.home];
+  const PlannedPace& pace = task.pace();
+  const int last = stretch.first + stretch.count - 1;
+  const Route out = RouteBetween(task, place.start, tour.At(stretch.first).position);
+  Route back = RouteBetween(task, place.start, tour.At(last).position);
+  std::reverse(back.points.begin(), back.points.end());
+  const double climb_m = place.start.z() - place.ground.z();
+  Flown flown;
+  PlannedFlight& flight = flown.flight;
+  flight.waypoints.push_back({place.start, -1});
+  flight.length_m = 2 * climb_m;
+  Append(out, flight);
+  FlightWork work = GroundWork(place.transfer_height_m, climb_m, pace) + TransferWork(out, pace) +
+                    FirstTiltWork(tour.At(stretch.first), pace);
+  for (int k = stretch.first; k <= last; ++k) {
+    flight.waypoints.back().hover = number + k - stretch.first;
+    flown.reached_min.push_back(work.seconds() / 60);
+    work += StopWork(tour.At(k), pace);
+    if (k == last) break;
+    Append(tour.LegFrom(k), flight);
+    work += HopWork(tour.At(k), tour.LegFrom(k), tour.At(k + 1), pace);
+  }
+  Append(back, flight);
+  work += TransferWork(back, pace);
+  flight.time_min = work.seconds() / 60;
+  flight.battery_percent = task.Percent(work);
+  flight.reserve_percent = ReserveOf(tour.homes[stretch.home], stretch);
+  flight.parts = TimeParts(work);
+  flight.home_m = place.ground;
+  return flown;
+}
+
+// `times`: when each hover is reached, in minutes of flight from the first take-off.
+double MedianFacadeSpan(const FlightPlan& plan, const std::vector<double>& times, size_t facades) {
   struct Span {
     double from = 0;
     double to = 0;
     int hovers = 0;
   };
-  const std::vector<double> times = TimesOfHovers(plan);
   std::vector<Span> spans(facades);
   for (size_t h = 0; h < plan.hovers.size(); ++h) {
     for (const Shot& shot : plan.hovers[h].shots) {
@@ -216,6 +333,24 @@ double MedianFacadeSpan(const FlightPlan& plan, size_t facades) {
   return Median(std::move(lengths)).value_or(0);
 }
 
+FlightPlan Fly(const Task& task, const Cuttable& tour, const std::vector<Stretch>& stretches,
+               const TourReport& report) {
+  FlightPlan plan;
+  plan.tour = report;
+  std::vector<double> times;
+  for (const Stretch& stretch : stretches) {
+    Flown flown = MakeFlight(task, tour, stretch, static_cast<int>(plan.hovers.size()));
+    for (const double reached : flown.reached_min) times.push_back(plan.time_min + reached);
+    for (int k = 0; k < stretch.count; ++k) plan.hovers.push_back(tour.At(stretch.first + k));
+    plan.length_m += flown.flight.length_m;
+    plan.time_min += flown.flight.time_min;
+    plan.battery_percent += flown.flight.battery_percent;
+    plan.flights.push_back(std::move(flown.flight));
+  }
+  plan.median_facade_span_min = MedianFacadeSpan(plan, times, task.site.facades.size());
+  return plan;
+}
+
 }  // namespace
 
 FlightPlan PlanFlights(const Site& site, const Battery& battery, std::vector<Hover> hovers,
@@ -225,31 +360,20 @@ FlightPlan PlanFlights(const Site& site, const Battery& battery, std::vector<Hov
   const Task task{site, space, battery, threads, progress};
   CheckHome(task);
   CheckFree(task, hovers);
-  const std::vector<double> given_home_m = KeepReachable(task, hovers);
-  CheckBattery(task, hovers, given_home_m);
+  Cuttable cuttable;
+  cuttable.places = PlacesOf(task, hovers);
+  cuttable.homes = CostsFromHomes(task, cuttable.places, hovers);
+  KeepReachable(task, hovers, cuttable.homes);
+  CheckBattery(task, hovers, cuttable.homes);
   ThrowIfCancelled(progress);
   Tour tour = PlanTour(space, std::move(hovers), threads, progress);
   ThrowIfCancelled(progress);
 
-  const std::vector<Route> legs = FindLegs(task, tour.hovers);
-  std::vector<double> home_m;
-  for (const int k : tour.given) home_m.push_back(given_home_m[k]);
-  FlightPlan plan;
-  plan.tour = tour.report;
-  int first = 0;
-  for (const Stretch& stretch : Split(task, home_m, legs)) {
-    plan.flights.push_back(MakeFlight(task, tour.hovers, legs, stretch, first));
-    first += stretch.count;
-    const PlannedFlight& flight = plan.flights.back();
-    plan.length_m += flight.length_m;
-    plan.time_min += flight.time_min;
-    plan.battery_percent += flight.battery_percent;
-    for (int k = 0; k < stretch.count; ++k) {
-      plan.hovers.push_back(tour.hovers[(stretch.first + k) % tour.hovers.size()]);
-    }
-  }
-  plan.median_facade_span_min = MedianFacadeSpan(plan, site.facades.size());
-  return plan;
+  cuttable.hovers = std::move(tour.hovers);
+  cuttable.legs = FindLegs(task, cuttable.hovers);
+  Reorder(tour.given, cuttable.homes);
+  CheckBattery(task, cuttable.hovers, cuttable.homes);  // photos are in another order now
+  return Fly(task, cuttable, Split(task, cuttable), tour.report);
 }
 
 }  // namespace stucco::plan

@@ -9,35 +9,41 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kMostWork = 4e8;  // stretches looked at
+constexpr double kMostWork = 2e8;  // stretches from homes looked at
 
 struct Best {
   int flights = std::numeric_limits<int>::max();
-  double length_m = 0;
+  double cost = 0;
   int before = 0;  // stops before the last flight
+  int home = 0;    // of the last flight
 
   bool operator<(const Best& other) const {
-    return std::tie(flights, length_m) < std::tie(other.flights, other.length_m);
+    return std::tie(flights, cost) < std::tie(other.flights, other.cost);
   }
 };
 
 class Splitter {
  public:
   explicit Splitter(const SplitProblem& problem)
-      : problem_(problem), stops_(static_cast<int>(problem.home_m.size())) {}
+      : problem_(problem), stops_(static_cast<int>(problem.stop.size())) {}
 
-  // Calls fn(count, length) for the flights from stop `first` that the battery allows.
+  // Calls fn(count, cost, home) for the flights from stop `first` that the battery allows.
   template <typename Fn>
   void ForFlights(int first, int most, const Fn& fn) const {
-    double length = problem_.home_m[first];
-    int last = first;
-    for (int count = 1; count <= most; ++count) {
-      const double budget = problem_.length_budget_m - count * problem_.stop_length_m;
-      if (length > budget) return;
-      const double whole = length + problem_.home_m[last];
-      if (whole <= budget) fn(count, whole);
-      length += problem_.next_m[last];
-      last = last + 1 == stops_ ? 0 : last + 1;
+    for (size_t home = 0; home < problem_.homes.size(); ++home) {
+      const SplitHome& from = problem_.homes[home];
+      double cost = from.fixed + from.out[first];
+      double budget = problem_.budget;
+      int last = first;
+      for (int count = 1; count <= most; ++count) {
+        cost += problem_.stop[last];
+        budget = std::min(budget, problem_.budget - from.reserve[last]);
+        if (!(cost <= budget)) break;
+        const double whole = cost + from.back[last];
+        if (whole <= budget) fn(count, whole + problem_.cut[last], static_cast<int>(home));
+        cost += problem_.next[last];
+        last = last + 1 == stops_ ? 0 : last + 1;
+      }
     }
   }
 
@@ -47,12 +53,23 @@ class Splitter {
     best[0].flights = 0;
     for (int k = 0; k < stops_; ++k) {
       if (best[k].flights == std::numeric_limits<int>::max()) continue;
-      ForFlights((start + k) % stops_, stops_ - k, [&](int count, double length) {
-        const Best through{best[k].flights + 1, best[k].length_m + length, k};
+      ForFlights((start + k) % stops_, stops_ - k, [&](int count, double cost, int home) {
+        const Best through{best[k].flights + 1, best[k].cost + cost, k, home};
         if (through < best[k + count]) best[k + count] = through;
       });
     }
     return best;
+  }
+
+  // Whichever flight visits the first stop, the next begins at most this many stops later.
+  int Starts() const {
+    int starts = 0;
+    for (double cost = 0; starts < stops_; ++starts) {
+      cost += problem_.stop[starts];
+      if (cost > problem_.budget) break;
+      cost += problem_.next[starts];
+    }
+    return std::min(starts + 1, stops_);
   }
 
  private:
@@ -60,21 +77,26 @@ class Splitter {
   int stops_;
 };
 
+std::vector<Stretch> StretchesOf(const std::vector<Best>& solution, int start) {
+  const int stops = static_cast<int>(solution.size()) - 1;
+  std::vector<Stretch> stretches;
+  for (int k = stops; k > 0; k = solution[k].before) {
+    const int before = solution[k].before;
+    stretches.push_back({(start + before) % stops, k - before, solution[k].home});
+  }
+  std::reverse(stretches.begin(), stretches.end());
+  return stretches;
+}
+
 }  // namespace
 
 std::vector<Stretch> SplitTour(const SplitProblem& problem) {
-  const int stops = static_cast<int>(problem.home_m.size());
+  const int stops = static_cast<int>(problem.stop.size());
   if (stops == 0) return {};
   const Splitter splitter(problem);
-  // Whichever flight visits the first stop, the next begins at most this many stops later.
-  int starts = 0;
-  for (double length = 0; starts < stops; ++starts) {
-    if (length > problem.length_budget_m - (starts + 1) * problem.stop_length_m) break;
-    length += problem.next_m[starts];
-  }
-  starts = std::min(starts + 1, stops);
-  const int tried =
-      std::clamp(static_cast<int>(kMostWork / (static_cast<double>(stops) * starts)), 1, starts);
+  const int starts = splitter.Starts();
+  const double work = static_cast<double>(stops) * starts * problem.homes.size();
+  const int tried = std::clamp(static_cast<int>(kMostWork / work), 1, starts);
   int best_start = 0;
   Best best;
   for (int k = 0; k < tried; ++k) {
@@ -85,14 +107,7 @@ std::vector<Stretch> SplitTour(const SplitProblem& problem) {
       best_start = start;
     }
   }
-  const std::vector<Best> solution = splitter.Solve(best_start);
-  std::vector<Stretch> stretches;
-  for (int k = stops; k > 0; k = solution[k].before) {
-    const int before = solution[k].before;
-    stretches.push_back({(best_start + before) % stops, k - before});
-  }
-  std::reverse(stretches.begin(), stretches.end());
-  return stretches;
+  return StretchesOf(splitter.Solve(best_start), best_start);
 }
 
 }  // namespace stucco::plan

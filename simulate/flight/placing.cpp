@@ -98,12 +98,15 @@ void RequireSamePlace(const Plan& plan, const PlacedPlan& placed, const SceneSha
                                    scene.box.max().head<2>().eval());
   Eigen::AlignedBox2d all;
   size_t met = 0;
+  size_t buildings = 0;
   for (const PlannedFootprint& footprint : plan.footprints) {
+    if (footprint.is_obstacle) continue;
+    ++buildings;
     const Eigen::AlignedBox2d box = BoxOf(placed, footprint);
     all.extend(box);
     if (ground.intersects(box)) ++met;
   }
-  if (plan.footprints.empty()) return;
+  if (buildings == 0) return;
   constexpr double kTimes = 20;
   const double ratio = ground.diagonal().norm() / std::max(all.diagonal().norm(), 1.0);
   if (!(ratio > 1 / kTimes)) {
@@ -113,11 +116,11 @@ void RequireSamePlace(const Plan& plan, const PlacedPlan& placed, const SceneSha
                             SizeText(ground), SizeText(all)),
                 kModelHint);
   }
-  if (2 * met >= plan.footprints.size()) return;
+  if (2 * met >= buildings) return;
   throw Error(ErrorKind::kBadInput,
               fmt::format("the plan is for another place: {} of its {} buildings are where the "
                           "scene is; their middle is {:.0f} m from the scene's",
-                          met, plan.footprints.size(), (all.center() - ground.center()).norm()),
+                          met, buildings, (all.center() - ground.center()).norm()),
               kModelHint);
 }
 

@@ -227,8 +227,8 @@ PhotoMetadata MetadataOf(const PreparedFlight& prepared, size_t photo,
   if (!options.rtk) metadata.height_m -= options.geoid_m;
   // Barometers are good to a decimetre within a flight.
   constexpr double kBarometer_m = 0.1;
-  metadata.above_takeoff_m =
-      shot.position_m.z() - prepared.plan.home_m.z() + kBarometer_m * of_photo.Normal();
+  metadata.above_takeoff_m = shot.position_m.z() - prepared.plan.HomeOf(shot.flight).z() +
+                             kBarometer_m * of_photo.Normal();
   metadata.gimbal = shot.angles;
   metadata.gimbal.yaw_deg += options.gimbal_noise_deg * of_photo.Normal();
   metadata.gimbal.pitch_deg += options.gimbal_noise_deg * of_photo.Normal();

@@ -23,8 +23,7 @@ constexpr uint64_t kViewSeed = 0x71E3;
 constexpr uint64_t kChoiceSeed = 0xC401;
 constexpr uint64_t kHeldOutSeed = 0x8E1D;
 
-constexpr double kBetweenPhotos_s = 2.5;  // at one stop: turn the gimbal, settle, shoot
-constexpr double kTwice_s = 0.7;          // between a photo and its double
+constexpr double kTwice_s = 0.7;  // between a photo and its double
 constexpr double kNewBattery_s = 240;
 
 std::vector<int> ViewsInOrder(const Plan& plan) {
@@ -51,17 +50,20 @@ std::vector<bool> Chosen(const std::vector<bool>& left_out, double share, uint64
 
 // Time from one view to the next along the way that was planned.
 double SecondsBetween(const Plan& plan, const PlannedView* from, const PlannedView& to) {
-  const auto effort_s = [](double length_m, int hovers) {
-    return 60 * plan::EstimateEffort(length_m, hovers, 1).time_min;
-  };
-  const double home_m = (to.position_m - plan.home_m).norm();
   if (from == nullptr) return 0;
+  const PlannedPace& pace = plan.pace;
+  const double photo_s = plan::PhotoSeconds(pace);
   if (from->flight != to.flight) {
-    const double back_m = (from->position_m - plan.home_m).norm();
-    return effort_s(back_m + home_m, 1) + kNewBattery_s;
+    const double feeders_m = (from->position_m - plan.HomeOf(from->flight)).norm() +
+                             (to.position_m - plan.HomeOf(to.flight)).norm();
+    return plan::LegSeconds(feeders_m, pace) + pace.ground_s + kNewBattery_s + pace.stop_s +
+           photo_s;
   }
-  if (from->hover == to.hover) return kBetweenPhotos_s;
-  return effort_s((to.position_m - from->position_m).norm(), 1);
+  const double turn_s = plan::TurnSeconds(from->yaw_deg, to.yaw_deg, pace);
+  const double tilt_s = plan::TiltSeconds(from->pitch_deg, to.pitch_deg, pace);
+  if (from->hover == to.hover) return turn_s + tilt_s + photo_s;
+  const double leg_s = plan::LegSeconds((to.position_m - from->position_m).norm(), pace);
+  return std::max(leg_s, turn_s) + pace.stop_s + tilt_s + photo_s;
 }
 
 // Walks through the days: photos are taken between the hour of the start and the lowest sun.
@@ -130,6 +132,7 @@ Shot RealShot(const Plan& plan, int index, const FlightOptions& options) {
   constexpr double kDriftShare = 0.1;
   Shot shot;
   shot.view = index;
+  shot.flight = view.flight;
   shot.position_m =
       view.position_m + options.position_sigma_m *
                             (at_hover.NormalVector() * std::sqrt(1 - kDriftShare * kDriftShare) +

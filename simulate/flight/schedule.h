@@ -15,7 +15,8 @@ namespace stucco::simulate {
 
 // When and from where a photo is really taken, in the frame of the plan.
 struct Shot {
-  int view = -1;  // index into Plan::views; -1: held out
+  int view = -1;   // index into Plan::views; -1: held out
+  int flight = 0;  // in which it was taken
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   GimbalAngles angles;
   int day = 0;            // 1 is January 1 of 2026

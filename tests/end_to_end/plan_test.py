@@ -57,7 +57,8 @@ class GoodMaps(Plan):
         done = self.plan(self.map(HOUSES))
         self.assertEqual(done.returncode, 0, done.stderr)
         folder = self.root / "survey/plan"
-        for name in ("plan.json", "stats.json", "preview.svg", "mission.kml", "plan.geojson"):
+        for name in ("plan.json", "stats.json", "preview.svg", "coverage.svg",
+                     "checklist.html", "mission.kml", "plan.geojson"):
             self.assertGreater((folder / name).stat().st_size, 500, name)
         checked = subprocess.run(
             [sys.executable, stucco.ROOT / "bench/plan_check.py", folder / "plan.json",
@@ -72,6 +73,62 @@ class GoodMaps(Plan):
         for facade in stats["facades"]:
             for term in ("q_s", "q_d", "q_u", "q_c"):
                 self.assertTrue(0 <= facade[term] <= 1, facade)
+
+    def test_missions_command_the_time_that_the_plan_says(self):
+        done = self.plan(self.map(HOUSES), "--gsd", 0.05, "--wind", 6, "--battery-percent", 30)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("wind 6 m/s", done.stdout)
+        folder = self.root / "survey/plan"
+        counted = subprocess.run([sys.executable, stucco.ROOT / "bench/count_missions.py", folder],
+                                 capture_output=True, text=True, check=False)
+        self.assertEqual(counted.returncode, 0, counted.stdout + counted.stderr)
+        plan = json.loads((folder / "plan.json").read_text())
+        self.assertEqual(plan["pace"]["wind_m_per_s"], 6)
+        self.assertGreater(len(plan["flights"]), 1)
+        for flight in plan["flights"]:
+            self.assertLessEqual(flight["battery_percent"] + flight["reserve_percent"], 30.002)
+            self.assertAlmostEqual(sum(flight["parts"].values()), flight["time_min"], delta=0.005)
+
+    def test_flights_start_at_the_home_that_is_given(self):
+        home = degrees(-20, -40)
+        done = self.plan(self.map(HOUSES), "--gsd", 0.05, "--battery-percent", 30, "--home",
+                         f"{home[1]:.7f},{home[0]:.7f}")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        plan = json.loads((self.root / "survey/plan/plan.json").read_text())
+        self.assertGreater(len(plan["flights"]), 1)
+        for flight in plan["flights"]:
+            self.assertEqual(flight["home_m"], plan["home_m"])
+
+    def test_keeps_clear_of_obstacles_and_says_what_to_mind(self):
+        house = self.map([feature([box(0, 0, 12, 10)], id=1, height=9)])
+        trees = self.map([feature([box(20, -30, 26, -24)], height=12),
+                          feature([box(-30, 0, -26, 4)], height="14 m")], "trees.geojson")
+        done = self.plan(house, "--obstacles", trees, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        folder = self.root / "survey/plan"
+        stats = json.loads((folder / "stats.json").read_text())
+        self.assertEqual(json.loads(done.stdout)["warnings"], stats["warnings"])
+        preview = (folder / "preview.svg").read_text()
+        for words in ("--terrain", "trees, lamps and wires"):
+            self.assertTrue(any(words in line for line in stats["warnings"]), stats["warnings"])
+            self.assertIn(words, preview)
+        plan = json.loads((folder / "plan.json").read_text())
+        self.assertEqual([f["building"] for f in plan["footprints"] if f.get("obstacle")],
+                         ["O0002", "O0001"])
+        self.assertEqual(plan["safe_altitude_m"], 24)
+        checked = subprocess.run([sys.executable, stucco.ROOT / "bench/plan_check.py",
+                                  folder / "plan.json", "--samples", "60"], capture_output=True,
+                                 text=True, check=False)
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        quiet = self.plan(house, "--obstacles", trees, "--quiet", survey="quiet")
+        self.assertIn("warning: no terrain was given", quiet.stderr)
+
+    def test_plans_a_single_shed(self):
+        done = self.plan(self.map([feature([box(0, 0, 3, 2.5)], id=1, height=2.4)]))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        stats = json.loads((self.root / "survey/plan/stats.json").read_text())
+        self.assertEqual(len(stats["facades"]), 4)
+        self.assertTrue(all(facade["views"] > 0 for facade in stats["facades"]))
 
     def test_every_photo_of_the_mission_carries_the_id_of_its_view(self):
         self.assertEqual(self.plan(self.map(HOUSES)).returncode, 0)
@@ -163,6 +220,18 @@ class BadMaps(Plan):
         self.assertIn("altitude", self.refused(bare))
         self.assertEqual(self.plan(bare, "--altitude", 30).returncode, 0)
 
+    def test_storeys_are_no_heights(self):
+        storeys = feature([box(0, 0, 12, 10)], **{"id": 1, "building:levels": "4"})
+        message = self.refused(self.map([storeys]))
+        self.assertIn("building:levels", message)
+        self.assertIn("--altitude 35", message)
+
+    def test_an_altitude_below_an_obstacle_is_refused(self):
+        crane = self.map([feature([box(30, -40, 34, -36)], height=45)], "crane.geojson")
+        message = self.refused(self.map(HOUSES), "--obstacles", crane, "--altitude", 40, code=2)
+        self.assertIn("O0001 is 45.0 m high", message)
+        self.assertIn("--altitude 55", message)
+
     def test_an_altitude_below_a_building_is_refused(self):
         self.assertIn("B0004", self.refused(self.map(HOUSES), "--altitude", 15, code=2))
 
@@ -186,6 +255,7 @@ class BadMaps(Plan):
 
     def test_a_camera_that_cannot_see_so_finely_is_refused(self):
         self.assertIn("gsd_m", self.refused(self.map(HOUSES), "--gsd", 0.002, code=2))
+        self.assertIn("wind_m_per_s", self.refused(self.map(HOUSES), "--wind", 40, code=2))
         self.assertIn("mavic-3e", self.refused(self.map(HOUSES), "--camera", "mavik-3e", code=2))
 
     def test_repairs_are_reported_and_the_plan_is_still_safe(self):

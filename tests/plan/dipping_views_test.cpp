@@ -97,9 +97,9 @@ TEST(DippingViews, CaptureNothingInNarrowCourtyards) {
   for (size_t i = 0; i < 8; ++i) EXPECT_NEAR(Length(missed[i]), i < 4 ? 0 : 16, 0.05) << i;
 }
 
-// From 6 m beside the line of a wall of 0.7 m, a level photo at 5 m ends above it.
+// A level photo from 8 m up, 12 m from a wall of 0.7 m, ends above it.
 TEST(Lift, TakesNoPhotoThatMissesItsWall) {
-  const Scene scene(MadeSite({Rectangle(-6, -5, 6, 5)}, {.heights_m = {0.7}}));
+  const Scene scene(MadeSite({Rectangle(-6, -5, 6, 5)}, {.min_altitude_m = 8, .heights_m = {0.7}}));
   const std::vector<Level> levels = SplitIntoLevels(scene.site);
   const Vector2d p(16.5, -11);
   const double turn = TurnTowards(scene.site.facades[0], p, 12);
@@ -115,17 +115,47 @@ TEST(Lift, TakesNoPhotoThatMissesItsWall) {
 TEST(Lift, OnePhotoHoldsALowWall) {
   const Scene scene(MadeSite({Rectangle(-6, -5, 6, 5)}, {.heights_m = {8}}));
   const std::vector<Level> levels = SplitIntoLevels(scene.site);
-  const Facade& south = scene.site.facades[0];
-  const Dip dip = MakeDip(levels[0], scene.setting, south, {0, -17});
+  const Dip dip = MakeDip(levels[0], scene.setting, {0, -17}, {0, 0, false, {{0, 12}}});
   ASSERT_EQ(dip.z_m.size(), 1u);
   EXPECT_NEAR(dip.z_m[0], 5, 0.5);  // the lowest allowed
   EXPECT_FALSE(dip.foot_pitch.has_value());
 }
 
+// Turned by 60 degrees, a photo from 10 m beside the wall's line shows what is 20 m away.
+TEST(Lift, ATurnedPhotoShowsWhatItsSlantDistanceGives) {
+  const Scene scene(MadeSite({Rectangle(-6, -5, 6, 5)}, {.heights_m = {40}}));
+  const std::vector<Level> levels = SplitIntoLevels(scene.site);
+  const double aside = 10 * std::tan(M_PI / 3);
+  const Vector2d p(aside, -15);  // looks at the middle of the wall, 6 m from its a
+  const Dip straight = MakeDip(levels[0], scene.setting, {0, -15}, {0, 0, false, {{5.5, 6.5}}});
+  const Dip turned = MakeDip(levels[0], scene.setting, p,
+                             {0, TurnTowards(scene.site.facades[0], p, 6), false, {{5.5, 6.5}}});
+  EXPECT_NEAR(turned.height_m, 2 * straight.height_m, 0.1 * straight.height_m);
+  EXPECT_LT(turned.z_m.size(), straight.z_m.size());
+}
+
+TEST(DippingViews, NeighboursOnALongWallOverlap) {
+  const Scene scene(MadeSite({Rectangle(-40, -5, 40, 5)}, {.heights_m = {6}}));
+  std::vector<Interval> parts;
+  for (const Hover& hover : Plan(scene).hovers) {
+    for (const Shot& shot : hover.shots) {
+      const double half = scene.setting.width_per_m / 2 * (-hover.position.y() - 5);
+      if (shot.targets.front().facade != 0) continue;
+      parts.push_back({hover.position.x() - half, hover.position.x() + half});  // frontal
+    }
+  }
+  ASSERT_GE(parts.size(), 3u);
+  std::ranges::sort(parts, {}, &Interval::from_m);
+  for (size_t i = 1; i < parts.size(); ++i) {
+    const double shared = parts[i - 1].to_m - parts[i].from_m;
+    EXPECT_GE(shared, 0.2 * std::min(parts[i - 1].length_m(), parts[i].length_m())) << i;
+  }
+}
+
 TEST(Lift, PhotosOfAHighWallOverlapByAFifthAndHoldTopAndFoot) {
   const Scene scene(MadeSite({Rectangle(-6, -5, 6, 5)}, {.heights_m = {45}}));
   const std::vector<Level> levels = SplitIntoLevels(scene.site);
-  const Dip dip = MakeDip(levels[0], scene.setting, scene.site.facades[0], {0, -20});
+  const Dip dip = MakeDip(levels[0], scene.setting, {0, -20}, {0, 0, false, {{0, 12}}});
   ASSERT_GE(dip.z_m.size(), 3u);
   const double half = dip.height_m / 2;
   EXPECT_GT(dip.z_m.front() + half, 45);
@@ -140,7 +170,7 @@ TEST(Lift, AFootThatIsOutOfSightGetsATiltedPhotoThatShowsIt) {
                        {.d_min_m = 10, .min_altitude_m = 12, .heights_m = {30}}));
   const std::vector<Level> levels = SplitIntoLevels(scene.site);
   const Vector2d p(0, -16);
-  const Dip dip = MakeDip(levels[0], scene.setting, scene.site.facades[0], p);
+  const Dip dip = MakeDip(levels[0], scene.setting, p, {0, 0, false, {{0, 12}}});
   ASSERT_TRUE(dip.foot_pitch.has_value());
   const double half_fov = std::atan(dip.height_m / 2 / 11);
   const double to_foot = -std::atan2(dip.z_m.back(), 11.0);

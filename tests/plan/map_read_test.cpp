@@ -95,7 +95,8 @@ TEST(ReadMap, EveryFormatGivesTheSameSite) {
   WriteOsm(folder / "map.osm", Hamlet());
   WriteCityJson(folder / "map.city.json", Hamlet());
   const Site expected = ReadSite({.map = folder / "map.geojson"}, {});
-  EXPECT_EQ(expected.facades.size(), 3u + 8u + 4u);  // the party wall is 10 of the house's 12 m
+  // The party wall is 10 of the house's 12 m; the neighbour rises 2.5 m above it.
+  EXPECT_EQ(expected.facades.size(), 3u + 8u + 5u);
   EXPECT_EQ(expected.safe_altitude_m, 25);
   EXPECT_THAT(expected.repairs, ElementsAre());
   for (const char* name : {"map.gpkg", "map.shp", "map.osm", "map.city.json"}) {
@@ -124,7 +125,8 @@ TEST(ReadMap, OsmReadsBuildingsAndTheirPartsOnly) {
   const RawMap map = ReadMap(folder / "map.osm", {});
   // GDAL gives relations first.
   EXPECT_THAT(Ids(map), ElementsAre("BR1", "B0001", "B0002"));
-  EXPECT_THAT(map.features[1].height_m, Optional(9.0));
+  EXPECT_FALSE(map.features[1].height_m);
+  EXPECT_THAT(map.features[1].guessed_height_m, Optional(12.0));
   EXPECT_FALSE(map.features[1].is_part);
   EXPECT_TRUE(map.features[2].is_part);
   EXPECT_THAT(map.features[2].height_m, Optional(testing::DoubleNear(9.144, 1e-9)));
@@ -141,7 +143,7 @@ TEST(ReadMap, OsmAsPbf) {
   WriteOsm(folder / "map.osm", buildings);
   WriteOsmPbf(folder / "map.osm.pbf", buildings);
   const Site expected = ReadSite({.map = folder / "map.osm"}, {});
-  EXPECT_EQ(expected.facades.size(), 3u + 4u + 4u);
+  EXPECT_EQ(expected.facades.size(), 3u + 4u + 5u);
   EXPECT_EQ(Described(ReadSite({.map = folder / "map.osm.pbf"}, {})), Described(expected));
 }
 
@@ -160,10 +162,12 @@ TEST(ReadMap, HeightAttributesInTheirOrder) {
   const RawMap map = ReadMap(folder / "a.geojson", {});
   EXPECT_THAT(map.features[0].height_m, Optional(7.5));
   EXPECT_THAT(map.features[1].height_m, Optional(9.0));
-  EXPECT_THAT(map.features[2].height_m, Optional(12.0));
+  EXPECT_FALSE(map.features[2].height_m);
+  EXPECT_THAT(map.features[2].guessed_height_m, Optional(16.0));
   EXPECT_FALSE(map.features[3].height_m);
   EXPECT_FALSE(map.features[4].height_m);
-  EXPECT_THAT(map.features[5].height_m, Optional(6.0));
+  EXPECT_FALSE(map.features[5].height_m);
+  EXPECT_THAT(map.features[5].guessed_height_m, Optional(8.0));
   EXPECT_FALSE(map.features[6].height_m);
   EXPECT_THAT(map.features[7].height_m, Optional(10.0));
   EXPECT_EQ(map.features[7].min_height_m, 0);
@@ -174,6 +178,70 @@ TEST(ReadMap, HeightAttributesInTheirOrder) {
   PlanOptions options;
   options.height_field = "roof";
   EXPECT_THAT(ReadMap(folder / "a.geojson", options).features[8].height_m, Optional(11.0));
+}
+
+TEST(ReadMap, StoreysAndRoofsAreGuesses) {
+  const TempFolder folder;
+  const Polygon square{{Rectangle(0, 0, 10, 10)}};
+  WriteGeoJson(folder / "a.geojson",
+               {{square, {{"building:levels", "5"}, {"roof:levels", "1"}}},
+                {square, {{"building:levels", "5"}, {"roof:levels", "1"}, {"roof:height", "6 m"}}},
+                {square, {{"height", "20"}, {"roof:height", "6"}, {"building:levels", "4"}}},
+                {square, {{"height", "5"}, {"roof:height", "6"}}},
+                {square, {{"height", "4"}, {"building:levels", "5"}}},
+                {square, {{"building:levels", "five"}}},
+                {square, {{"building:levels", "6"}, {"building:min_level", "2"}}},
+                {square, {{"building:levels", "900"}}}});
+  const RawMap map = ReadMap(folder / "a.geojson", {});
+  const auto guess = [&](size_t i) { return map.features[i].guessed_height_m; };
+  EXPECT_THAT(guess(0), Optional(24.0));  // up to 4 m each
+  EXPECT_THAT(guess(1), Optional(26.0));
+  EXPECT_THAT(map.features[2].height_m, Optional(20.0));  // the roof is a part of it
+  EXPECT_THAT(map.features[3].height_m, Optional(11.0));  // the eaves, as it seems
+  EXPECT_FALSE(map.features[4].height_m);
+  EXPECT_THAT(guess(4), Optional(20.0));
+  EXPECT_FALSE(guess(5));
+  EXPECT_THAT(guess(6), Optional(24.0));
+  EXPECT_EQ(map.features[6].min_height_m, 6);
+  EXPECT_FALSE(guess(7));
+  EXPECT_THAT(map.repairs.Lines(), ElementsAre(HasSubstr("4 m is impossible for its storeys")));
+  PlanOptions options;
+  options.height_field = "height";  // then nothing but it
+  EXPECT_FALSE(ReadMap(folder / "a.geojson", options).features[0].guessed_height_m);
+}
+
+TEST(ReadMap, OsmHasRoofs) {
+  const TempFolder folder;
+  WriteOsm(folder / "map.osm",
+           {{{{Rectangle(0, 0, 20, 10)}},
+             {{"building", "yes"}, {"building:levels", "3"}, {"roof:height", "5"}}}});
+  EXPECT_THAT(ReadMap(folder / "map.osm", {}).features[0].guessed_height_m, Optional(17.0));
+}
+
+TEST(ReadObstacleMap, TakesPointsLinesAndPolygons) {
+  const TempFolder folder;
+  WriteFile(folder / "a.geojson", R"({"type":"FeatureCollection","features":[
+    {"type":"Feature","properties":{"height":"12"},"geometry":{"type":"Point","coordinates":[14,50]}},
+    {"type":"Feature","properties":{"height":"8","diameter_crown":"10"},
+     "geometry":{"type":"MultiPoint","coordinates":[[14,50],[14.001,50]]}},
+    {"type":"Feature","properties":{"radius":"0.5"},
+     "geometry":{"type":"LineString","coordinates":[[14,50],[14.001,50],[14.001,50.001]]}},
+    {"type":"Feature","properties":{"radius":"2"},"geometry":{"type":"Polygon","coordinates":
+     [[[14,50],[14.001,50],[14.001,50.001],[14,50]]]}}]})");
+  const RawMap map = ReadObstacleMap(folder / "a.geojson");
+  ASSERT_EQ(map.features.size(), 4u);
+  EXPECT_EQ(map.features[0].radius_m, 3);
+  EXPECT_EQ(map.features[0].polygons[0].rings[0].size(), 1u);
+  EXPECT_THAT(map.features[0].height_m, Optional(12.0));
+  EXPECT_EQ(map.features[1].radius_m, 5);
+  EXPECT_EQ(map.features[1].polygons.size(), 2u);
+  EXPECT_EQ(map.features[2].radius_m, 0.5);
+  EXPECT_EQ(map.features[2].polygons[0].rings[0].size(), 3u);
+  EXPECT_FALSE(map.features[2].height_m);
+  EXPECT_EQ(map.features[3].radius_m, 0);
+  WriteFile(folder / "none.geojson", R"({"type":"FeatureCollection","features":[]})");
+  EXPECT_THAT(Complaint([&] { ReadObstacleMap(folder / "none.geojson"); }),
+              HasSubstr("leave the option out"));
 }
 
 TEST(ReadMap, NamedAttributesAndLayersMustExist) {
@@ -293,11 +361,30 @@ TEST(ReadCityJson, MeasuredHeightUnlessItIsAnElevation) {
     WriteFile(folder / "b.json", text);
     return ReadMap(folder / "b.json", {});
   };
-  EXPECT_THAT(with("28.5").features[0].height_m, Optional(28.5));
-  EXPECT_THAT(with("\"28.5\"").features[0].height_m, Optional(28.5));
+  EXPECT_THAT(with("31.5").features[0].height_m, Optional(31.5));
+  EXPECT_THAT(with("\"31.5\"").features[0].height_m, Optional(31.5));
+  EXPECT_THAT(with("28.5").features[0].height_m, Optional(30.0));  // the geometry is higher
   EXPECT_THAT(with("230").features[0].height_m, Optional(30.0));
   EXPECT_THAT(with("230").repairs.Lines(), ElementsAre(HasSubstr("elevation of the roof")));
   EXPECT_THAT(with("null").features[0].height_m, Optional(30.0));
+}
+
+// As in 3D BAG: elevations, of the ground and of shares of the points on the roof.
+TEST(ReadCityJson, TakesTheHighestOfTheHeights) {
+  const TempFolder folder;
+  const auto heights = [&](const std::string& attributes) {
+    std::string text = kParts;
+    const std::string house = "\"house\":{";
+    text.replace(text.find(house), house.size(), house + "\"attributes\":{" + attributes + "},");
+    WriteFile(folder / "b.json", text);
+    const RawMap map = ReadMap(folder / "b.json", {});
+    return std::vector{*map.features[0].height_m, *map.features[1].height_m};
+  };
+  EXPECT_THAT(heights(R"("b3_h_dak_max":233.5,"b3_h_dak_70p":231,"b3_h_maaiveld":199)"),
+              ElementsAre(34.5, 8));  // the tower is what is highest
+  EXPECT_THAT(heights(R"("b3_h_roof_70p":232,"b3_h_ground":200)"), ElementsAre(32, 8));
+  EXPECT_THAT(heights(R"("b3_h_max":231.5)"), ElementsAre(31.5, 8));
+  EXPECT_THAT(heights(R"("b3_h_70p":212,"b3_h_dak_max":null)"), ElementsAre(30, 8));
 }
 
 TEST(ReadCityJson, RefusesWhatIsNone) {

@@ -110,6 +110,70 @@ TEST_F(ReadSiteTest, AltitudeMustBeSaid) {
   EXPECT_EQ(site.footprints[1].z_m.to_m, 50);
 }
 
+MadeBuilding Storeys(int id, const Ring& ring, const std::string& levels) {
+  return {{{ring}}, {{"id", std::to_string(id)}, {"building:levels", levels}}};
+}
+
+TEST_F(ReadSiteTest, StoreysAreNoHeights) {
+  const std::vector<MadeBuilding> town = {House(1, Rectangle(0, 0, 9, 9)),
+                                          Storeys(2, Rectangle(30, 0, 39, 9), "5"),
+                                          House(3, Rectangle(60, 0, 69, 9), "")};
+  EXPECT_THAT(ComplaintAbout(town),
+              AllOf(HasSubstr("2 of 3 buildings have no height"),
+                    HasSubstr("1 of them have a number of storeys (building:levels)"),
+                    HasSubstr("--altitude 35"), HasSubstr("building B0002 suggests 35")));
+  options_.altitude_m = 40;
+  const Site site = Read(town);
+  EXPECT_EQ(site.footprints[1].z_m.to_m, 20);  // where its walls are expected to end
+  EXPECT_FALSE(site.footprints[1].top_known);
+  EXPECT_FALSE(site.facades[4].top_known);
+  EXPECT_EQ(site.footprints[1].blocked_to_m, 40);  // but nothing flies there
+  EXPECT_EQ(site.footprints[2].z_m.to_m, 30);
+  EXPECT_THAT(site.warnings,
+              testing::ElementsAre(HasSubstr("2 of 3 buildings have no known height (1 a number")));
+  options_.altitude_m = 25;
+  EXPECT_THAT(Read(town).warnings, testing::Contains(HasSubstr("B0002 suggest up to 20 m")));
+}
+
+TEST_F(ReadSiteTest, PartsAboveTheAltitudeAreRefused) {
+  MadeBuilding part = House(2, Rectangle(30, 0, 39, 9), "");
+  part.attributes["min_height"] = "35";
+  options_.altitude_m = 40;
+  EXPECT_THAT(ComplaintAbout({part}), HasSubstr("building B0002 is 35.0 m high"));
+}
+
+TEST_F(ReadSiteTest, ErrorsLargerThanTheDistanceAreRefused) {
+  options_.d_min_m = 4;
+  EXPECT_THAT(ComplaintAbout(Row()), AllOf(HasSubstr("may be used up"), HasSubstr("--map-error")));
+  options_.map_error_m = 0.3;
+  options_.height_error_m = 0.5;
+  options_.position_error_m = 0.2;
+  EXPECT_EQ(ComplaintAbout(Row()), "");
+}
+
+TEST_F(ReadSiteTest, AShedAndTwoThousandSheds) {
+  EXPECT_EQ(Read({House(1, Rectangle(0, 0, 3, 2.5), "2.4")}).safe_altitude_m, 12.4);
+  std::vector<MadeBuilding> sheds;
+  for (int i = 0; i < 2000; ++i) {
+    const double x = 12. * (i % 50);
+    const double y = 12. * (i / 50);
+    sheds.push_back(House(i + 1, Rectangle(x, y, x + 4, y + 3), "2.4"));
+  }
+  const Site site = Read(sheds);
+  EXPECT_EQ(site.facades.size(), 8000u);
+  EXPECT_EQ(site.safe_altitude_m, 12.4);
+  EXPECT_TRUE(site.warnings.empty());
+}
+
+TEST_F(ReadSiteTest, AreasThatCutABuildingTakeAllOfIt) {
+  inputs_.area_of_interest = Areas("area.geojson", {Rectangle(-5, -5, 10, 30)});
+  const Site site = Read(Row());
+  EXPECT_TRUE(site.footprints[0].in_area);
+  EXPECT_FALSE(site.footprints[1].in_area);
+  EXPECT_NEAR(Area(site.footprints[0].outline), 20 * 12, 0.1);
+  EXPECT_EQ(site.facades.size(), 4u);
+}
+
 TEST_F(ReadSiteTest, AltitudeBelowABuildingIsRefused) {
   options_.altitude_m = 40;
   EXPECT_THAT(
@@ -202,6 +266,39 @@ TEST_F(ReadSiteTest, DefaultHomeIsSafeAndSouth) {
     EXPECT_GE(Distance(footprint.outline, site.home.head<2>()), 11);
   }
   EXPECT_LT((site.home - open.home).norm(), 60);
+}
+
+TEST_F(ReadSiteTest, TakeOffPlacesAreSafeAndSpread) {
+  inputs_.no_fly = Areas("zones.geojson", {Rectangle(-100, 14, 240, 100)});
+  const Site site = Read(Row());
+  ASSERT_GT(site.take_off.size(), 2u);
+  std::vector<Eigen::Vector3d> places = site.take_off;
+  places.push_back(site.home);
+  for (size_t i = 0; i < places.size(); ++i) {
+    for (const Polygon& zone : site.no_fly) {
+      EXPECT_GE(Distance(zone, places[i].head<2>()), 1);
+    }
+    for (const Footprint& footprint : site.footprints) {
+      EXPECT_GE(Distance(footprint.outline, places[i].head<2>()), 11);
+    }
+    for (size_t k = 0; k < i; ++k) EXPECT_GE((places[i] - places[k]).norm(), 40);
+  }
+}
+
+TEST_F(ReadSiteTest, CourtyardsAreNoTakeOffPlaces) {
+  const Ring court = Reversed(Rectangle(30, 30, 170, 170));
+  const MadeBuilding block{{{Rectangle(0, 0, 200, 200), court}}, {{"id", "1"}, {"height", "10"}}};
+  const Site site = Read({block});
+  EXPECT_FALSE(site.take_off.empty());
+  for (const Eigen::Vector3d& place : site.take_off) {
+    const Eigen::Vector2d middle = In(site, 100, 100);
+    EXPECT_GT((place.head<2>() - middle).cwiseAbs().maxCoeff(), 100);
+  }
+}
+
+TEST_F(ReadSiteTest, AGivenHomeIsTheOnlyOne) {
+  inputs_.home = AsText({70, -30});
+  EXPECT_TRUE(Read(Row()).take_off.empty());
 }
 
 TEST_F(ReadSiteTest, UnsafeHomesAreRefused) {

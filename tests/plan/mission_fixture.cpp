@@ -76,6 +76,7 @@ void FlyOne(Plan& plan) {
   plan.flights.back().length_m = 231.5;
   plan.flights.back().time_min = 3.25;
   plan.flights.back().battery_percent = 12.5;
+  plan.flights.back().parts = {1, 0.75, 1, 0.5};
 }
 
 void FlyTwo(Plan& plan) {
@@ -90,6 +91,7 @@ void FlyTwo(Plan& plan) {
   plan.flights.back().length_m = 140;
   plan.flights.back().time_min = 1.5;
   plan.flights.back().battery_percent = 6;
+  plan.flights.back().parts = {0.5, 0.25, 0.5, 0.25};
 }
 
 OGRSpatialReference Reference(const std::string& proj) {

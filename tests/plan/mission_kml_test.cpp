@@ -120,6 +120,14 @@ TEST(Kml, HoldsPathsWallsAndBuildings) {
   ExpectPoint(Find(features, "Home")->points.at(0), plan.home_m);
 }
 
+TEST(Kml, NumbersTheTakeOffPoints) {
+  Plan plan = test::MakePlan();
+  plan.flights[1].home_m = Eigen::Vector3d(100, -40, 1);
+  const auto features = ReadAll(plan, "plan.kml", PlanKml(plan));
+  ExpectPoint(Find(features, "Home 1")->points.at(0), plan.home_m);
+  ExpectPoint(Find(features, "Home 2")->points.at(0), *plan.flights[1].home_m);
+}
+
 TEST(Kml, HeightsAreAbsoluteWhereTheTerrainIsKnown) {
   Plan plan = test::MakePlan();
   EXPECT_NE(PlanKml(plan).find("relativeToGround"), std::string::npos);

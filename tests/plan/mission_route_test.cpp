@@ -39,6 +39,21 @@ TEST(MissionRoute, HeightsCountFromHome) {
   EXPECT_EQ(routes[0].take_off_height_m, 30);  // above the ground at home: more than blocked_to
 }
 
+// Two flights from two places on a slope: each counts from its own.
+TEST(MissionRoute, HeightsCountFromTheFlightsOwnHome) {
+  Plan plan = test::MakePlan(4);
+  plan.flights[1].home_m = Eigen::Vector3d(60, 60, 7);
+  const std::vector<MissionRoute> routes = MissionRoutes(plan);
+  EXPECT_EQ(routes[0].home_m, plan.home_m);
+  EXPECT_EQ(routes[1].home_m, Eigen::Vector3d(60, 60, 7));
+  for (const MissionStop& stop : routes[1].stops) {
+    EXPECT_EQ(stop.height_m, stop.position_m.z() - 7);
+  }
+  const auto approach = WithApproach(plan, routes[1], {routes[1].stops[1]});
+  EXPECT_EQ(approach.front().height_m, routes[1].return_height_m);
+  EXPECT_EQ(approach.front().position_m.z(), 7 + routes[1].return_height_m);
+}
+
 TEST(MissionRoute, ReturnsAboveEverything) {
   Plan plan = test::MakePlan();
   plan.footprints[1].blocked_to_m = 44;

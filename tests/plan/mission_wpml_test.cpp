@@ -210,6 +210,11 @@ TEST(MissionFiles, WritesAllThatTheDroneAllows) {
   for (const std::string& name : files.names) {
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
   }
+  ASSERT_EQ(files.flights.size(), 2u);
+  EXPECT_EQ(files.flights[1].flight, 1u);
+  EXPECT_EQ(files.flights[1].names,
+            (std::vector<std::string>{"mission_2.kmz", "mission_2.csv", "mission_2.plan"}));
+  EXPECT_GE(files.flights[1].return_height_m, plan.safe_altitude_m);
   ASSERT_FALSE(files.notes.empty());
   EXPECT_NE(files.notes.back().find("no-fly"), std::string::npos);
 }

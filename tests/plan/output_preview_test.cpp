@@ -20,6 +20,31 @@ std::string Preview(const Plan& plan) {
   return PreviewSvg(plan, StatsOf(plan, 1, 0.02));
 }
 
+TEST(PreviewSvg, ShowsWarningsAboveTheMap) {
+  const Plan plan = test::MakePlan();
+  PlanStats stats = StatsOf(plan, 1, 0.02);
+  const std::string without = PreviewSvg(plan, stats);
+  EXPECT_EQ(without.find("Warning: "), std::string::npos);
+  stats.warnings = {"mind the <crane>", std::string(150, 'a') + " " + std::string(150, 'b')};
+  const std::string with = PreviewSvg(plan, stats);
+  pugi::xml_document xml;
+  ASSERT_TRUE(xml.load_string(with.c_str()));
+  EXPECT_EQ(xml.select_nodes("//text[starts-with(@class,'warning')]").size(), 3u);
+  EXPECT_EQ(xml.select_nodes("//path[@fill='#cfe3c4']").size(), 0u);
+  EXPECT_NE(with.find("Warning: mind the &lt;crane&gt;"), std::string::npos);
+}
+
+TEST(PreviewSvg, ObstaclesAreNoBuildings) {
+  Plan plan = test::MakePlan();
+  const std::string before = Preview(plan);
+  EXPECT_NE(before.find("2 buildings"), std::string::npos);
+  EXPECT_EQ(before.find("obstacle"), std::string::npos);
+  plan.footprints[1].is_obstacle = true;
+  const std::string after = Preview(plan);
+  EXPECT_NE(after.find("1 building,"), std::string::npos);
+  EXPECT_NE(after.find("obstacle: tree"), std::string::npos);
+}
+
 // Paths of one look.
 std::vector<std::string> Paths(const std::string& svg, const std::string& attribute,
                                const std::string& value) {
@@ -102,6 +127,17 @@ TEST(Preview, IsWellFormedAndNamesWhatItShows) {
   EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
+TEST(Preview, SaysWhereEachFlightStarts) {
+  Plan plan = test::MakePlan();
+  const std::string one = Preview(plan);
+  EXPECT_EQ(one.find("H1"), std::string::npos);
+  plan.flights[1].home_m = Eigen::Vector3d(100, -40, 0);
+  const std::string two = Preview(plan);
+  EXPECT_NE(two.find(">H1<"), std::string::npos);
+  EXPECT_NE(two.find(">H2<"), std::string::npos);
+  EXPECT_NE(two.find("6 % battery, H2"), std::string::npos);
+}
+
 // The map in metres again: its scale is that of the dilation, which is 2 d_min wide.
 TEST(Preview, DrawsBuildingsWhereTheyStand) {
   const Plan plan = test::MakePlan();
@@ -140,6 +176,33 @@ TEST(Preview, ShowsViewsAboveEachOtherOnce) {
   EXPECT_EQ(Paths(Preview(plan), "fill", "#1b1b1f").at(0), before);
   plan.views.back().yaw_deg += 40;
   EXPECT_GT(Paths(Preview(plan), "fill", "#1b1b1f").at(0).size(), before.size());
+}
+
+// All three partners that a photo needs.
+void Connect(PlannedView& view) {
+  view.partners = {{"a", 0.5}, {"b", 0.4}, {"c", 0.3}};
+}
+
+TEST(Preview, RingsPhotosWithFewPartners) {
+  Plan plan = test::MakePlan();
+  for (PlannedView& view : plan.views) Connect(view);
+  const std::string strong = Preview(plan);
+  EXPECT_EQ(strong.find("class=\"weak\""), std::string::npos);
+  EXPECT_EQ(strong.find("fewer than 3"), std::string::npos);
+  plan.views[0].partners.pop_back();
+  const std::string weak = Preview(plan);
+  pugi::xml_document xml;
+  ASSERT_TRUE(xml.load_string(weak.c_str()));
+  EXPECT_EQ(xml.select_nodes("//circle[@class='weak']").size(), 2u);  // on the map, in the legend
+  EXPECT_NE(weak.find("1 photo that fewer than 3 should match"), std::string::npos);
+}
+
+TEST(Preview, LinkPhotosHaveALookOfTheirOwn) {
+  Plan plan = test::MakePlan();
+  EXPECT_TRUE(Paths(Preview(plan), "fill", "#7b3294").empty());
+  plan.views[0].kind = ViewKind::kLink;
+  const auto paths = Paths(Preview(plan), "fill", "#7b3294");
+  EXPECT_EQ(paths.size(), 2u);  // on the map, in the legend
 }
 
 TEST(Preview, OfNothingIsAPage) {

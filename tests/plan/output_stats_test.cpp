@@ -55,6 +55,11 @@ TEST(Stats, FileHasTheFixedNames) {
   EXPECT_EQ(json["time_min"], 4.75);
   EXPECT_EQ(json["battery_percent"], 18.5);
   EXPECT_EQ(json["flights"], 2);
+  EXPECT_EQ(json["time_parts_min"]["photos"], 0.75);
+  EXPECT_EQ(json["time_parts_min"]["transfer"], 1.5);
+  EXPECT_EQ(json["assumed"]["speed_m_per_s"], 5.0);
+  EXPECT_EQ(json["assumed"]["photo_s"], 2.2);
+  EXPECT_EQ(json["assumed"]["wind_m_per_s"], 3.0);
   EXPECT_EQ(json["planning_s"], 12.346);
   EXPECT_EQ(json["tsp_gap"], 0.03123);
   EXPECT_EQ(json["unobservable_m"], 7.0);
@@ -70,6 +75,53 @@ TEST(Stats, FileHasTheFixedNames) {
   EXPECT_EQ(facade["q_c"], 1.0);
   EXPECT_EQ(facade["unobservable_m"], nlohmann::json::parse("[[1.0, 4.5]]"));
   EXPECT_FALSE(json["facades"][0].contains("unobservable_m"));
+}
+
+TEST(Stats, FileSaysWhatSafetyRestsOn) {
+  const test::TemporaryFolder folder;
+  PlanStats stats = StatsOf(test::MakePlan(), 1, 0);
+  stats.horizontal_error_m = 3.8284;
+  stats.vertical_error_m = 4.8284;
+  stats.warnings = {"one", "two \"quoted\""};
+  WriteStats(stats, folder / "stats.json");
+  auto json = nlohmann::json::parse(ReadFile(folder / "stats.json"));
+  EXPECT_EQ(json["horizontal_error_m"], 3.828);
+  EXPECT_EQ(json["vertical_error_m"], 4.828);
+  EXPECT_FALSE(json.contains("flat_within_m"));
+  EXPECT_EQ(json["warnings"], nlohmann::json(stats.warnings));
+  stats.flat_within_m = 1;
+  WriteStats(stats, folder / "stats.json");
+  json = nlohmann::json::parse(ReadFile(folder / "stats.json"));
+  EXPECT_EQ(json["flat_within_m"], 1.0);
+}
+
+TEST(Stats, NameTheWeakestPhotosFirst) {
+  Plan plan = test::MakePlan();
+  for (PlannedView& view : plan.views) view.partners = {{"a", 0.5}, {"b", 0.4}, {"c", 0.3}};
+  EXPECT_TRUE(WeakPhotos(plan).empty());
+  plan.views[1].partners.resize(2);
+  plan.views[4].partners.clear();
+  const std::vector<WeakPhoto> weak = WeakPhotos(plan);
+  ASSERT_EQ(weak.size(), 2u);
+  EXPECT_EQ(weak[0].id, plan.views[4].id);
+  EXPECT_EQ(weak[1].view, 1u);
+  EXPECT_EQ(weak[1].partners, 2);
+}
+
+TEST(Stats, SayHowThePhotosHangTogether) {
+  const test::TemporaryFolder folder;
+  PlanStats stats = StatsOf(test::MakePlan(), 0, 0);
+  stats.matches = {
+      2, 1, 1, {{"h0001v1", 2, 1, 0.25, {"B0001/F00"}, true}, {"h0002v1", 5, 0, 1.5, {}, false}}};
+  WriteStats(stats, folder / "stats.json");
+  const auto matches = nlohmann::json::parse(ReadFile(folder / "stats.json"))["matches"];
+  EXPECT_EQ(matches["parts"], 2);
+  EXPECT_EQ(matches["bridges"], 1);
+  EXPECT_EQ(matches["loose"], 1);
+  EXPECT_EQ(matches["weakest"][0]["close"], 1);
+  EXPECT_EQ(matches["weakest"][0]["facades"][0], "B0001/F00");
+  EXPECT_FALSE(matches["weakest"][1].contains("facades"));
+  EXPECT_NE(StatsTable(stats).find("1 photos are loose, 2 parts, 1 bridges"), std::string::npos);
 }
 
 TEST(Stats, OfAnEmptyPlanAreZeros) {
@@ -90,7 +142,9 @@ TEST(Stats, RefusesAFolderThatIsNot) {
 
 TEST(StatsTable, ShowsFiguresAndWorstFacades) {
   const std::string table = StatsTable(StatsOf(test::MakePlan(), 12.5, 0.031));
-  for (const char* part : {"9 (3 dipping, 1 dipping_foot, 1 nadir, 4 oblique)", "372 m", "4.8 min",
+  for (const char* part : {"9 (3 dipping, 1 dipping_foot, 1 nadir, 4 oblique)", "372 m",
+                           "4.8 min: 0.8 photos, 1.5 stops and turns, 1.0 legs, 1.5 transfer",
+                           "5 m/s, 2.2 s a photo besides turns, 5.3 s a stop, wind 3 m/s",
                            "18 % of a battery, 2 flights of 6 to 12 %", "3.1 % above",
                            "mean Q 2.90 of 4", "7.0 of 230.0 m of wall, on 2 facades"}) {
     EXPECT_NE(table.find(part), std::string::npos) << part << " is not in\n" << table;

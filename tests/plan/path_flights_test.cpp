@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "plan/path/flights.h"
@@ -33,7 +34,12 @@ TEST(Flights, VisitEveryHoverOnceAlongSafePaths) {
   int next = 0;
   double length = 0;
   for (const PlannedFlight& flight : plan.flights) {
-    EXPECT_LE(flight.battery_percent, 40 + 1e-6);
+    EXPECT_GT(flight.reserve_percent, 0);
+    EXPECT_LE(flight.battery_percent + flight.reserve_percent, 40 + 1e-5);
+    const PlannedTime& parts = flight.parts;
+    EXPECT_NEAR(parts.transfer_min + parts.legs_min + parts.stops_min + parts.photos_min,
+                flight.time_min, 1e-9);
+    EXPECT_EQ(flight.home_m, site.home);
     const auto& points = flight.waypoints;
     for (const PlannedWaypoint& end : {points.front(), points.back()}) {
       EXPECT_EQ(end.position_m.head<2>(), site.home.head<2>());
@@ -62,6 +68,66 @@ TEST(Flights, VisitEveryHoverOnceAlongSafePaths) {
   for (const Hover& hover : hovers) before.insert(key(hover));
   for (const Hover& hover : plan.hovers) after.insert(key(hover));
   EXPECT_EQ(before, after);
+}
+
+int FacadesOfTwoFlights(const FlightPlan& plan) {
+  std::map<int, std::set<size_t>> flights;
+  for (size_t flight = 0; flight < plan.flights.size(); ++flight) {
+    for (const PlannedWaypoint& point : plan.flights[flight].waypoints) {
+      if (point.hover < 0) continue;
+      for (const Shot& shot : plan.hovers[point.hover].shots) {
+        for (const Target& target : shot.targets) flights[target.facade].insert(flight);
+      }
+    }
+  }
+  return static_cast<int>(
+      std::ranges::count_if(flights, [](const auto& facade) { return facade.second.size() > 1; }));
+}
+
+TEST(Flights, StartWhereTheWaysAreShortest) {
+  Site site = MadeSite(RandomTown(2, 20), {.safe_altitude_m = 40, .d_min_m = 5});
+  const auto hovers = DippingHovers(Obstacles(site));
+  const FlightPlan from_home = Fly(site, hovers, 40);
+  site.take_off = {{site.home.x(), -site.home.y(), 0}, {200, 0, 0}, {0, 0, 0}};
+  const FlightPlan from_near = Fly(site, hovers, 40);
+  ASSERT_GT(from_home.flights.size(), 2U);
+  EXPECT_LE(from_near.flights.size(), from_home.flights.size());
+  EXPECT_LT(from_near.battery_percent, from_home.battery_percent);
+  std::set<double> homes;
+  for (const PlannedFlight& flight : from_near.flights) {
+    ASSERT_TRUE(flight.home_m);
+    homes.insert(flight.home_m->y());
+    EXPECT_EQ(flight.waypoints.front().position_m.head<2>(), flight.home_m->head<2>());
+    EXPECT_EQ(flight.waypoints.back().position_m.head<2>(), flight.home_m->head<2>());
+  }
+  EXPECT_GT(homes.size(), 1U);
+}
+
+// A place that is not free is none.
+TEST(Flights, DoNotStartFromPlacesThatAreNotFree) {
+  Site site = MadeSite({Rectangle(0, 0, 20, 20)});
+  site.take_off = {{10, 10, 0}, {25, 10, 0}};
+  const FlightPlan plan = Fly(site, {{Vector3d(40, 10, 20), {Shot{}}}}, 80);
+  ASSERT_EQ(plan.flights.size(), 1U);
+  EXPECT_EQ(plan.flights[0].home_m, site.home);
+}
+
+TEST(Flights, RarelyDivideAFacade) {
+  const Site site = MadeSite(RandomTown(2, 20), {.safe_altitude_m = 40, .d_min_m = 5});
+  const FlightPlan plan = Fly(site, DippingHovers(Obstacles(site)), 40);
+  EXPECT_LE(FacadesOfTwoFlights(plan), 2 * static_cast<int>(plan.flights.size()));
+}
+
+TEST(Flights, TakeLongerInAStorm) {
+  const Site site = MadeSite(RandomTown(2, 12), {.safe_altitude_m = 40, .d_min_m = 5});
+  const auto hovers = DippingHovers(Obstacles(site));
+  Battery storm;
+  storm.pace.wind_m_per_s = 12;
+  const FlightPlan calm = PlanFlights(site, {}, hovers, 2, SilentProgress());
+  const FlightPlan windy = PlanFlights(site, storm, hovers, 2, SilentProgress());
+  EXPECT_GT(windy.time_min, calm.time_min);
+  EXPECT_GT(windy.battery_percent, 1.2 * calm.battery_percent);
+  EXPECT_GE(windy.flights.size(), calm.flights.size());
 }
 
 // w_p pays for it: in a tour without facades, those of one wall lie far apart in time.

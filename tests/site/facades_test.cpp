@@ -65,10 +65,52 @@ TEST(MakeFacades, PartyWallsAreNone) {
                                         "B0002/F01", "B0002/F02"}));
 }
 
-TEST(MakeFacades, PartyWallsAreNoneWhateverTheHeights) {
-  const Site site = MadeSite(std::vector<Ring>{Rectangle(0, 0, 10, 10), Rectangle(10, 0, 20, 10)},
-                             {.heights_m = {10, 25}});
-  EXPECT_EQ(site.facades.size(), 6u);
+TEST(MakeFacades, TheHigherBuildingShowsAboveItsNeighbour) {
+  const auto facades = [](double low, double high) {
+    return MadeSite(std::vector<Ring>{Rectangle(0, 0, 10, 10), Rectangle(10, 0, 20, 10)},
+                    {.heights_m = {low, high}})
+        .facades;
+  };
+  EXPECT_EQ(Ids(facades(10, 25)), (Strings{"B0001/F00", "B0001/F02", "B0001/F03", "B0002/F00",
+                                           "B0002/F01", "B0002/F02", "B0002/F03"}));
+  EXPECT_EQ(Find(facades(10, 25), "B0002/F03").z_m, (Interval{10, 25}));
+  EXPECT_EQ(facades(10, 10.9).size(), 6u);  // from a metre on
+  EXPECT_EQ(facades(10, 11).size(), 7u);
+  EXPECT_EQ(facades(0, 25).size(), 6u);  // a height that is not known tells nothing
+  EXPECT_EQ(facades(10, 0).size(), 6u);
+}
+
+// What stands on the ground has the ids that it has beside a neighbour of any height.
+TEST(MakeFacades, WallsAboveNeighboursComeLast) {
+  const std::vector<Ring> rings = {Rectangle(0, 0, 10, 30), Rectangle(10, 0, 20, 18)};
+  const auto unknown = MadeSite(rings, {.heights_m = {30, 0}}).facades;
+  const auto known = MadeSite(rings, {.heights_m = {30, 8}}).facades;
+  EXPECT_EQ(known.size(), unknown.size() + 1);
+  for (const Facade& facade : unknown) {
+    EXPECT_EQ(Find(known, facade.id).a, facade.a) << facade.id;
+    EXPECT_EQ(Find(known, facade.id).b, facade.b) << facade.id;
+  }
+  EXPECT_EQ(Find(known, "B0001/F01").z_m, (Interval{0, 30}));
+  EXPECT_EQ(Find(known, "B0001/F01").a, Eigen::Vector2d(10, 18));
+  EXPECT_EQ(Find(known, "B0001/F01b").z_m, (Interval{8, 30}));
+  EXPECT_EQ(Find(known, "B0001/F01b").b, Eigen::Vector2d(10, 18));
+}
+
+// The ground under a neighbour up the slope is no wall.
+TEST(MakeFacades, NothingShowsBelowANeighbour) {
+  const auto facades = MakeFacades({Part("B0001", Rectangle(0, 0, 10, 10), {0, 20}),
+                                    Part("B0002", Rectangle(10, 0, 20, 10), {4, 12})});
+  EXPECT_EQ(facades.size(), 7u);
+  EXPECT_EQ(Find(facades, "B0001/F01").z_m, (Interval{12, 20}));
+}
+
+TEST(MakeFacades, ObstaclesHideNoPartOfAWall) {
+  auto footprints = std::vector{Part("B0001", Rectangle(0, 0, 10, 10), {0, 8}),
+                                Part("O0001", Rectangle(10, 0, 20, 10), {0, 8})};
+  footprints[1].in_area = false;
+  footprints[1].is_obstacle = true;
+  EXPECT_EQ(Ids(MakeFacades(footprints)),
+            (Strings{"B0001/F00", "B0001/F01", "B0001/F02", "B0001/F03"}));
 }
 
 TEST(MakeFacades, WallsWithin5CmAreOne) {

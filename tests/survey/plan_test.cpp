@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "survey/files.h"
 #include "survey/plan_io.h"
@@ -56,13 +57,18 @@ Plan MakePlan() {
   facade.unobservable_m = {{2, 3}, {29, 30}};
   plan.facades = {facade};
   plan.views = {MakeView("v0", 0), MakeView("v1", 1)};
+  plan.views[1].partners = {{"v0", 0.23456}};
   plan.flights = {{{{plan.home_m, -1},
                     {plan.views[0].position_m, 0},
                     {plan.views[1].position_m, 1},
                     {plan.home_m, -1}},
                    70.5,
                    2.25,
-                   8.125}};
+                   8.125,
+                   2.5,
+                   {0.5, 1, 0.5, 0.25},
+                   Eigen::Vector3d(-20, -21, 1.5)}};
+  plan.pace.wind_m_per_s = 7;
   return plan;
 }
 
@@ -74,6 +80,19 @@ Plan WrittenAndRead(const Plan& plan) {
 
 void ExpectPosition(const Eigen::VectorXd& read, const Eigen::VectorXd& written) {
   EXPECT_LE((read - written).cwiseAbs().maxCoeff(), 0.0005 + 1e-12);
+}
+
+TEST(PlanFile, ObstaclesAreMarked) {
+  Plan plan = MakePlan();
+  plan.footprints.push_back({"O0001", {{{40, 0}, {44, 0}, {44, 4}}}, {0, 12}, 22, true});
+  const TemporaryFolder folder;
+  WritePlan(plan, folder / "plan.json");
+  const Plan read = ReadPlan(folder / "plan.json");
+  EXPECT_FALSE(read.footprints[0].is_obstacle);
+  EXPECT_TRUE(read.footprints[1].is_obstacle);
+  // Buildings are written as ever.
+  const std::string text = ReadFile(folder / "plan.json");
+  EXPECT_EQ(text.find("obstacle"), text.rfind("obstacle"));
 }
 
 TEST(PlanFile, ReadsBackAsWritten) {
@@ -89,6 +108,10 @@ TEST(PlanFile, ReadsBackAsWritten) {
   EXPECT_EQ(read.camera.height_px, 3956);
   EXPECT_EQ(read.d_max_m, 57.123);
   EXPECT_EQ(read.min_altitude_m, 5);
+  EXPECT_TRUE(read.views[0].partners.empty());
+  ASSERT_EQ(read.views[1].partners.size(), 1u);
+  EXPECT_EQ(read.views[1].partners[0].view, "v0");
+  EXPECT_EQ(read.views[1].partners[0].strength, 0.2346);
   ExpectPosition(read.home_m, plan.home_m);
   ASSERT_EQ(read.footprints.size(), 1u);
   EXPECT_EQ(read.footprints[0].rings_m, plan.footprints[0].rings_m);
@@ -119,10 +142,31 @@ TEST(PlanFile, ReadsBackViewsAndFlights) {
   }
   ASSERT_EQ(read.flights.size(), 1u);
   EXPECT_EQ(read.flights[0].battery_percent, 8.125);
+  EXPECT_EQ(read.flights[0].reserve_percent, 2.5);
+  EXPECT_EQ(read.flights[0].parts.legs_min, 1);
+  EXPECT_EQ(read.flights[0].home_m, plan.flights[0].home_m);
+  EXPECT_EQ(read.HomeOf(0), Eigen::Vector3d(-20, -21, 1.5));
+  EXPECT_EQ(read.HomeOf(1), plan.home_m);
+  EXPECT_EQ(read.pace.wind_m_per_s, 7);
   ASSERT_EQ(read.flights[0].waypoints.size(), 4u);
   EXPECT_EQ(read.flights[0].waypoints[0].hover, -1);
   EXPECT_EQ(read.flights[0].waypoints[2].hover, 1);
   ExpectPosition(read.flights[0].waypoints[1].position_m, plan.views[0].position_m);
+}
+
+// Files of before flights had homes of their own and said how they are flown.
+TEST(PlanFile, ReadsFlightsWithoutHomeAndPace) {
+  const TemporaryFolder folder;
+  WritePlan(MakePlan(), folder / "plan.json");
+  auto json = nlohmann::json::parse(ReadFile(folder / "plan.json"));
+  json.erase("pace");
+  for (const char* name : {"home_m", "reserve_percent", "parts"}) json["flights"][0].erase(name);
+  WriteFile(folder / "plan.json", json.dump());
+  const Plan plan = ReadPlan(folder / "plan.json");
+  EXPECT_FALSE(plan.flights[0].home_m);
+  EXPECT_EQ(plan.HomeOf(0), plan.home_m);
+  EXPECT_EQ(plan.Homes(), std::vector<Eigen::Vector3d>{plan.home_m});
+  EXPECT_EQ(plan.pace.speed_m_per_s, 5);
 }
 
 TEST(PlanFile, IsStableAndShort) {
@@ -143,7 +187,7 @@ TEST(PlanFile, TakesViewsByOrder) {
 
 TEST(PlanFile, KindsHaveNames) {
   for (const ViewKind kind : {ViewKind::kDipping, ViewKind::kDippingFoot, ViewKind::kNadir,
-                              ViewKind::kOblique, ViewKind::kSurface}) {
+                              ViewKind::kOblique, ViewKind::kSurface, ViewKind::kLink}) {
     EXPECT_EQ(ViewKindFromName(Name(kind)), kind);
   }
   EXPECT_EQ(ViewKindFromName("Dipping"), std::nullopt);
@@ -178,6 +222,9 @@ TEST(PlanFile, RefusesWhatDoesNotFitTogether) {
       {"longitude", "longitude_deg", [](Plan& p) { p.origin.longitude_deg = -181; }},
       {"d_min", "d_min_m", [](Plan& p) { p.d_min_m = -1; }},
       {"home", "home_m", [=](Plan& p) { p.home_m.x() = nan; }},
+      {"flight's home", "home_m", [=](Plan& p) { p.flights[0].home_m->x() = nan; }},
+      {"speed", "pace.speed_m_per_s", [](Plan& p) { p.pace.speed_m_per_s = 0; }},
+      {"hold", "pace.hold_s", [](Plan& p) { p.pace.hold_s = -1; }},
       {"ring", "fewer than 3", [](Plan& p) { p.footprints[0].rings_m[1].resize(2); }},
       {"corner", "not finite", [=](Plan& p) { p.no_fly_m[0][1].y() = nan; }},
       {"building", "empty \"building\"", [](Plan& p) { p.footprints[0].building.clear(); }},
@@ -209,6 +256,10 @@ TEST(PlanFile, RefusesWhatDoesNotFitTogether) {
       {"target z", "backwards",
        [](Plan& p) {
          p.views[1].targets[0].z_m = {2, 1};
+       }},
+      {"partner", "which does not exist",
+       [](Plan& p) {
+         p.views[0].partners = {{"v9", 1}};
        }},
       {"view", "which does not exist", [](Plan& p) { p.facades[0].views[0] = "v7"; }},
       {"untold", "do not name it", [](Plan& p) { p.facades[0].views.pop_back(); }},

@@ -34,6 +34,8 @@ std::unique_ptr<OGRMultiPolygon> ToOgr(const std::vector<Polygon>& polygons);
 // The polygons of a geometry of any kind, curves as chords, points and lines left out; rings as
 // they come, without the repeated corner at their end.
 std::vector<Polygon> RawPolygons(const OGRGeometry& geometry);
+// Its points and lines, each as the only ring of a polygon: a point has one corner.
+std::vector<Polygon> RawLines(const OGRGeometry& geometry);
 // Whether the end of a ring is not its start.
 bool HasOpenRing(const OGRGeometry& geometry);
 
@@ -48,6 +50,10 @@ std::unique_ptr<OGRGeometry> MadeValid(const OGRGeometry& geometry);
 std::vector<Polygon> Union(const std::vector<Polygon>& polygons);
 std::vector<Polygon> Difference(const Polygon& from, const std::vector<Polygon>& what);
 std::vector<Polygon> Intersection(const Polygon& a, const Polygon& b);
+// What is at least nearer than `radius_m` to a line, or to a point where it has one only.
+std::vector<Polygon> Around(const Ring& line, double radius_m);
+// A polygon and about what is nearer than `radius_m` to it.
+std::vector<Polygon> Around(const Polygon& polygon, double radius_m);
 double SharedArea(const Polygon& a, const Polygon& b);
 bool InteriorsMeet(const Polygon& a, const Polygon& b);
 

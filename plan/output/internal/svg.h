@@ -56,6 +56,36 @@ class Svg {
   std::string text_;
 };
 
+// For the classes of texts, and the pattern of no-fly areas.
+inline constexpr char kMapStyle[] = R"svg(<style>
+text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:#1f2328}
+.title{font-size:27px;font-weight:600}
+.figures{font-size:16px;fill:#3d444d}
+.warning{font-size:13.5px;fill:#b3261e}
+.heading{font-size:15px;font-weight:600}
+.entry{font-size:13.5px}
+.note{font-size:12px;fill:#59636e}
+.tick{font-size:12px;text-anchor:middle}
+.name{font-size:9px;text-anchor:middle;fill:#54545c}
+.home{font-size:12px;font-weight:700;text-anchor:middle}
+.small{font-size:9.5px}
+</style>
+<defs><pattern id="nofly" width="9" height="9"
+ patternUnits="userSpaceOnUse" patternTransform="rotate(45)">
+<rect width="9" height="9" fill="#c0392b" fill-opacity="0.10"/>
+<path d="M0 0V9" stroke="#c0392b" stroke-width="2.4" stroke-opacity="0.55"/></pattern></defs>
+)svg";
+
+// Trees, cranes, wires.
+inline constexpr char kObstacleLook[] =
+    "fill=\"#cfe3c4\" fill-rule=\"evenodd\" stroke=\"#7f9c70\" stroke-width=\"0.5\"";
+
+// Link photos, and those with few partners.
+inline constexpr char kLinkLook[] =
+    "fill=\"#7b3294\" fill-opacity=\"0.45\" stroke=\"#7b3294\" stroke-width=\"0.5\"";
+inline constexpr char kWeakLook[] =
+    "class=\"weak\" fill=\"none\" stroke=\"#e6007e\" stroke-width=\"1.4\"";
+
 // From the frame of the plan to the page, and what sizes suit the map.
 struct MapScale {
   Eigen::Vector2d south_west_m = Eigen::Vector2d::Zero();

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/match/expected_matches.h"
+
+#include <algorithm>
+#include <cassert>
+#include <tuple>
+
+#include "plan/match/ties.h"
+
+namespace stucco::plan {
+namespace {
+
+// Partners that a photo has besides are no news.
+constexpr size_t kMostPartners = 12;
+constexpr size_t kWeakest = 10;
+
+TiedView Describe(const PlannedView& view, const Shot& shot, const Ties& ties,
+                  std::span<const Partner> partners) {
+  TiedView out{.view = view.id,
+               .partners = static_cast<int>(ties.strong.size()),
+               .close = static_cast<int>(ties.close.size()),
+               .strength = 0,
+               .facades = {},
+               .is_loose = LackingPartners(ties) + LackingClose(ties, shot) > 0};
+  for (const Partner& partner : partners) out.strength += partner.strength;
+  for (const PlannedTarget& target : view.targets) {
+    if (std::ranges::find(out.facades, target.facade) == out.facades.end()) {
+      out.facades.push_back(target.facade);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+MatchStats ExpectMatches(const PhotoGraph& photos, std::span<const Hover> hovers, int threads,
+                         Plan& plan) {
+  assert(photos.graph.size() == plan.views.size());
+  const std::vector<Ties> ties = TiesOf(photos, hovers, threads);
+  const auto strong = StrongPartners(photos, kEnoughStrength, threads);
+  const Connectivity whole = ConnectivityOf(ties);
+  MatchStats stats{.parts = whole.parts,
+                   .bridges = static_cast<int>(whole.bridges.size()),
+                   .loose = 0,
+                   .weakest = {}};
+  for (size_t i = 0; i < strong.size(); ++i) {
+    PlannedView& view = plan.views[i];
+    for (const Partner& partner : strong[i]) {
+      if (view.partners.size() == kMostPartners) break;
+      view.partners.push_back({plan.views[partner.photo].id, partner.strength});
+    }
+    const PhotoPlace& place = photos.places[i];
+    stats.weakest.push_back(
+        Describe(view, hovers[place.hover].shots[place.shot], ties[i], strong[i]));
+    stats.loose += stats.weakest.back().is_loose;
+  }
+  std::ranges::stable_sort(stats.weakest, {}, [](const TiedView& view) {
+    return std::tuple(!view.is_loose, view.strength);
+  });
+  stats.weakest.resize(
+      std::min(stats.weakest.size(), std::max<size_t>(kWeakest, static_cast<size_t>(stats.loose))));
+  return stats;
+}
+
+}  // namespace stucco::plan

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plan/match/link_photos.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "plan/match/link_candidates.h"
+#include "survey/error.h"
+#include "survey/parallel.h"
+
+namespace stucco::plan {
+namespace {
+
+// What a link photo costs, in photos: a stop in passing, and one that the drone makes for it.
+constexpr double kColumnCost = 1.5;
+constexpr double kStopCost = 3;
+// Of two that serve alike, the one that others match best: strengths that add up to this are all
+// that counts.
+constexpr float kEnoughAnchor = 0.3F;
+constexpr double kAnchorWeight = 0.5;
+// A part that no photo ties to the rest after so many tries stays loose.
+constexpr int kMostTries = 4;
+
+// Of the walls in the photo that asks, what another shows near in direction and scale.
+float CloseWalls(const SurfaceView& view, std::span<const Sight> asking,
+                 std::span<const Sight> other) {
+  const float close_cosine = std::cos(kCloseAngle_rad);
+  float walls = 0, close = 0;
+  auto at = other.begin();
+  for (const Sight& own : asking) {
+    if (view.samples[own.sample].kind != SurfaceKind::kWall) continue;
+    walls += own.share;
+    while (at != other.end() && at->sample < own.sample) ++at;
+    if (at == other.end()) continue;
+    const float ratio = std::max(own.distance_m / at->distance_m, at->distance_m / own.distance_m);
+    if (at->sample == own.sample && own.way.dot(at->way) >= close_cosine && ratio <= kCloseRatio) {
+      close += own.share;
+    }
+  }
+  return walls > 0 ? close / walls : 0;
+}
+
+// A candidate as the graph sees it.
+struct Assessed {
+  LinkCandidate candidate;
+  std::vector<Sight> sights;
+  std::vector<Partner> partners;
+  double score = 0;
+};
+
+class Linker {
+ public:
+  Linker(const MatchSetting& setting, const Obstacles& obstacles, std::vector<Hover>& hovers,
+         Progress& progress);
+
+  void ServeFacadePhotos();
+  void ServeLonePhotos();
+  void TieParts();
+  const LinkReport& report() const { return report_; }
+
+ private:
+  const Shot& ShotOf(uint32_t photo) const {
+    return hovers_[photos_.places[photo].hover].shots[photos_.places[photo].shot];
+  }
+  int LacksClose(uint32_t photo) const { return LackingClose(ties_[photo], ShotOf(photo)); }
+  int LacksPartners(uint32_t photo) const { return LackingPartners(ties_[photo]); }
+  template <typename Value>
+  std::optional<Assessed> Best(uint32_t photo, bool walls_only, const Value& value) const;
+  std::vector<uint32_t> ServedClose(const Assessed& link) const;
+  int ServedLone(const Assessed& link) const;
+  bool Tie(const Connectivity& whole, int block);
+  void Add(Assessed link);
+  void ThrowIfCancelled() const {
+    if (progress_.Cancelled()) throw Error(ErrorKind::kInterrupted, "interrupted");
+  }
+
+  const Obstacles& obstacles_;
+  std::vector<Hover>& hovers_;
+  Progress& progress_;
+  int threads_;
+  PhotoGraph photos_;
+  std::vector<Ties> ties_;  // by photo
+  LinkReport report_;
+};
+
+Linker::Linker(const MatchSetting& setting, const Obstacles& obstacles, std::vector<Hover>& hovers,
+               Progress& progress)
+    : obstacles_(obstacles),
+      hovers_(hovers),
+      progress_(progress),
+      threads_(setting.threads),
+      photos_(setting, hovers),
+      ties_(TiesOf(photos_, hovers, setting.threads)) {}
+
+double CostOf(LinkPlace place) {
+  if (place == LinkPlace::kHover) return 1;
+  return place == LinkPlace::kColumn ? kColumnCost : kStopCost;
+  if (place == LinkPlace::kHover) return 1;
+  return place == LinkPlace::kColumn ? kColumnCost : kStopCost;
+}
+
+// Of the candidates for a photo, the one whose `value`, in photos served, is the highest for what
+// it costs; none where nothing has any.
+template <typename Value>
+std::optional<Assessed> Linker::Best(uint32_t photo, bool walls_only, const Value& value) const {
+  const Gaze gaze = GazeOf(photos_.view, photos_.graph.sights(photo), walls_only);
+  const auto candidates =
+      LinkCandidates(gaze, obstacles_, hovers_, static_cast<int>(photos_.places[photo].hover));
+  std::vector<Assessed> assessed(candidates.size());
+  ParallelFor(candidates.size(), threads_, [&](size_t i) {
+    Assessed& link = assessed[i];
+    link.candidate = candidates[i];
+    link.sights =
+        SightsOf(photos_.view, photos_.patch_m2, link.candidate.position, link.candidate.shot);
+    link.partners = photos_.graph.PartnersOf(link.candidate.position, link.sights);
+    const double served = value(link);
+    if (!(served > 0)) return;
+    float anchor = 0;
+    for (const Partner& partner : link.partners) anchor += partner.strength;
+    link.score = (served + kAnchorWeight * std::min(1.0F, anchor / kEnoughAnchor)) /
+                 CostOf(link.candidate.place);
+  });
+  const auto best = std::ranges::max_element(assessed, {}, &Assessed::score);
+  if (best == assessed.end() || !(best->score > 0)) return std::nullopt;
+  return std::move(*best);
+}
+
+// The photos of facades that lack what this one would be.
+std::vector<uint32_t> Linker::ServedClose(const Assessed& link) const {
+  std::vector<uint32_t> out;
+  for (const Partner& partner : link.partners) {
+    const uint32_t photo = partner.photo;
+    if (LacksClose(photo) == 0 ||
+        !StandsApart(photos_.graph, ties_[photo], link.candidate.position))
+      continue;
+    if (CloseWalls(photos_.view, photos_.graph.sights(photo), link.sights) >= kCloseShare) {
+      out.push_back(photo);
+    }
+  }
+  return out;
+}
+
+int Linker::ServedLone(const Assessed& link) const {
+  return static_cast<int>(std::ranges::count_if(link.partners, [&](const Partner& partner) {
+    return partner.strength >= kEnoughStrength && LacksPartners(partner.photo) > 0;
+  }));
+}
+
+void Linker::Add(Assessed link) {
+  for (const uint32_t photo : ServedClose(link)) {
+    ties_[photo].close.push_back(static_cast<uint32_t>(photos_.graph.size()));
+  }
+  int hover = link.candidate.hover;
+  if (link.candidate.place != LinkPlace::kHover) {
+    hover = static_cast<int>(hovers_.size());
+    hovers_.push_back({link.candidate.position, {}});
+    ++report_.stops;
+  }
+  hovers_[hover].shots.push_back(link.candidate.shot);
+  photos_.places.push_back(
+      {static_cast<uint32_t>(hover), static_cast<uint32_t>(hovers_[hover].shots.size() - 1)});
+  const uint32_t self = photos_.graph.Add(link.candidate.position, std::move(link.sights));
+  ties_.emplace_back();
+  for (const Partner& partner : link.partners) {
+    if (partner.strength < kEnoughStrength) continue;
+    ties_[self].strong.push_back(partner.photo);
+    ties_[partner.photo].strong.push_back(self);
+  }
+  ++report_.photos;
+}
+
+void Linker::ServeFacadePhotos() {
+  const auto count = static_cast<uint32_t>(photos_.graph.size());
+  progress_.Begin("links of facade photos", count);
+  for (uint32_t photo = 0; photo < count; ++photo) {
+    ThrowIfCancelled();
+    while (LacksClose(photo) > 0) {
+      auto link = Best(photo, true, [&](const Assessed& candidate) {
+        const std::vector<uint32_t> served = ServedClose(candidate);
+        const bool serves_it = std::ranges::find(served, photo) != served.end();
+        return serves_it ? static_cast<double>(served.size()) : 0;
+      });
+      if (!link) break;
+      Add(std::move(*link));
+    }
+    progress_.Advance();
+  }
+}
+
+void Linker::ServeLonePhotos() {
+  for (uint32_t photo = 0; photo < photos_.graph.size(); ++photo) {
+    ThrowIfCancelled();
+    for (int tries = 0; tries < kMostTries && LacksPartners(photo) > 0; ++tries) {
+      auto link = Best(photo, false, [&](const Assessed& candidate) {
+        const bool serves_it = std::ranges::any_of(candidate.partners, [&](const Partner& partner) {
+          return partner.photo == photo && partner.strength >= kEnoughStrength;
+        });
+        return serves_it ? ServedLone(candidate) : 0.0;
+      });
+      if (!link) break;
+      Add(std::move(*link));
+    }
+  }
+}
+
+// Adds a photo that ties a block to the rest, if there is one.
+bool Linker::Tie(const Connectivity& whole, int block) {
+  for (uint32_t photo = 0; photo < whole.block.size(); ++photo) {
+    if (whole.block[photo] != block) continue;
+    auto link = Best(photo, false, [&](const Assessed& candidate) {
+      int inside = 0, outside = 0;
+      for (const Partner& partner : candidate.partners) {
+        if (partner.strength < kEnoughStrength) continue;
+        const bool is_inside =
+            partner.photo < whole.block.size() && whole.block[partner.photo] == block;
+        ++(is_inside ? inside : outside);
+      }
+      return inside > 0 && outside > 0 ? std::min(2, outside) : 0.0;
+    });
+    if (!link) continue;
+    Add(std::move(*link));
+    return true;
+  }
+  return false;
+}
+
+void Linker::TieParts() {
+  for (int tries = 0;; ++tries) {
+    ThrowIfCancelled();
+    const Connectivity whole = ConnectivityOf(ties_);
+    if (whole.blocks <= 1) return;
+    std::vector<int> sizes(whole.blocks);
+    for (const int block : whole.block) ++sizes[block];
+    const int main = static_cast<int>(std::ranges::max_element(sizes) - sizes.begin());
+    bool tied = false;
+    for (int block = 0; block < whole.blocks; ++block) {
+      if (block != main) tied |= Tie(whole, block);
+    }
+    if (!tied || tries == kMostTries) return;
+  }
+}
+
+}  // namespace
+
+LinkReport AddLinkPhotos(const MatchSetting& setting, const Obstacles& obstacles,
+                         std::vector<Hover>& hovers, Progress& progress) {
+  Linker linker(setting, obstacles, hovers, progress);
+  linker.ServeFacadePhotos();
+  linker.ServeLonePhotos();
+  linker.TieParts();
+  return linker.report();
+}
+
+}  // namespace stucco::plan

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "plan/camera/photo_sights.h"
+
+namespace stucco::plan {
+
+// How a surface looks from two places: what an affine map from one picture to the other does to it.
+struct Warp {
+  double tilt = 1;   // ratio of its two stretches, at least 1: the transition tilt
+  double scale = 1;  // their geometric mean, at least 1 (either way)
+};
+
+// Of a patch with this normal; lines of sight are unit vectors to the cameras, on the side of the
+// normal. Morel and Yu, "ASIFT: A New Framework for Fully Affine Invariant Image Comparison"
+// (2009), section 2: two oblique views may differ by far more than the angle between them.
+Warp WarpBetween(const Eigen::Vector3f& normal, const Sight& one, const Sight& other);
+
+// How surely features of a patch match: 1 where they do, towards 0 where they do not.
+double Likeness(const Warp& warp);
+
+// What a pair of photos has in common.
+struct Partner {
+  uint32_t photo = 0;
+  // Of the two frames, what both show alike: the smaller share of each common patch, times how
+  // surely it matches; in [0, 1].
+  float strength = 0;
+  // Of the walls in the photo that asks, the share that this one shows within kCloseAngle_rad and
+  // kCloseRatio.
+  float close_walls = 0;
+};
+
+// A pair with less is not counted on. Of those with up to half as much again, six to nine in ten
+// came to share 15 points or more, of stronger ones nearly all (bench/match_graph.py,
+// docs/benchmarks.md).
+inline constexpr float kEnoughStrength = 0.08F;
+// What a photo of a facade needs two partners within (SIFT on planes: Mikolajczyk et al., "A
+// Comparison of Affine Region Detectors", 2005), for this share of the walls that it shows.
+inline constexpr float kCloseAngle_rad = 0.611F;  // 35 degrees
+inline constexpr float kCloseRatio = 2.5F;
+inline constexpr float kCloseShare = 0.3F;
+
+// Which photos of a plan should match, and how well. Photos from one place share no parallax and
+// are no partners.
+class MatchGraph {
+ public:
+  explicit MatchGraph(const SurfaceView& view) : view_(view), rays_(view.samples.size()) {}
+
+  // Returns its number: they count up from 0.
+  uint32_t Add(const Eigen::Vector3d& position, std::vector<Sight> sights);
+
+  size_t size() const { return sights_.size(); }
+  const Eigen::Vector3d& position(uint32_t photo) const { return positions_[photo]; }
+  std::span<const Sight> sights(uint32_t photo) const { return sights_[photo]; }
+
+  // All photos of the graph that a photo there would share something with, ascending. Safe to ask
+  // from several threads.
+  std::vector<Partner> PartnersOf(const Eigen::Vector3d& position,
+                                  std::span<const Sight> sights) const;
+  std::vector<Partner> PartnersOf(uint32_t photo) const {
+    return PartnersOf(positions_[photo], sights_[photo]);
+  }
+
+ private:
+  struct Ray {
+    uint32_t photo;
+    Sight sight;
+  };
+  const SurfaceView& view_;
+  std::vector<Eigen::Vector3d> positions_;
+  std::vector<std::vector<Sight>> sights_;  // by photo
+  std::vector<std::vector<Ray>> rays_;      // by sample
+};
+
+}  // namespace stucco::plan

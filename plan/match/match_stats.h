@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace stucco::plan {
+
+// A photo of a plan and what ties it to the others.
+struct TiedView {
+  std::string view;
+  int partners = 0;                  // that it should match
+  int close = 0;                     // of a photo of facades: near in direction and scale
+  double strength = 0;               // of all its partners together
+  std::vector<std::string> facades;  // that it is meant for
+  bool is_loose = false;             // it lacks partners
+};
+
+// How the photos of a plan should hang together.
+struct MatchStats {
+  int parts = 0;                  // that the photos fall into
+  int bridges = 0;                // pairs that alone hold two parts together
+  int loose = 0;                  // photos that lack partners
+  std::vector<TiedView> weakest;  // the loose ones, then those with the least strength
+};
+
+// The facades whose photos will hang loose, in a sentence; empty where there are none.
+std::string LooseFacades(const MatchStats& stats);
+
+}  // namespace stucco::plan

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "plan/camera/preset.h"
+#include "plan/dipping/dipping_views.h"
+#include "plan/match/expected_matches.h"
+#include "plan/match/link_candidates.h"
+#include "plan/match/link_photos.h"
+#include "plan/planar/planar_views.h"
+#include "tests/site/made_site.h"
+
+namespace stucco::plan {
+namespace {
+
+using Eigen::Vector3d;
+
+// A house of 12 x 10 x 6 m and what a plan without links has of it.
+class House : public testing::Test {
+ protected:
+  explicit House(std::vector<Polygon> no_fly = {})
+      : site_(MadeSite({Rectangle(-6, -5, 6, 5)}, {.safe_altitude_m = 28,
+                                                   .margin_m = 28,
+                                                   .heights_m = {6},
+                                                   .no_fly = std::move(no_fly)})),
+        obstacles_(site_),
+        setting_{site_, camera_, 2} {
+    const DippingSetting dipping = MakeSetting(site_, obstacles_, camera_, 80);
+    hovers_ = PlanDippingViews(dipping, progress_).hovers;
+    dips_ = hovers_.size();
+    const auto above = PlanarViews(site_, camera_, {.grid = {}, .d_max_m = 84}, hovers_, progress_);
+    hovers_.insert(hovers_.end(), above.begin(), above.end());
+  }
+
+  // Photos of facades without two partners near in direction and scale.
+  int Loose() const {
+    const PhotoGraph photos(setting_, hovers_);
+    int loose = 0;
+    for (uint32_t i = 0; i < photos.graph.size(); ++i) {
+      const Shot& shot = hovers_[photos.places[i].hover].shots[photos.places[i].shot];
+      if (shot.kind != ViewKind::kDipping) continue;
+      const auto partners = photos.graph.PartnersOf(i);
+      loose += std::ranges::count_if(partners, [](const Partner& partner) {
+                 return partner.close_walls >= kCloseShare;
+               }) < kFewestClose;
+    }
+    return loose;
+  }
+
+  CameraPreset camera_ = FindCamera("mavic-3e");
+  Site site_;
+  Obstacles obstacles_;
+  MatchSetting setting_;
+  Progress& progress_ = SilentProgress();
+  std::vector<Hover> hovers_;
+  size_t dips_ = 0;
+};
+
+TEST_F(House, ItsFacadePhotosAreLooseWithoutLinksAndTiedWithThem) {
+  ASSERT_GT(Loose(), 0);
+  const std::vector<Hover> before = hovers_;
+  const LinkReport report = AddLinkPhotos(setting_, obstacles_, hovers_, progress_);
+  EXPECT_EQ(Loose(), 0);
+  const PhotoGraph photos(setting_, hovers_);
+  const Connectivity whole = ConnectivityOf(TiesOf(photos, hovers_, 2));
+  EXPECT_EQ(whole.parts, 1);
+  EXPECT_TRUE(whole.bridges.empty());
+  int links = 0;
+  for (size_t h = 0; h < hovers_.size(); ++h) {
+    EXPECT_TRUE(obstacles_.IsFree(hovers_[h].position));
+    if (h < before.size()) {
+      EXPECT_EQ(hovers_[h].position, before[h].position);
+    }
+    for (const Shot& shot : hovers_[h].shots) {
+      if (shot.kind != ViewKind::kLink) continue;
+      ++links;
+      EXPECT_TRUE(shot.targets.empty());
+    }
+  }
+  EXPECT_EQ(links, report.photos);
+  EXPECT_LE(links, static_cast<int>(3 * dips_));
+}
+
+TEST_F(House, LinksAreTheSameAtAnyNumberOfThreads) {
+  std::vector<Hover> one = hovers_, two = hovers_;
+  AddLinkPhotos({site_, camera_, 1}, obstacles_, one, progress_);
+  AddLinkPhotos({site_, camera_, 2}, obstacles_, two, progress_);
+  ASSERT_EQ(one.size(), two.size());
+  for (size_t h = 0; h < one.size(); ++h) {
+    EXPECT_EQ(one[h].position, two[h].position);
+    EXPECT_EQ(one[h].shots.size(), two[h].shots.size());
+  }
+}
+
+TEST_F(House, GivesUpWhereNoPlaceServes) {
+  std::vector<Hover> alone{{{500, 500, 20}, {{.kind = ViewKind::kOblique, .targets = {}}}}};
+  EXPECT_EQ(AddLinkPhotos(setting_, obstacles_, alone, progress_).photos, 0);
+  EXPECT_EQ(alone.size(), 1u);
+  hovers_.resize(1);  // nothing from above that sees what it sees
+  EXPECT_LE(AddLinkPhotos(setting_, obstacles_, hovers_, progress_).photos, 8);
+}
+
+// What the plan says of its matches, against the graph.
+TEST_F(House, SaysWhichPhotosAreLoose) {
+  const auto described = [&](const std::vector<Hover>& hovers) {
+    struct Plan plan;
+    for (size_t h = 0; h < hovers.size(); ++h) {
+      for (const Shot& shot : hovers[h].shots) {
+        PlannedView view;
+        view.id = "v" + std::to_string(plan.views.size());
+        view.kind = shot.kind;
+        for (const Target& target : shot.targets) {
+          view.targets.push_back({site_.facades[target.facade].id, target.along_m, target.z_m});
+        }
+        plan.views.push_back(std::move(view));
+      }
+    }
+    const MatchStats stats = ExpectMatches(PhotoGraph(setting_, hovers), hovers, 2, plan);
+    for (const PlannedView& view : plan.views) {
+      EXPECT_LE(view.partners.size(), 12u);
+      for (const PlannedPartner& partner : view.partners) {
+        EXPECT_GE(partner.strength, kEnoughStrength);
+        EXPECT_NE(partner.view, view.id);
+      }
+    }
+    return stats;
+  };
+  const MatchStats before = described(hovers_);
+  EXPECT_GE(before.loose, Loose());
+  EXPECT_TRUE(before.weakest.front().is_loose);
+  EXPECT_NE(LooseFacades(before).find("B0001/F0"), std::string::npos);
+  AddLinkPhotos(setting_, obstacles_, hovers_, progress_);
+  const MatchStats after = described(hovers_);
+  EXPECT_EQ(after.loose, 0);
+  EXPECT_EQ(after.parts, 1);
+  EXPECT_TRUE(LooseFacades(after).empty());
+  EXPECT_GE(after.weakest.size(), 10u);
+}
+
+TEST_F(House, CandidatesAreFreeAndNearInDirectionAndScale) {
+  const Gaze gaze{{0, -5, 3}, Vector3d(0, -1, 0.2).normalized(), 10.2};
+  const auto candidates = LinkCandidates(gaze, obstacles_, hovers_, 0);
+  ASSERT_GT(candidates.size(), 5u);
+  for (const LinkCandidate& candidate : candidates) {
+    const Vector3d ray = candidate.position - gaze.middle;
+    EXPECT_TRUE(obstacles_.IsFree(candidate.position));
+    EXPECT_LE(ray.norm(), kCloseRatio * gaze.distance_m);
+    EXPECT_GE(ray.normalized().dot(gaze.way), std::cos(kCloseAngle_rad));
+    EXPECT_GT(candidate.shot.Direction().dot(-ray.normalized()), 0.999);
+    EXPECT_LE(candidate.position.z(), site_.CeilingAt(candidate.position.head<2>()));
+  }
+  EXPECT_TRUE(LinkCandidates({}, obstacles_, hovers_, 0).empty());
+}
+
+}  // namespace
+}  // namespace stucco::plan
