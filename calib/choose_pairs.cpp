@@ -52,6 +52,7 @@ std::vector<std::vector<float>> Signatures(const std::vector<Features>& features
   }
   const std::vector<float> words = TrainVocabulary(samples, kVocabularyWords);
   std::vector<std::vector<float>> signatures;
+  signatures.reserve(features.size());
   for (const Features& f : features) signatures.push_back(Signature(f, words));
   return signatures;
 }

@@ -135,6 +135,7 @@ int DropContradictions(const ExpectedViews& views, const Scene& scene,
                        std::vector<VerifiedPair>& pairs) {
   assert(views.poses.size() == scene.photos.size());
   std::vector<Verdict> verdicts;
+  verdicts.reserve(pairs.size());
   for (const VerifiedPair& pair : pairs) verdicts.push_back(JudgePair(views, scene, pair.pair));
   const std::vector<bool> believed = Believed(pairs, verdicts, scene.photos.size());
   std::vector<bool> drop(pairs.size());

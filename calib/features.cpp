@@ -69,11 +69,13 @@ std::vector<int> SelectSpread(const std::vector<Keypoint>& keypoints,
   std::vector<int> taken_from_cell(
       static_cast<size_t>(columns) * (static_cast<size_t>(size.height_px / cell_px) + 2), 0);
   std::vector<std::pair<int, int>> turns;  // (turn of its cell, rank by strength)
+  turns.reserve(order.size());
   for (int rank = 0; rank < static_cast<int>(order.size()); ++rank) {
     turns.emplace_back(taken_from_cell[cell_of(order[rank])]++, rank);
   }
   std::sort(turns.begin(), turns.end());
   std::vector<int> selected;
+  selected.reserve(count);
   for (int i = 0; i < count; ++i) selected.push_back(order[turns[i].second]);
   std::sort(selected.begin(), selected.end());
   return selected;

@@ -221,6 +221,7 @@ std::optional<Eigen::Vector3d> UpFromGimbal(const std::vector<const CapturedPhot
   if (ups.size() < 2 || sum.norm() < 1e-9) return std::nullopt;
   const Eigen::Vector3d up = sum.normalized();
   std::vector<double> angles;
+  angles.reserve(ups.size());
   for (const Eigen::Vector3d& each : ups) {
     angles.push_back(std::atan2(each.cross(up).norm(), each.dot(up)));
   }

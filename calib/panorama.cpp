@@ -82,6 +82,7 @@ std::vector<std::string> DescribePanoramas(const Scene& scene,
     if (all_registered && more.empty())
       continue;  // others gave them depth, as at a hover of a plan
     std::vector<std::string> names;
+    names.reserve(group.size());
     for (const int photo : group) names.push_back(scene.photos[photo].name);
     std::string text = fmt::format(
         "{} of {} photos were taken from one point (rotation only), so that no depth comes "

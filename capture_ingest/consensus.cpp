@@ -74,6 +74,7 @@ void QuarantineHeights(std::vector<PhotoRecord>& records) {
   const auto positioned = Positioned(records, /*with_height=*/true);
   if (positioned.size() < kFewest) return;
   std::vector<double> heights;
+  heights.reserve(positioned.size());
   for (const PhotoRecord* record : positioned) heights.push_back(record->photo.position->height_m);
   const double median = *Median(heights);
   const size_t near = std::count_if(heights.begin(), heights.end(), [&](double height) {

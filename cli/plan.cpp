@@ -71,7 +71,7 @@ void AddPlanOptions(CLI::App& verb, std::vector<std::string>& set) {
     }
     for (const std::string_view unit : {"-m", "-m-per-s"}) {
       if (!dashed.ends_with(unit)) continue;
-      names = "--" + dashed.substr(0, dashed.size() - unit.size()) + "," + names;
+      names = fmt::format("--{},{}", dashed.substr(0, dashed.size() - unit.size()), names);
     }
     const std::string allowed = AllowedValues(option);
     verb.add_option_function<std::string>(

@@ -35,7 +35,7 @@ constexpr char kGroup[] = "The flight that is simulated";
 std::string OptionNames(const std::string& name, bool is_flag) {
   std::string dashed = name;
   std::replace(dashed.begin(), dashed.end(), '_', '-');
-  const std::string names = "--" + dashed;
+  std::string names = "--" + dashed;
   if (is_flag) return names + ",!--no-" + dashed;
   for (const std::string unit : {"-m", "-px", "-deg"}) {
     if (dashed.ends_with(unit)) {

@@ -142,7 +142,8 @@ class Fusion {
                     const DepthMap& map) const {
     const PinholeCamera& camera = input_.cameras[member.photo];
     const float u = static_cast<float>(member.pixel % map.width);
-    const float v = static_cast<float>(member.pixel / map.width);
+    const auto row = member.pixel / map.width;
+    const float v = static_cast<float>(row);
     const Eigen::Vector3d on_plane = WorldPoint(camera, u, v, map.depths[member.pixel]);
     const Eigen::Vector3d normal =
         (camera.rotation.transpose() * map.Normal(member.pixel)).cast<double>();

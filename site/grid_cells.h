@@ -14,7 +14,7 @@ namespace stucco {
 struct GridCell {
   int32_t row = 0;
   int32_t column = 0;
-  auto operator<=>(const GridCell&) const = default;
+  auto operator<=>(const GridCell&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 inline Eigen::Vector2d CenterOf(const GridCell& cell, double size_m) {
   return size_m * Eigen::Vector2d(cell.column + 0.5, cell.row + 0.5);

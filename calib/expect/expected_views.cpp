@@ -104,6 +104,7 @@ std::vector<int> Best(const std::vector<int>& shared, int least, int count) {
   std::sort(order.begin(), order.end());
   if (static_cast<int>(order.size()) > count) order.resize(count);
   std::vector<int> best;
+  best.reserve(order.size());
   for (const auto& [points, photo] : order) best.push_back(photo);
   return best;
 }
@@ -144,6 +145,33 @@ std::vector<WallRange> WallsOf(const ExpectedViews& views, size_t photo) {
   std::sort(walls.begin(), walls.end(),
             [](const WallRange& a, const WallRange& b) { return a.wall < b.wall; });
   return walls;
+}
+
+// The points of one wall that a photo shares with each of the others, by photo.
+struct SharedOfWall {
+  std::vector<int> with_frontal;  // one of the two sees them frontally
+  std::vector<int> with_oblique;  // neither
+};
+
+SharedOfWall SharedOn(const WallRange& wall, const ExpectedViews& views, const Sights& sights,
+                      int photo) {
+  SharedOfWall shared{std::vector<int>(views.seen.size(), 0),
+                      std::vector<int>(views.seen.size(), 0)};
+  for (size_t i = wall.begin; i < wall.end; ++i) {
+    const int point = views.seen[photo][i];
+    const Eigen::Vector3d& normal = views.points[point].normal;
+    const Sight sight = sights.Of(photo, point);
+    const bool is_frontal = sight.way.dot(normal) > kFrontal;
+    for (const int b : sights.PhotosOf(point)) {
+      const Sight other = sights.Of(b, point);
+      const bool other_frontal = other.way.dot(normal) > kFrontal;
+      if (photo == b || (is_frontal && other_frontal)) continue;
+      if (sight.way.dot(other.way) > kSameDirection) continue;
+      if (ScaleChange(sight, other) > kAlikeScaleOfWalls) continue;
+      ++(is_frontal || other_frontal ? shared.with_frontal : shared.with_oblique)[b];
+    }
+  }
+  return shared;
 }
 
 }  // namespace
@@ -203,24 +231,9 @@ std::vector<WallPair> ObliqueWallPairs(const ExpectedViews& views, int count, in
   ParallelFor(views.seen.size(), threads, [&](size_t photo) {
     const int a = static_cast<int>(photo);
     for (const WallRange& wall : WallsOf(views, photo)) {
-      std::vector<int> with_frontal(views.seen.size(), 0);  // points in common
-      std::vector<int> with_oblique(views.seen.size(), 0);
-      for (size_t i = wall.begin; i < wall.end; ++i) {
-        const int point = views.seen[photo][i];
-        const Eigen::Vector3d& normal = views.points[point].normal;
-        const Sight sight = sights.Of(a, point);
-        const bool is_frontal = sight.way.dot(normal) > kFrontal;
-        for (const int b : sights.PhotosOf(point)) {
-          const Sight other = sights.Of(b, point);
-          const bool other_frontal = other.way.dot(normal) > kFrontal;
-          if (a == b || (is_frontal && other_frontal)) continue;
-          if (sight.way.dot(other.way) > kSameDirection) continue;
-          if (ScaleChange(sight, other) > kAlikeScaleOfWalls) continue;
-          ++(is_frontal || other_frontal ? with_frontal : with_oblique)[b];
-        }
-      }
-      std::vector<int> partners = Best(with_frontal, kLeastShared, count);
-      const std::vector<int> more = Best(with_oblique, kLeastShared, count / 3);
+      const SharedOfWall shared = SharedOn(wall, views, sights, a);
+      std::vector<int> partners = Best(shared.with_frontal, kLeastShared, count);
+      const std::vector<int> more = Best(shared.with_oblique, kLeastShared, count / 3);
       partners.insert(partners.end(), more.begin(), more.end());
       for (const int b : partners) {
         of_photo[photo].push_back({std::min(a, b), std::max(a, b), wall.wall});

@@ -44,8 +44,8 @@ std::vector<std::pair<int, int>> OverlappingPairs(const ExpectedViews& views, in
 struct WallPair {
   int first = 0;  // photos, first < second
   int second = 0;
-  int wall = 0;  // index into Plan::facades
-  auto operator<=>(const WallPair&) const = default;
+  int wall = 0;                                       // index into Plan::facades
+  auto operator<=>(const WallPair&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 // Of each photo and each of the eight walls it sees most of, up to `count` partners that see it

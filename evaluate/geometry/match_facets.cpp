@@ -132,6 +132,7 @@ FacetOverlap Overlap(const Facet& a, const Facet& b) {
   const Sheet sheet(a);
   const std::vector<Triangle> of_a = Flattened(a, sheet), of_b = Flattened(b, sheet);
   std::vector<Box> boxes;
+  boxes.reserve(of_b.size());
   for (const Triangle& triangle : of_b) boxes.push_back(BoxOf(triangle));
   double moment = 0;
   for (const Triangle& triangle : of_a) {

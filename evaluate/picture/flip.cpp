@@ -118,7 +118,7 @@ cv::Mat Filtered(const cv::Mat& plane, const cv::Mat& kernel_x, const cv::Mat& k
 
 cv::Mat Seen(const cv::Mat& plane, const Sensitivity& sensitivity, double pixels_per_degree) {
   const Gaussian first = MakeGaussian(sensitivity.a1, sensitivity.b1, pixels_per_degree);
-  const cv::Mat seen = Filtered(plane, first.kernel, first.kernel);
+  cv::Mat seen = Filtered(plane, first.kernel, first.kernel);
   if (sensitivity.a2 == 0) return seen;
   const Gaussian second = MakeGaussian(sensitivity.a2, sensitivity.b2, pixels_per_degree);
   const cv::Mat more = Filtered(plane, second.kernel, second.kernel);

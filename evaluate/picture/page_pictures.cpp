@@ -61,7 +61,7 @@ void RemovePagePictures(const std::filesystem::path& output) {
 PagePictures WritePagePictures(const PicturePair& pair, const FlipMap& flip,
                                const std::filesystem::path& output, const std::string& stem) {
   std::filesystem::create_directories(output / "pictures");
-  const PagePictures names{stem + "-truth.jpg", stem + "-result.jpg", stem + "-error.jpg"};
+  PagePictures names{stem + "-truth.jpg", stem + "-result.jpg", stem + "-error.jpg"};
   WriteImage(Shrunk(Blanked(pair.truth, pair.mask)), output / names.truth, kJpegQuality);
   WriteImage(Shrunk(Blanked(pair.result, pair.mask)), output / names.result, kJpegQuality);
   WriteImage(Shrunk(Coloured(flip)), output / names.error, kJpegQuality);

@@ -43,7 +43,8 @@ double BestTurn(const DippingSetting& setting, std::span<const Candidate> candid
   double best = -1, best_turn = 0;
   // From the normal outwards, so that it wins ties.
   for (int step = 0; step <= 2 * kTurnSteps; ++step) {
-    const double turn = (step + 1) / 2 * kTurnStep * (step % 2 ? 1 : -1) + 0.0;
+    const int steps = (step + 1) / 2;
+    const double turn = steps * kTurnStep * (step % 2 ? 1 : -1) + 0.0;
     std::vector<SeenPart> parts;
     Intervals seen;
     double length = 1;

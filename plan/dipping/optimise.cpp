@@ -166,6 +166,7 @@ class Optimiser {
     const DippingPoint& point = points_[index];
     const std::vector<int> facades = FacadesOf(point);
     std::vector<Quality> before;
+    before.reserve(facades.size());
     for (const int facade : facades) before.push_back(QualityOf(facade));
     const double cost = CostOf(point);
     double best_gain = kLeastGain;

@@ -227,12 +227,10 @@ class OverlapCutter {
     dropped_[dropped] = true;
     const Footprint& from = footprints_[dropped];
     Footprint& into = footprints_[kept];
-    if (from.top_known && into.top_known) {
-      into.z_m.to_m = std::max(into.z_m.to_m, from.z_m.to_m);
-    } else if (from.top_known && Area(from.outline) > kSame * Area(into.outline)) {
+    if (from.top_known && !into.top_known && Area(from.outline) > kSame * Area(into.outline)) {
       into.top_known = true;
       into.z_m.to_m = from.z_m.to_m;
-    } else if (!into.top_known) {
+    } else if (from.top_known || !into.top_known) {
       into.z_m.to_m = std::max(into.z_m.to_m, from.z_m.to_m);
     }
     explained_.insert(from.building);

@@ -102,6 +102,7 @@ std::vector<Eigen::Vector3d> TakeOffPlaces(const Site& site, size_t most) {
   constexpr double kApart_m = 40;  // nearer ones save less than it takes to carry the things there
   const std::vector<Eigen::Vector2d> places = SafeGrid(site);
   std::vector<double> away;
+  away.reserve(places.size());
   for (const auto& place : places) away.push_back((place - site.home.head<2>()).norm());
   std::vector<Eigen::Vector3d> chosen;
   while (chosen.size() < most && !places.empty()) {

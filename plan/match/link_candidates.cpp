@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "plan/match/match_graph.h"
 
@@ -60,9 +61,10 @@ class Finder {
     if (position.z() > obstacles_.site().CeilingAt(position.head<2>())) return;
     if (IsClose(position) && obstacles_.IsFree(position)) Take(position, place, hover);
   }
-  std::vector<LinkCandidate> found_;
+  std::vector<LinkCandidate> TakeFound() { return std::move(found_); }
 
  private:
+  std::vector<LinkCandidate> found_;
   const Gaze& gaze_;
   const Obstacles& obstacles_;
 };
@@ -108,7 +110,7 @@ std::vector<LinkCandidate> LinkCandidates(const Gaze& gaze, const Obstacles& obs
       }
     }
   }
-  return std::move(finder.found_);
+  return finder.TakeFound();
 }
 
 }  // namespace stucco::plan

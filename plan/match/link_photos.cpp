@@ -70,6 +70,7 @@ class Linker {
   std::optional<Assessed> Best(uint32_t photo, bool walls_only, const Value& value) const;
   std::vector<uint32_t> ServedClose(const Assessed& link) const;
   int ServedLone(const Assessed& link) const;
+  bool ServeLone(uint32_t photo);
   bool Tie(const Connectivity& whole, int block);
   void Add(Assessed link);
   void ThrowIfCancelled() const {
@@ -189,18 +190,24 @@ void Linker::ServeFacadePhotos() {
   }
 }
 
+// Adds a partner for a photo that lacks one, if there is one.
+bool Linker::ServeLone(uint32_t photo) {
+  auto link = Best(photo, false, [&](const Assessed& candidate) {
+    const bool serves_it = std::ranges::any_of(candidate.partners, [&](const Partner& partner) {
+      return partner.photo == photo && partner.strength >= kEnoughStrength;
+    });
+    return serves_it ? ServedLone(candidate) : 0.0;
+  });
+  if (!link) return false;
+  Add(std::move(*link));
+  return true;
+}
+
 void Linker::ServeLonePhotos() {
   for (uint32_t photo = 0; photo < photos_.graph.size(); ++photo) {
     ThrowIfCancelled();
     for (int tries = 0; tries < kMostTries && LacksPartners(photo) > 0; ++tries) {
-      auto link = Best(photo, false, [&](const Assessed& candidate) {
-        const bool serves_it = std::ranges::any_of(candidate.partners, [&](const Partner& partner) {
-          return partner.photo == photo && partner.strength >= kEnoughStrength;
-        });
-        return serves_it ? ServedLone(candidate) : 0.0;
-      });
-      if (!link) break;
-      Add(std::move(*link));
+      if (!ServeLone(photo)) break;
     }
   }
 }

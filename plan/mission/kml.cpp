@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <pugixml.hpp>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct Writer {
   }
   std::string Ring(const std::vector<Eigen::Vector3d>& corners) const {
     std::vector<std::string> texts;
+    texts.reserve(corners.size() + 1);
     for (const Eigen::Vector3d& corner : corners) texts.push_back(Coordinate(corner));
     if (!texts.empty()) texts.push_back(texts.front());
     return fmt::format("{}", fmt::join(texts, " "));
@@ -149,7 +151,7 @@ void AddFlight(pugi::xml_node parent, size_t index, const Writer& writer) {
 void AddFacade(pugi::xml_node folder, const PlannedFacade& facade, const Writer& writer) {
   const double share = facade.predicted.sum() / kBestQuality;
   pugi::xml_node placemark = AddPlacemark(
-      folder, facade.id, fmt::format("quality{}", static_cast<int>(share * kQualityClasses + 0.5)));
+      folder, facade.id, fmt::format("quality{}", std::lround(share * kQualityClasses)));
   pugi::xml_node data = AddData(placemark);
   AddDatum(data, "q_s", fmt::format("{:.3f}", facade.predicted.q_s));
   AddDatum(data, "q_d", fmt::format("{:.3f}", facade.predicted.q_d));
@@ -178,6 +180,7 @@ void AddBlock(pugi::xml_node placemark, const Rings& rings, double z, const Writ
   const char* boundary = "outerBoundaryIs";
   for (const auto& ring : rings) {
     std::vector<Eigen::Vector3d> lifted;
+    lifted.reserve(ring.size());
     for (const Eigen::Vector2d& corner : ring) lifted.emplace_back(corner.x(), corner.y(), z);
     Put(polygon.append_child(boundary).append_child("LinearRing"), "coordinates",
         writer.Ring(lifted));

@@ -65,6 +65,7 @@ void WriteLitchi(const Plan& plan, const std::vector<MissionRoute>& routes,
                  const MissionOptions& options, const std::filesystem::path& folder,
                  MissionFiles& files) {
   std::vector<std::vector<std::string>> flights;
+  flights.reserve(routes.size());
   for (const MissionRoute& route : routes) flights.push_back(LitchiCsv(plan, route, options));
   const bool has_parts =
       std::ranges::any_of(flights, [](const auto& parts) { return parts.size() > 1; });

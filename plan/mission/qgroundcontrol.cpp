@@ -104,6 +104,7 @@ Json FencePolygon(const Plan& plan, const std::vector<Eigen::Vector2d>& ring) {
     twice_area += p.x() * q.y() - p.y() * q.x();
   }
   std::vector<Json> corners;
+  corners.reserve(ring.size());
   for (const Eigen::Vector2d& corner : ring) {
     corners.push_back(Position(GeodeticFromPlan(plan.origin, corner)));
   }

@@ -137,6 +137,7 @@ std::vector<SplitHome> CostsFromHomes(const Task& task, const std::vector<Place>
                                       const std::vector<Hover>& hovers) {
   task.progress.Begin("ways from home", places.size() * hovers.size());
   std::vector<SplitHome> homes;
+  homes.reserve(places.size());
   for (const Place& place : places) homes.push_back(CostsFrom(task, place, hovers));
   return homes;
 }
@@ -146,6 +147,7 @@ void Reorder(const std::vector<int>& kept, std::vector<SplitHome>& homes) {
   for (SplitHome& home : homes) {
     for (std::vector<double>* costs : {&home.out, &home.back, &home.reserve}) {
       std::vector<double> ordered;
+      ordered.reserve(kept.size());
       for (const int k : kept) ordered.push_back((*costs)[k]);
       *costs = std::move(ordered);
     }

@@ -108,7 +108,7 @@ size_t DropIdleShots(const SurfaceView& view, double patch_m2, std::vector<Hover
 std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
                                const PlanarOptions& options, std::span<const Hover> dipping,
                                Progress& progress) {
-  const std::vector<Hover> full = GridHovers(site, camera, options.grid);
+  std::vector<Hover> full = GridHovers(site, camera, options.grid);
   if (full.empty()) return full;
   const GridStep step = StepOf(site, camera, options.grid);
   const SurfaceView view(site, camera.Field(),

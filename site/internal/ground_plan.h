@@ -29,8 +29,9 @@ struct GroundPlan {
     return static_cast<size_t>(row) * columns + column;
   }
   Eigen::Vector2d Middle(size_t cell) const {
-    return low + cell_m * Eigen::Vector2d(static_cast<double>(cell % columns) + 0.5,
-                                          static_cast<double>(cell / columns) + 0.5);
+    const size_t column = cell % columns, row = cell / columns;
+    return low + cell_m * Eigen::Vector2d(static_cast<double>(column) + 0.5,
+                                          static_cast<double>(row) + 0.5);
   }
 };
 
