@@ -50,6 +50,18 @@ Ring HullOf(Ring points) {
   return hull;
 }
 
+void AddCellsNear(const Segment2d& edge, double size_m, double reach_m,
+                  std::vector<GridCell>& out) {
+  const Eigen::Vector2d low = edge.a.cwiseMin(edge.b).array() - reach_m;
+  const Eigen::Vector2d high = edge.a.cwiseMax(edge.b).array() + reach_m;
+  for (int32_t row = CellOf(low.y(), size_m); row <= CellOf(high.y(), size_m); ++row) {
+    for (int32_t column = CellOf(low.x(), size_m); column <= CellOf(high.x(), size_m); ++column) {
+      const GridCell cell{row, column};
+      if (Distance(edge, CenterOf(cell, size_m)) <= reach_m) out.push_back(cell);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<GridCell> CellsInside(const Polygon& polygon, double size_m) {
@@ -77,18 +89,7 @@ std::vector<GridCell> CellsNear(const Polygon& polygon, double size_m, double re
   std::vector<GridCell> out;
   for (const Ring& ring : polygon.rings) {
     for (size_t i = 0; i < ring.size(); ++i) {
-      const Eigen::Vector2d& a = ring[i];
-      const Eigen::Vector2d& b = ring[(i + 1) % ring.size()];
-      const Segment2d edge{a, b};
-      const Eigen::Vector2d low = a.cwiseMin(b).array() - reach_m;
-      const Eigen::Vector2d high = a.cwiseMax(b).array() + reach_m;
-      for (int32_t row = CellOf(low.y(), size_m); row <= CellOf(high.y(), size_m); ++row) {
-        for (int32_t column = CellOf(low.x(), size_m); column <= CellOf(high.x(), size_m);
-             ++column) {
-          const GridCell cell{row, column};
-          if (Distance(edge, CenterOf(cell, size_m)) <= reach_m) out.push_back(cell);
-        }
-      }
+      AddCellsNear({ring[i], ring[(i + 1) % ring.size()]}, size_m, reach_m, out);
     }
   }
   std::ranges::sort(out);
