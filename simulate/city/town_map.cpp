@@ -144,6 +144,11 @@ void WriteTerrain(const Town& town, const Georef& georef, const std::filesystem:
   }
 }
 
+bool StandsAboveNeighbour(const Site& site, const Facade& facade) {
+  constexpr double kStep_m = 0.5;
+  return facade.z_m.from_m > site.footprints[facade.footprint].z_m.from_m + kStep_m;
+}
+
 FacadeIds FindFacades(const Town& town, const Georef& georef, const std::filesystem::path& map,
                       const std::optional<std::filesystem::path>& terrain) {
   constexpr double kSame_m = 0.05;  // the planner joins corners within that
@@ -157,6 +162,8 @@ FacadeIds FindFacades(const Town& town, const Georef& georef, const std::filesys
     const auto wall = std::find_if(walls.begin(), walls.end(), [&](const Wall& w) {
       return (w.a - a).norm() < kSame_m && (w.b - b).norm() < kSame_m;
     });
+    // The truth hides party walls whole, what rises above the lower neighbour too.
+    if (wall == walls.end() && StandsAboveNeighbour(site, facade)) continue;
     if (wall == walls.end()) {
       throw Error(ErrorKind::kStageFailed,
                   fmt::format("{}: facade {} is no wall of the town", map.string(), facade.id));

@@ -8,6 +8,7 @@
 
 #include "simulate/city/house_mesh.h"
 #include "simulate/city/town.h"
+#include "site/site.h"
 #include "survey/georef.h"
 
 namespace stucco::simulate {
@@ -19,8 +20,12 @@ void WriteMap(const Town& town, const Georef& georef, const std::filesystem::pat
 // terrain.tif: heights above the ellipsoid in WGS 84 degrees, about a metre apart.
 void WriteTerrain(const Town& town, const Georef& georef, const std::filesystem::path& path);
 
-// Reads the map as the planner does and finds the facade of every wall. Throws Error (kStageFailed)
-// where a free wall has none or a facade no wall: the truth would name the wrong walls.
+// Of a wall that shows above the roof of a lower neighbour only.
+bool StandsAboveNeighbour(const Site& site, const Facade& facade);
+
+// Reads the map as the planner does and finds the facade of every wall that stands free. Throws
+// Error (kStageFailed) where a free wall has none, or a facade neither a wall nor a lower
+// neighbour: the truth would name the wrong walls.
 FacadeIds FindFacades(const Town& town, const Georef& georef, const std::filesystem::path& map,
                       const std::optional<std::filesystem::path>& terrain);
 
