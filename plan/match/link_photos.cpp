@@ -26,7 +26,6 @@ constexpr int kMostTries = 4;
 // Of the walls in the photo that asks, what another shows near in direction and scale.
 float CloseWalls(const SurfaceView& view, std::span<const Sight> asking,
                  std::span<const Sight> other) {
-  const float close_cosine = std::cos(kCloseAngle_rad);
   float walls = 0, close = 0;
   auto at = other.begin();
   for (const Sight& own : asking) {
@@ -34,10 +33,7 @@ float CloseWalls(const SurfaceView& view, std::span<const Sight> asking,
     walls += own.share;
     while (at != other.end() && at->sample < own.sample) ++at;
     if (at == other.end()) continue;
-    const float ratio = std::max(own.distance_m / at->distance_m, at->distance_m / own.distance_m);
-    if (at->sample == own.sample && own.way.dot(at->way) >= close_cosine && ratio <= kCloseRatio) {
-      close += own.share;
-    }
+    if (at->sample == own.sample && IsClose(own, *at)) close += own.share;
   }
   return walls > 0 ? close / walls : 0;
 }

@@ -40,6 +40,13 @@ double Likeness(const Warp& warp) {
   return 1 / ((1 + tilt_square * tilt_square) * (1 + std::pow(scale_square, 3)));
 }
 
+bool IsClose(const Sight& one, const Sight& other) {
+  static const float close_cosine = std::cos(kCloseAngle_rad);
+  const float ratio =
+      std::max(one.distance_m / other.distance_m, other.distance_m / one.distance_m);
+  return one.way.dot(other.way) >= close_cosine && ratio <= kCloseRatio;
+}
+
 uint32_t MatchGraph::Add(const Eigen::Vector3d& position, std::vector<Sight> sights) {
   const auto photo = static_cast<uint32_t>(positions_.size());
   for (const Sight& sight : sights) rays_[sight.sample].push_back({photo, sight});
@@ -50,7 +57,6 @@ uint32_t MatchGraph::Add(const Eigen::Vector3d& position, std::vector<Sight> sig
 
 std::vector<Partner> MatchGraph::PartnersOf(const Eigen::Vector3d& position,
                                             std::span<const Sight> sights) const {
-  const float close_cosine = std::cos(kCloseAngle_rad);
   std::vector<float> strength(size(), 0.0F), close(size(), 0.0F);
   float walls = 0;
   for (const Sight& own : sights) {
@@ -59,12 +65,9 @@ std::vector<Partner> MatchGraph::PartnersOf(const Eigen::Vector3d& position,
     const Eigen::Vector3f normal = view_.samples[own.sample].normal.cast<float>();
     for (const Ray& ray : rays_[own.sample]) {
       const Sight& other = ray.sight;
-      const float cosine = std::clamp(own.way.dot(other.way), -1.0F, 1.0F);
-      const float ratio =
-          std::max(own.distance_m / other.distance_m, other.distance_m / own.distance_m);
       strength[ray.photo] += std::min(own.share, other.share) *
                              static_cast<float>(Likeness(WarpBetween(normal, own, other)));
-      if (is_wall && cosine >= close_cosine && ratio <= kCloseRatio) close[ray.photo] += own.share;
+      if (is_wall && IsClose(own, other)) close[ray.photo] += own.share;
     }
   }
   std::vector<Partner> out;

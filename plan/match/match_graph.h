@@ -45,6 +45,8 @@ inline constexpr float kEnoughStrength = 0.08F;
 inline constexpr float kCloseAngle_rad = 0.611F;  // 35 degrees
 inline constexpr float kCloseRatio = 2.5F;
 inline constexpr float kCloseShare = 0.3F;
+// Two photos show a sample from within these.
+bool IsClose(const Sight& one, const Sight& other);
 
 // Which photos of a plan should match, and how well. Photos from one place share no parallax and
 // are no partners.

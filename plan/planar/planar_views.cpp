@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/camera/photo_sights.h"
+#include "plan/planar/idle_shots.h"
 #include "plan/planar/lost_walls.h"
 #include "plan/planar/move_hovers.h"
 #include "plan/planar/reconstructability.h"
@@ -32,8 +32,6 @@ constexpr double kGroundReach = 2;
 // a high ceiling there is nothing better.
 constexpr double kReachOfAltitude = 1.5;
 constexpr int kMostRounds = 5;  // of moves and removals; the last ones gain next to nothing
-// A photo in which walls, roofs and the ground around them fill less is not taken.
-constexpr double kLeastShare = 0.1;
 // Of the mean grid step, for a move.
 constexpr double kMoveOfGrid = 0.5;
 
@@ -87,22 +85,6 @@ double Square(double value) {
   return value * value;
 }
 
-// Takes out the photos that show next to nothing of what is to be captured. Returns how many.
-size_t DropIdleShots(const SurfaceView& view, double patch_m2, std::vector<Hover>& hovers) {
-  size_t dropped = 0;
-  for (Hover& hover : hovers) {
-    dropped += std::erase_if(hover.shots, [&](const Shot& shot) {
-      double share = 0;
-      for (const Sight& sight : SightsOf(view, patch_m2, hover.position, shot)) {
-        share += sight.share;
-      }
-      return share < kLeastShare;
-    });
-  }
-  std::erase_if(hovers, [](const Hover& hover) { return hover.shots.empty(); });
-  return dropped;
-}
-
 }  // namespace
 
 std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
@@ -138,7 +120,13 @@ std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
       HoversForLostWalls(FacadeSight(site, camera, options.d_max_m, full),
                          FacadeSight(site, camera, options.d_max_m, kept), options.threads);
   for (const uint32_t hover : lost) out.push_back(full[hover]);
-  const size_t idle = DropIdleShots(view, Square(SpacingOf(options, step)), out);
+  const size_t idle = DropIdleShots({.site = site,
+                                     .view = view,
+                                     .patch_m2 = Square(SpacingOf(options, step)),
+                                     .camera = camera,
+                                     .d_max_m = options.d_max_m,
+                                     .threads = options.threads},
+                                    dipping, out);
   if (idle > 0) {
     progress.Note(fmt::format("{} photos from above would show next to nothing of the area", idle));
   }
