@@ -15,15 +15,14 @@ namespace {
 constexpr size_t kMostPartners = 12;
 constexpr size_t kWeakest = 10;
 
-TiedView Describe(const PlannedView& view, const Shot& shot, const Ties& ties,
-                  std::span<const Partner> partners) {
+TiedView Describe(const PlannedView& view, const Shot& shot, const Ties& ties) {
   TiedView out{.view = view.id,
                .partners = static_cast<int>(ties.strong.size()),
                .close = static_cast<int>(ties.close.size()),
                .strength = 0,
                .facades = {},
                .is_loose = LackingPartners(ties) + LackingClose(ties, shot) > 0};
-  for (const Partner& partner : partners) out.strength += partner.strength;
+  for (const Partner& partner : ties.strong) out.strength += partner.strength;
   for (const PlannedTarget& target : view.targets) {
     if (std::ranges::find(out.facades, target.facade) == out.facades.end()) {
       out.facades.push_back(target.facade);
@@ -37,22 +36,21 @@ TiedView Describe(const PlannedView& view, const Shot& shot, const Ties& ties,
 MatchStats ExpectMatches(const PhotoGraph& photos, std::span<const Hover> hovers, int threads,
                          Plan& plan) {
   assert(photos.graph.size() == plan.views.size());
-  const std::vector<Ties> ties = TiesOf(photos, hovers, threads);
-  const auto strong = StrongPartners(photos, kEnoughStrength, threads);
+  std::vector<Ties> ties = TiesOf(photos, hovers, threads);
   const Connectivity whole = ConnectivityOf(ties);
   MatchStats stats{.parts = whole.parts,
                    .bridges = static_cast<int>(whole.bridges.size()),
                    .loose = 0,
                    .weakest = {}};
-  for (size_t i = 0; i < strong.size(); ++i) {
+  for (size_t i = 0; i < ties.size(); ++i) {
     PlannedView& view = plan.views[i];
-    for (const Partner& partner : strong[i]) {
+    std::ranges::stable_sort(ties[i].strong, std::ranges::greater{}, &Partner::strength);
+    for (const Partner& partner : ties[i].strong) {
       if (view.partners.size() == kMostPartners) break;
       view.partners.push_back({plan.views[partner.photo].id, partner.strength});
     }
     const PhotoPlace& place = photos.places[i];
-    stats.weakest.push_back(
-        Describe(view, hovers[place.hover].shots[place.shot], ties[i], strong[i]));
+    stats.weakest.push_back(Describe(view, hovers[place.hover].shots[place.shot], ties[i]));
     stats.loose += stats.weakest.back().is_loose;
   }
   std::ranges::stable_sort(stats.weakest, {}, [](const TiedView& view) {

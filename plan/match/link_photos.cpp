@@ -62,8 +62,15 @@ class Linker {
   }
   int LacksClose(uint32_t photo) const { return LackingClose(ties_[photo], ShotOf(photo)); }
   int LacksPartners(uint32_t photo) const { return LackingPartners(ties_[photo]); }
-  template <typename Value>
-  std::optional<Assessed> Best(uint32_t photo, bool walls_only, const Value& value) const;
+  template <typename MayServe, typename Value>
+  std::optional<Assessed> Best(const Gaze& gaze, uint32_t photo, const MayServe& may_serve,
+                               const Value& value) const;
+  Gaze GazeOf(uint32_t photo, bool walls_only) const {
+    return plan::GazeOf(photos_.view, photos_.graph.sights(photo), walls_only);
+  }
+  bool IsCloseTo(uint32_t photo, std::span<const Sight> link) const {
+    return CloseWalls(photos_.view, photos_.graph.sights(photo), link) >= kCloseShare;
+  }
   std::vector<uint32_t> ServedClose(const Assessed& link) const;
   int ServedLone(const Assessed& link) const;
   bool ServeLone(uint32_t photo);
@@ -94,15 +101,13 @@ Linker::Linker(const MatchSetting& setting, const Obstacles& obstacles, std::vec
 double CostOf(LinkPlace place) {
   if (place == LinkPlace::kHover) return 1;
   return place == LinkPlace::kColumn ? kColumnCost : kStopCost;
-  if (place == LinkPlace::kHover) return 1;
-  return place == LinkPlace::kColumn ? kColumnCost : kStopCost;
 }
 
-// Of the candidates for a photo, the one whose `value`, in photos served, is the highest for what
-// it costs; none where nothing has any.
-template <typename Value>
-std::optional<Assessed> Linker::Best(uint32_t photo, bool walls_only, const Value& value) const {
-  const Gaze gaze = GazeOf(photos_.view, photos_.graph.sights(photo), walls_only);
+// Of the candidates for a photo that may serve (asked first, by what they see), the one whose
+// `value`, in photos served, is the highest for what it costs; none where nothing has any.
+template <typename MayServe, typename Value>
+std::optional<Assessed> Linker::Best(const Gaze& gaze, uint32_t photo, const MayServe& may_serve,
+                                     const Value& value) const {
   const auto candidates =
       LinkCandidates(gaze, obstacles_, hovers_, static_cast<int>(photos_.places[photo].hover));
   std::vector<Assessed> assessed(candidates.size());
@@ -111,6 +116,7 @@ std::optional<Assessed> Linker::Best(uint32_t photo, bool walls_only, const Valu
     link.candidate = candidates[i];
     link.sights =
         SightsOf(photos_.view, photos_.patch_m2, link.candidate.position, link.candidate.shot);
+    if (!may_serve(link.sights)) return;
     link.partners = photos_.graph.PartnersOf(link.candidate.position, link.sights);
     const double served = value(link);
     if (!(served > 0)) return;
@@ -132,9 +138,7 @@ std::vector<uint32_t> Linker::ServedClose(const Assessed& link) const {
     if (LacksClose(photo) == 0 ||
         !StandsApart(photos_.graph, ties_[photo], link.candidate.position))
       continue;
-    if (CloseWalls(photos_.view, photos_.graph.sights(photo), link.sights) >= kCloseShare) {
-      out.push_back(photo);
-    }
+    if (IsCloseTo(photo, link.sights)) out.push_back(photo);
   }
   return out;
 }
@@ -162,8 +166,8 @@ void Linker::Add(Assessed link) {
   ties_.emplace_back();
   for (const Partner& partner : link.partners) {
     if (partner.strength < kEnoughStrength) continue;
-    ties_[self].strong.push_back(partner.photo);
-    ties_[partner.photo].strong.push_back(self);
+    ties_[self].strong.push_back(partner);
+    ties_[partner.photo].strong.push_back({self, partner.strength, 0});
   }
   ++report_.photos;
 }
@@ -174,11 +178,14 @@ void Linker::ServeFacadePhotos() {
   for (uint32_t photo = 0; photo < count; ++photo) {
     ThrowIfCancelled();
     while (LacksClose(photo) > 0) {
-      auto link = Best(photo, true, [&](const Assessed& candidate) {
-        const std::vector<uint32_t> served = ServedClose(candidate);
-        const bool serves_it = std::ranges::find(served, photo) != served.end();
-        return serves_it ? static_cast<double>(served.size()) : 0;
-      });
+      auto link = Best(
+          GazeOf(photo, true), photo,
+          [&](std::span<const Sight> sights) { return IsCloseTo(photo, sights); },
+          [&](const Assessed& candidate) {
+            const std::vector<uint32_t> served = ServedClose(candidate);
+            const bool serves_it = std::ranges::find(served, photo) != served.end();
+            return serves_it ? static_cast<double>(served.size()) : 0;
+          });
       if (!link) break;
       Add(std::move(*link));
     }
@@ -188,12 +195,12 @@ void Linker::ServeFacadePhotos() {
 
 // Adds a partner for a photo that lacks one, if there is one.
 bool Linker::ServeLone(uint32_t photo) {
-  auto link = Best(photo, false, [&](const Assessed& candidate) {
-    const bool serves_it = std::ranges::any_of(candidate.partners, [&](const Partner& partner) {
-      return partner.photo == photo && partner.strength >= kEnoughStrength;
-    });
-    return serves_it ? ServedLone(candidate) : 0.0;
-  });
+  auto link = Best(
+      GazeOf(photo, false), photo,
+      [&](std::span<const Sight> sights) {
+        return photos_.graph.StrengthBetween(photo, sights) >= kEnoughStrength;
+      },
+      [&](const Assessed& candidate) { return ServedLone(candidate); });
   if (!link) return false;
   Add(std::move(*link));
   return true;
@@ -212,7 +219,8 @@ void Linker::ServeLonePhotos() {
 bool Linker::Tie(const Connectivity& whole, int block) {
   for (uint32_t photo = 0; photo < whole.block.size(); ++photo) {
     if (whole.block[photo] != block) continue;
-    auto link = Best(photo, false, [&](const Assessed& candidate) {
+    const auto any = [](std::span<const Sight> sights) { return !sights.empty(); };
+    auto link = Best(GazeOf(photo, false), photo, any, [&](const Assessed& candidate) {
       int inside = 0, outside = 0;
       for (const Partner& partner : candidate.partners) {
         if (partner.strength < kEnoughStrength) continue;

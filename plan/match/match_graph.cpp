@@ -11,45 +11,76 @@ namespace {
 // Photos nearer to each other are taken from one place.
 constexpr double kSamePlace_m = 0.5;
 // Nothing matches on a surface that is seen at less.
-constexpr double kLeastCosine = 0.02;
+constexpr float kLeastCosine = 0.02F;
 // Where half of the features are lost. Fitted to which photos of a flown survey share points
 // (bench/match_graph.py, docs/benchmarks.md).
 constexpr double kHalfTilt = 3;
 constexpr double kHalfScale = 4;
 
-}  // namespace
+// A warp by its tilt and the square of its scale.
+struct WarpSquare {
+  double tilt = 1;
+  double scale = 1;
+};
 
 // With the tangential parts t1 and t2 of the lines of sight, the pictures stretch the patch by
 // G = I - t t^T; the eigenvalues of G1^-1 G2 are the squares of the stretches from one to the
-// other.
+// other, and the tilt is their sum and its root over twice the root of their product. `c1` and `c2`
+// are the cosines at the patch.
+WarpSquare WarpSquareBetween(const Sight& one, double c1, const Sight& other, double c2) {
+  const double cosines = c1 * c2;
+  const double t1_t2 = one.way.dot(other.way) - cosines;
+  const double trace = 1 + cosines * cosines - t1_t2 * t1_t2;  // times c1 squared, as the root
+  const double root = std::sqrt(std::max(0.0, trace * trace - 4 * cosines * cosines));
+  const double size = c2 * one.distance_m * one.distance_m;
+  const double other_size = c1 * other.distance_m * other.distance_m;
+  return {(trace + root) / (2 * cosines), std::max(size, other_size) / std::min(size, other_size)};
+}
+
+float CosineOf(const Eigen::Vector3f& normal, const Sight& sight) {
+  return std::max(kLeastCosine, sight.way.dot(normal));
+}
+
+double LikenessOf(const WarpSquare& warp) {
+  const double tilt = warp.tilt * warp.tilt / (kHalfTilt * kHalfTilt);
+  const double scale = warp.scale / (kHalfScale * kHalfScale);
+  return 1 / ((1 + tilt * tilt) * (1 + scale * scale * scale));
+}
+
+// What a patch adds to the strength of a pair.
+float Common(const Sight& one, double cosine, const Sight& other, double other_cosine) {
+  return std::min(one.share, other.share) *
+         static_cast<float>(LikenessOf(WarpSquareBetween(one, cosine, other, other_cosine)));
+}
+
+}  // namespace
+
 Warp WarpBetween(const Eigen::Vector3f& normal, const Sight& one, const Sight& other) {
-  const double c1 = std::max<double>(kLeastCosine, one.way.dot(normal));
-  const double c2 = std::max<double>(kLeastCosine, other.way.dot(normal));
-  const double t1_t2 = one.way.dot(other.way) - c1 * c2;
-  const double trace = 1 + c2 * c2 + (1 - c1 * c1 - t1_t2 * t1_t2) / (c1 * c1);
-  const double determinant = c2 * c2 / (c1 * c1);
-  const double root = std::sqrt(std::max(0.0, trace * trace - 4 * determinant));
-  const double tilt = std::sqrt((trace + root) / std::max(1e-12, trace - root));
-  const double scale = std::sqrt(c2 / c1) * one.distance_m / other.distance_m;
-  return {tilt, std::max(scale, 1 / scale)};
+  const WarpSquare warp =
+      WarpSquareBetween(one, CosineOf(normal, one), other, CosineOf(normal, other));
+  return {warp.tilt, std::sqrt(warp.scale)};
 }
 
 double Likeness(const Warp& warp) {
-  const double tilt_square = std::pow(warp.tilt / kHalfTilt, 2);
-  const double scale_square = std::pow(warp.scale / kHalfScale, 2);
-  return 1 / ((1 + tilt_square * tilt_square) * (1 + std::pow(scale_square, 3)));
+  return LikenessOf({warp.tilt, warp.scale * warp.scale});
 }
 
 bool IsClose(const Sight& one, const Sight& other) {
   static const float close_cosine = std::cos(kCloseAngle_rad);
-  const float ratio =
-      std::max(one.distance_m / other.distance_m, other.distance_m / one.distance_m);
-  return one.way.dot(other.way) >= close_cosine && ratio <= kCloseRatio;
+  return one.way.dot(other.way) >= close_cosine &&
+         one.distance_m <= kCloseRatio * other.distance_m &&
+         other.distance_m <= kCloseRatio * one.distance_m;
+}
+
+float MatchGraph::CosineAt(const Sight& sight) const {
+  return CosineOf(view_.samples[sight.sample].normal.cast<float>(), sight);
 }
 
 uint32_t MatchGraph::Add(const Eigen::Vector3d& position, std::vector<Sight> sights) {
   const auto photo = static_cast<uint32_t>(positions_.size());
-  for (const Sight& sight : sights) rays_[sight.sample].push_back({photo, sight});
+  for (const Sight& sight : sights) {
+    rays_[sight.sample].push_back({photo, CosineAt(sight), sight});
+  }
   positions_.push_back(position);
   sights_.push_back(std::move(sights));
   return photo;
@@ -62,12 +93,10 @@ std::vector<Partner> MatchGraph::PartnersOf(const Eigen::Vector3d& position,
   for (const Sight& own : sights) {
     const bool is_wall = view_.samples[own.sample].kind == SurfaceKind::kWall;
     if (is_wall) walls += own.share;
-    const Eigen::Vector3f normal = view_.samples[own.sample].normal.cast<float>();
+    const float cosine = CosineAt(own);
     for (const Ray& ray : rays_[own.sample]) {
-      const Sight& other = ray.sight;
-      strength[ray.photo] += std::min(own.share, other.share) *
-                             static_cast<float>(Likeness(WarpBetween(normal, own, other)));
-      if (is_wall && IsClose(own, other)) close[ray.photo] += own.share;
+      strength[ray.photo] += Common(own, cosine, ray.sight, ray.cosine);
+      if (is_wall && IsClose(own, ray.sight)) close[ray.photo] += own.share;
     }
   }
   std::vector<Partner> out;
@@ -77,6 +106,17 @@ std::vector<Partner> MatchGraph::PartnersOf(const Eigen::Vector3d& position,
     out.push_back({photo, strength[photo], walls > 0 ? close[photo] / walls : 0});
   }
   return out;
+}
+
+float MatchGraph::StrengthBetween(uint32_t photo, std::span<const Sight> sights) const {
+  float strength = 0;
+  auto at = sights.begin();
+  for (const Sight& own : sights_[photo]) {
+    while (at != sights.end() && at->sample < own.sample) ++at;
+    if (at == sights.end()) break;
+    if (at->sample == own.sample) strength += Common(own, CosineAt(own), *at, CosineAt(*at));
+  }
+  return strength;
 }
 
 }  // namespace stucco::plan

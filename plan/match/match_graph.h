@@ -68,12 +68,17 @@ class MatchGraph {
   std::vector<Partner> PartnersOf(uint32_t photo) const {
     return PartnersOf(positions_[photo], sights_[photo]);
   }
+  // The strength of one pair: of a photo of the graph, and one that sees this.
+  float StrengthBetween(uint32_t photo, std::span<const Sight> sights) const;
 
  private:
   struct Ray {
     uint32_t photo;
+    float cosine;  // of the line of sight with the sample's normal
     Sight sight;
   };
+  float CosineAt(const Sight& sight) const;
+
   const SurfaceView& view_;
   std::vector<Eigen::Vector3d> positions_;
   std::vector<std::vector<Sight>> sights_;  // by photo

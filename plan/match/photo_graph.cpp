@@ -54,15 +54,4 @@ PhotoGraph::PhotoGraph(const MatchSetting& setting, std::span<const Hover> hover
   }
 }
 
-std::vector<std::vector<Partner>> StrongPartners(const PhotoGraph& photos, float least,
-                                                 int threads) {
-  std::vector<std::vector<Partner>> out(photos.graph.size());
-  ParallelFor(out.size(), threads, [&](size_t i) {
-    out[i] = photos.graph.PartnersOf(static_cast<uint32_t>(i));
-    std::erase_if(out[i], [&](const Partner& partner) { return partner.strength < least; });
-    std::ranges::stable_sort(out[i], std::ranges::greater{}, &Partner::strength);
-  });
-  return out;
-}
-
 }  // namespace stucco::plan

@@ -37,8 +37,4 @@ struct PhotoGraph {
   PhotoGraph(const PhotoGraph&) = delete;
 };
 
-// Of each photo, the partners of at least `least` strength, the strongest first.
-std::vector<std::vector<Partner>> StrongPartners(const PhotoGraph& photos, float least,
-                                                 int threads);
-
 }  // namespace stucco::plan

@@ -30,7 +30,7 @@ std::vector<Ties> TiesOf(const PhotoGraph& photos, std::span<const Hover> hovers
     const PhotoPlace& place = photos.places[i];
     const bool of_facade = IsOfFacade(hovers[place.hover].shots[place.shot]);
     for (const Partner& partner : photos.graph.PartnersOf(static_cast<uint32_t>(i))) {
-      if (partner.strength >= kEnoughStrength) out[i].strong.push_back(partner.photo);
+      if (partner.strength >= kEnoughStrength) out[i].strong.push_back(partner);
       if (of_facade && partner.close_walls >= kCloseShare &&
           StandsApart(photos.graph, out[i], photos.graph.position(partner.photo))) {
         out[i].close.push_back(partner.photo);
@@ -43,8 +43,8 @@ std::vector<Ties> TiesOf(const PhotoGraph& photos, std::span<const Hover> hovers
 Connectivity ConnectivityOf(const std::vector<Ties>& ties) {
   std::vector<std::pair<int, int>> edges;
   for (size_t a = 0; a < ties.size(); ++a) {
-    for (const uint32_t b : ties[a].strong) {
-      if (a < b) edges.emplace_back(static_cast<int>(a), static_cast<int>(b));
+    for (const Partner& b : ties[a].strong) {
+      if (a < b.photo) edges.emplace_back(static_cast<int>(a), static_cast<int>(b.photo));
     }
   }
   return ConnectivityOf(static_cast<int>(ties.size()), edges);

@@ -19,8 +19,8 @@ inline constexpr int kFewestClose = 2;
 
 // The partners of a photo that count.
 struct Ties {
-  std::vector<uint32_t> strong;  // kEnoughStrength or more
-  std::vector<uint32_t> close;   // of a photo of facades: near in direction and scale, apart
+  std::vector<Partner> strong;  // kEnoughStrength or more
+  std::vector<uint32_t> close;  // of a photo of facades: near in direction and scale, apart
 };
 
 bool IsOfFacade(const Shot& shot);

@@ -14,6 +14,9 @@ namespace {
 constexpr size_t kEntriesPerHover = 256;
 constexpr size_t kMostEntries = size_t{1} << 22;  // 168 MB
 
+// Of an edge that is held: a gain that no way makes up for.
+constexpr double kHeld = -1e7;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -52,8 +55,13 @@ PortCosts::Entry PortCosts::MakeEntry(int i, int j, double length_m) const {
   return entry;
 }
 
+void PortCosts::Hold(Port a, Port b) {
+  held_ = Pair(a, b);
+}
+
 double PortCosts::operator()(Port a, Port b) {
   if (a > b) std::swap(a, b);
+  if (Pair(a, b) == held_) return kHeld;
   const int i = a / 2;
   const int j = b / 2;
   if (i == j) return 0;
@@ -63,6 +71,7 @@ double PortCosts::operator()(Port a, Port b) {
 }
 
 bool PortCosts::IsBelow(Port a, Port b, double limit) {
+  if (Pair(a, b) == held_) return kHeld < limit;
   if (limit <= 0) return false;
   const int i = a / 2;
   const int j = b / 2;

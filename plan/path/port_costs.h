@@ -28,6 +28,8 @@ class PortCosts {
   double operator()(Port a, Port b);
   // Whether that cost is below the limit; often without looking for a path.
   bool IsBelow(Port a, Port b, double limit);
+  // Makes the way between these two so cheap that no search gives it up.
+  void Hold(Port a, Port b);
 
  private:
   struct Entry {
@@ -40,6 +42,7 @@ class PortCosts {
 
   const HoverCosts* costs_;
   std::vector<Entry> table_;
+  uint64_t held_ = ~uint64_t{0};  // pair of ports
 };
 
 double TourCost(const Order& order, PortCosts& costs);

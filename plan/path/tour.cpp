@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <numeric>
-#include <random>
 
 #include "plan/path/greedy.h"
 #include "plan/path/local_search.h"
 #include "plan/path/shot_order.h"
 #include "plan/path/tour_bound.h"
-#include "survey/error.h"
+#include "plan/path/tour_parts.h"
 #include "survey/parallel.h"
 
 namespace stucco::plan {
@@ -21,7 +20,11 @@ constexpr size_t kMostTried = 7;
 // Perturbations per hover, and at most: what they gain falls off, what they cost does not.
 constexpr size_t kPerturbationsPerHover = 12;
 constexpr size_t kMostPerturbations = 100000;
-constexpr int kPerturbationsPerReport = 500;
+// From so many hovers on the most part of the perturbations, once and again, goes to stretches of
+// the tour of up to so many hovers: they are searched at once.
+constexpr size_t kWorthParts = 1000;
+constexpr int kMostOfPart = 1500;
+constexpr double kShareOfParts = 0.4;
 
 Order BestOfAll(int hovers, PortCosts& costs) {
   Order order;
@@ -61,18 +64,21 @@ int PerturbationsOf(size_t hovers) {
   return static_cast<int>(std::min(kPerturbationsPerHover * hovers, kMostPerturbations));
 }
 
-Order Perturbed(const Order& start, std::span<const std::vector<TourCandidate>> candidates,
-                PortCosts& costs, Progress& progress) {
-  const int perturbations = PerturbationsOf(candidates.size());
-  if (perturbations == 0) return start;
-  TourSearch search(costs, candidates, start);
-  std::mt19937_64 random(candidates.size());
-  for (int done = 0; done < perturbations; done += kPerturbationsPerReport) {
-    if (progress.Cancelled()) throw Error(ErrorKind::kInterrupted, "interrupted");
-    search.Perturb(std::min(kPerturbationsPerReport, perturbations - done), random);
-    progress.Advance();
+// Stretches first, twice with other ends; then the whole, as stretches lie beside each other.
+Order BestFrom(Order order, const TourProblem& problem, PortCosts& costs, int threads,
+               Progress& progress) {
+  const size_t n = problem.hovers.size();
+  int perturbations = PerturbationsOf(n);
+  if (perturbations == 0) return order;
+  if (n >= kWorthParts) {
+    const int parts = 2 * (1 + static_cast<int>(n) / (2 * kMostOfPart));
+    const int share = static_cast<int>(kShareOfParts * perturbations);
+    for (const size_t first : {size_t{0}, n / (2 * static_cast<size_t>(parts))}) {
+      order = PerturbedInParts(problem, order, {parts, first, share}, threads, progress);
+      perturbations -= share;
+    }
   }
-  Order order = search.Result();
+  order = Perturbed(problem.candidates, order, perturbations, costs, progress);
   ChooseDirections(order, costs);
   return order;
 }
@@ -80,8 +86,7 @@ Order Perturbed(const Order& start, std::span<const std::vector<TourCandidate>> 
 }  // namespace
 
 Tour PlanTour(const SafeSpace& space, std::vector<Hover> hovers, int threads, Progress& progress) {
-  const int reports = PerturbationsOf(hovers.size()) / kPerturbationsPerReport + 1;
-  progress.Begin("order of the photos", static_cast<size_t>(reports));
+  progress.Begin("order of the photos", static_cast<size_t>(PerturbationsOf(hovers.size())));
   ParallelFor(hovers.size(), threads, [&](size_t k) { OrderShots(hovers[k].shots); });
   const HoverCosts hover_costs(space, hovers);
   const auto candidates = FindCandidates(hover_costs, threads);
@@ -91,7 +96,9 @@ Tour PlanTour(const SafeSpace& space, std::vector<Hover> hovers, int threads, Pr
   Tour tour;
   // The bound needs a tour only for the length of its steps, so both go on at once.
   ParallelFor(2, threads, [&](size_t task) {
-    if (task == 0) order = Perturbed(order, candidates, costs, progress);
+    if (task == 0) {
+      order = BestFrom(order, {space, hovers, candidates}, costs, threads, progress);
+    }
     if (task == 1) tour.report.lower_bound = TourLowerBound(hover_costs, candidates, first_cost);
   });
   tour.report.cost = TourCost(order, costs);

@@ -15,6 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostSteps = 600;
 constexpr double kWorkPerBound = 1e8;  // edges looked at, four costs each: fewer steps on big maps
 constexpr int kPatience = 8;           // steps without progress before they are halved
+constexpr double kLeastScale = 1e-3;   // of a step: shorter ones change nothing
 constexpr int kMostRounds = 40;
 constexpr double kWorthARound = 2e-3;  // of the bound, that another round has to promise
 
@@ -187,8 +188,14 @@ double Excess(const OneTree& tree, size_t port, By by) {
   return by == By::kHover ? tree.degree[port / 2] - 2 : tree.port_edges[port] - 1;
 }
 
+// How long the first steps are. Weights that were good before an edge or two came need small ones.
+double FirstScale(By by, bool is_first_round) {
+  const double scale = by == By::kHover ? 1 : 0.25;
+  return is_first_round ? scale : scale / 32;
+}
+
 // The weights that make the least 1-tree of the graph dearest.
-Weights Ascend(const Graph& graph, double tour_cost, Weights weights, By by) {
+Weights Ascend(const Graph& graph, double tour_cost, Weights weights, By by, double scale) {
   size_t edges = 0;
   for (const auto& neighbours : graph) edges += neighbours.size();
   const int steps =
@@ -196,9 +203,8 @@ Weights Ascend(const Graph& graph, double tour_cost, Weights weights, By by) {
   Weights best_weights = weights;
   std::vector<double> previous(weights.size(), 0);
   double best = -kInfinity;
-  double scale = by == By::kHover ? 1 : 0.25;
   int stalled = 0;
-  for (int step = 0; step < steps; ++step) {
+  for (int step = 0; step < steps && scale > kLeastScale; ++step) {
     const OneTree tree = LeastOneTree(graph, weights);
     if (tree.cost > best) {
       if (tree.cost > best + 1e-5 * std::abs(best)) stalled = 0;
@@ -345,8 +351,9 @@ double TourLowerBound(const HoverCosts& costs,
   double bound = tree.cost;
   AddTreeEdges(costs, tree, graph);
   for (int round = 0; round < kMostRounds; ++round) {
-    weights = Ascend(graph, tour_cost, std::move(weights), By::kHover);
-    weights = Ascend(graph, tour_cost, std::move(weights), By::kPort);
+    for (const By by : {By::kHover, By::kPort}) {
+      weights = Ascend(graph, tour_cost, std::move(weights), by, FirstScale(by, round == 0));
+    }
     tree = LeastOneTreeOfAll(costs, graph, weights);
     bound = std::max(bound, tree.cost);
     // With all pairs priced the bound can come up to that of the graph, no farther.

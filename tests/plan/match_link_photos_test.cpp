@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "plan/camera/preset.h"
 #include "plan/dipping/dipping_views.h"
 #include "plan/match/expected_matches.h"
@@ -122,6 +124,8 @@ TEST_F(House, SaysWhichPhotosAreLoose) {
         EXPECT_GE(partner.strength, kEnoughStrength);
         EXPECT_NE(partner.view, view.id);
       }
+      EXPECT_TRUE(
+          std::ranges::is_sorted(view.partners, std::ranges::greater{}, &PlannedPartner::strength));
     }
     return stats;
   };

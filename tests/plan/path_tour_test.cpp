@@ -15,6 +15,7 @@
 #include "plan/path/hover_costs.h"
 #include "plan/path/tour.h"
 #include "plan/path/tour_bound.h"
+#include "plan/path/tour_parts.h"
 #include "survey/error.h"
 #include "tests/plan/made_hovers.h"
 #include "tests/site/made_site.h"
@@ -154,6 +155,43 @@ TEST(Tour, IsWithinFivePercentOfTheBound) {
   const Site town = MadeSite(RandomTown(1, 12), {.safe_altitude_m = 40, .d_min_m = 5});
   const Obstacles obstacles(town);
   EXPECT_LT(PlanTour(SafeSpace(obstacles), DippingHovers(obstacles), 2).report.gap(), 0.05);
+}
+
+// So many that stretches are searched by themselves.
+TEST(Tour, OfPartsIsAsGoodAndTheSameAtAnyNumberOfThreads) {
+  const Site open;
+  const Obstacles sky(open);
+  const SafeSpace space(sky);
+  const std::vector<Hover> hovers = LatticeHovers(1200);
+  const Tour one = PlanTour(space, hovers, 1);
+  const Tour two = PlanTour(space, hovers, 2);
+  EXPECT_EQ(one.given, two.given);
+  EXPECT_LT(two.report.gap(), 0.03);
+  std::vector<int> given = two.given;
+  std::ranges::sort(given);
+  for (int k = 0; k < static_cast<int>(hovers.size()); ++k) ASSERT_EQ(given[k], k);
+}
+
+// The ends of a stretch stay where they are, and so do the photos at them.
+TEST(TourParts, MakeATourCheaperWithoutMovingTheirEnds) {
+  const Site open;
+  const Obstacles sky(open);
+  const SafeSpace space(sky);
+  const std::vector<Hover> hovers = RandomHovers(90, 3);
+  const int n = static_cast<int>(hovers.size());
+  const HoverCosts hover_costs(space, hovers);
+  const auto candidates = FindCandidates(hover_costs, 1);
+  PortCosts costs(hover_costs, candidates);
+  Order start{std::vector<int>(n), std::vector<char>(n)};
+  std::iota(start.hovers.begin(), start.hovers.end(), 0);
+  const Order better =
+      PerturbedInParts({space, hovers, candidates}, start,
+                       {.parts = 3, .first = 10, .perturbations = 500}, 2, SilentProgress());
+  EXPECT_LT(TourCost(better, costs), 0.7 * TourCost(start, costs));
+  for (const int end : {0, 29, 30, 59, 60, 89}) {
+    EXPECT_EQ(better.hovers[end], (end + 10) % n);
+    EXPECT_EQ(better.reversed[(end + 10) % n], 0);
+  }
 }
 
 TEST(Tour, StopsWhenCancelled) {

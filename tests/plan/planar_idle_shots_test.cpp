@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/planar/idle_shots.h"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 
+#include "plan/planar/idle_shots.h"
 #include "tests/site/made_site.h"
 
 namespace stucco::plan {
@@ -36,7 +35,8 @@ size_t Drop(std::vector<Hover>& hovers, const std::vector<Hover>& others) {
   const SurfaceView view(site, camera.Field(),
                          SampleSurface(site, {.spacing_m = 1, .ground_reach_m = 3}), 60);
   return DropIdleShots(
-      {.site = site, .view = view, .patch_m2 = 1, .camera = camera, .d_max_m = 60, .threads = 2}, others, hovers);
+      {.site = site, .view = view, .patch_m2 = 1, .camera = camera, .d_max_m = 60, .threads = 2},
+      others, hovers);
 }
 
 TEST(IdleShots, AreNotTaken) {
