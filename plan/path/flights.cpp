@@ -28,6 +28,9 @@ constexpr double kRounding_percent = 1e-6;
 // What a facade whose photos are taken in two flights is worth: about twenty seconds.
 constexpr double kCutFacade_percent = 1;
 
+// Places to start from that are looked at for a stop, besides home.
+constexpr size_t kNearPlaces = 4;
+
 // Where flights may start.
 struct Place {
   Vector3d ground;
@@ -106,39 +109,65 @@ void CheckFree(const Task& task, const std::vector<Hover>& hovers) {
   }
 }
 
-// Ways from one place to every hover and back, in percent of a battery.
-SplitHome CostsFrom(const Task& task, const Place& place, const std::vector<Hover>& hovers) {
+// Of each hover the places whose ways are looked for: home, which says whether it can be reached at
+// all, and those next to it. A flight begins and ends with stops that have a place in common.
+std::vector<std::vector<size_t>> NearPlaces(const std::vector<Place>& places,
+                                            const std::vector<Hover>& hovers) {
+  std::vector<std::vector<size_t>> out;
+  for (const Hover& hover : hovers) {
+    std::vector<std::pair<double, size_t>> by_distance;
+    for (size_t p = 1; p < places.size(); ++p) {
+      by_distance.emplace_back((places[p].start - hover.position).head<2>().squaredNorm(), p);
+    }
+    std::ranges::sort(by_distance);
+    by_distance.resize(std::min(by_distance.size(), kNearPlaces));
+    std::vector<size_t>& near = out.emplace_back(1, 0);
+    for (const auto& [distance, place] : by_distance) near.push_back(place);
+  }
+  return out;
+}
+
+// Fills in the ways from a place to a hover and back, in percent of a battery.
+void FindWays(const Task& task, const Place& place, const Hover& hover, size_t k, SplitHome& home) {
+  auto route = task.space.ShortestRoute(place.start, hover.position);
+  if (!route) return;
+  home.out[k] = task.Percent(TransferWork(*route, task.pace()) + FirstTiltWork(hover, task.pace()));
+  std::reverse(route->points.begin(), route->points.end());
+  home.back[k] = task.Percent(TransferWork(*route, task.pace()));
+}
+
+// Of places without ways, for so many hovers.
+SplitHome HomeAt(const Task& task, const Place& place, size_t hovers) {
   constexpr double kNoWay = std::numeric_limits<double>::infinity();
-  const size_t n = hovers.size();
   SplitHome home;
   home.fixed = task.Percent(
       GroundWork(place.transfer_height_m, place.start.z() - place.ground.z(), task.pace()));
-  home.out.assign(n, kNoWay);
-  home.back.assign(n, kNoWay);
-  home.reserve.assign(n, 0);
-  ParallelFor(n, task.threads, [&](size_t k) {
-    ThrowIfCancelled(task.progress);
-    const Vector3d& at = hovers[k].position;
-    if (auto route = task.space.ShortestRoute(place.start, at)) {
-      home.out[k] =
-          task.Percent(TransferWork(*route, task.pace()) + FirstTiltWork(hovers[k], task.pace()));
-      std::reverse(route->points.begin(), route->points.end());
-      home.back[k] = task.Percent(TransferWork(*route, task.pace()));
-    }
-    home.reserve[k] = WayHomePercent(
-        {(at - place.ground).head<2>().norm(), at.z() - place.ground.z(), place.transfer_height_m},
-        task.pace(), task.battery.scale);
-    task.progress.Advance();
-  });
+  home.out.assign(hovers, kNoWay);
+  home.back.assign(hovers, kNoWay);
+  home.reserve.assign(hovers, 0);
   return home;
+}
+
+double ReserveAt(const Task& task, const Place& place, const Vector3d& at) {
+  return WayHomePercent(
+      {(at - place.ground).head<2>().norm(), at.z() - place.ground.z(), place.transfer_height_m},
+      task.pace(), task.battery.scale);
 }
 
 std::vector<SplitHome> CostsFromHomes(const Task& task, const std::vector<Place>& places,
                                       const std::vector<Hover>& hovers) {
-  task.progress.Begin("ways from home", places.size() * hovers.size());
+  const std::vector<std::vector<size_t>> near = NearPlaces(places, hovers);
   std::vector<SplitHome> homes;
-  homes.reserve(places.size());
-  for (const Place& place : places) homes.push_back(CostsFrom(task, place, hovers));
+  for (const Place& place : places) homes.push_back(HomeAt(task, place, hovers.size()));
+  task.progress.Begin("ways from home", hovers.size());
+  ParallelFor(hovers.size(), task.threads, [&](size_t k) {
+    ThrowIfCancelled(task.progress);
+    for (size_t p = 0; p < places.size(); ++p) {
+      homes[p].reserve[k] = ReserveAt(task, places[p], hovers[k].position);
+    }
+    for (const size_t p : near[k]) FindWays(task, places[p], hovers[k], k, homes[p]);
+    task.progress.Advance();
+  });
   return homes;
 }
 

@@ -22,8 +22,8 @@ struct TourProblem {
 Order Perturbed(std::span<const std::vector<TourCandidate>> candidates, const Order& start,
                 int perturbations, PortCosts& costs, Progress& progress);
 
-// How a tour is cut: the first of so many stretches begins at a place of the tour; together they are
-// perturbed so many times.
+// How a tour is cut: the first of so many stretches begins at a place of the tour; together they
+// are perturbed so many times.
 struct TourParts {
   int parts = 1;
   size_t first = 0;
