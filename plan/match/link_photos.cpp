@@ -42,8 +42,8 @@ float CloseWalls(const SurfaceView& view, std::span<const Sight> asking,
 struct Assessed {
   LinkCandidate candidate;
   std::vector<Sight> sights;
-  std::vector<Partner> partners;
-  double score = 0;
+  std::vector<Partner> partners;  // of the best only
+  double served = 0;              // photos
 };
 
 class Linker {
@@ -62,11 +62,13 @@ class Linker {
   }
   int LacksClose(uint32_t photo) const { return LackingClose(ties_[photo], ShotOf(photo)); }
   int LacksPartners(uint32_t photo) const { return LackingPartners(ties_[photo]); }
-  template <typename MayServe, typename Value>
-  std::optional<Assessed> Best(const Gaze& gaze, uint32_t photo, const MayServe& may_serve,
-                               const Value& value) const;
+  template <typename Served>
+  std::optional<Assessed> Best(const Gaze& gaze, uint32_t photo, const Served& served) const;
   Gaze GazeOf(uint32_t photo, bool walls_only) const {
     return plan::GazeOf(photos_.view, photos_.graph.sights(photo), walls_only);
+  }
+  bool IsStrong(uint32_t photo, const Assessed& link) const {
+    return photos_.graph.StrengthBetween(photo, link.sights) >= kEnoughStrength;
   }
   bool IsCloseTo(uint32_t photo, std::span<const Sight> link) const {
     return CloseWalls(photos_.view, photos_.graph.sights(photo), link) >= kCloseShare;
@@ -103,11 +105,23 @@ double CostOf(LinkPlace place) {
   return place == LinkPlace::kColumn ? kColumnCost : kStopCost;
 }
 
-// Of the candidates for a photo that may serve (asked first, by what they see), the one whose
-// `value`, in photos served, is the highest for what it costs; none where nothing has any.
-template <typename MayServe, typename Value>
-std::optional<Assessed> Linker::Best(const Gaze& gaze, uint32_t photo, const MayServe& may_serve,
-                                     const Value& value) const {
+// Photos served for what a link costs, where it has all the anchor that counts.
+double MostOf(const Assessed& link) {
+  return (link.served + kAnchorWeight) / CostOf(link.candidate.place);
+}
+
+double ScoreOf(const Assessed& link) {
+  float anchor = 0;
+  for (const Partner& partner : link.partners) anchor += partner.strength;
+  return (link.served + kAnchorWeight * std::min(1.0F, anchor / kEnoughAnchor)) /
+         CostOf(link.candidate.place);
+}
+
+// Of the candidates for a photo, the one that serves the most for what it costs, by what it sees
+// and where it stands; none where none serves any. Finding a candidate's partners takes the longest
+// by far, so that those come first that may be best.
+template <typename Served>
+std::optional<Assessed> Linker::Best(const Gaze& gaze, uint32_t photo, const Served& served) const {
   const auto candidates =
       LinkCandidates(gaze, obstacles_, hovers_, static_cast<int>(photos_.places[photo].hover));
   std::vector<Assessed> assessed(candidates.size());
@@ -116,37 +130,36 @@ std::optional<Assessed> Linker::Best(const Gaze& gaze, uint32_t photo, const May
     link.candidate = candidates[i];
     link.sights =
         SightsOf(photos_.view, photos_.patch_m2, link.candidate.position, link.candidate.shot);
-    if (!may_serve(link.sights)) return;
-    link.partners = photos_.graph.PartnersOf(link.candidate.position, link.sights);
-    const double served = value(link);
-    if (!(served > 0)) return;
-    float anchor = 0;
-    for (const Partner& partner : link.partners) anchor += partner.strength;
-    link.score = (served + kAnchorWeight * std::min(1.0F, anchor / kEnoughAnchor)) /
-                 CostOf(link.candidate.place);
+    link.served = served(link);
   });
-  const auto best = std::ranges::max_element(assessed, {}, &Assessed::score);
-  if (best == assessed.end() || !(best->score > 0)) return std::nullopt;
-  return std::move(*best);
+  std::erase_if(assessed, [](const Assessed& link) { return !(link.served > 0); });
+  std::ranges::stable_sort(assessed, std::ranges::greater{}, MostOf);
+  Assessed* best = nullptr;
+  for (Assessed& link : assessed) {
+    if (best != nullptr && MostOf(link) <= ScoreOf(*best)) break;
+    link.partners = photos_.graph.PartnersOf(link.candidate.position, link.sights);
+    if (best == nullptr || ScoreOf(link) > ScoreOf(*best)) best = &link;
+  }
+  return best == nullptr ? std::nullopt : std::optional(std::move(*best));
 }
 
 // The photos of facades that lack what this one would be.
 std::vector<uint32_t> Linker::ServedClose(const Assessed& link) const {
-  std::vector<uint32_t> out;
-  for (const Partner& partner : link.partners) {
-    const uint32_t photo = partner.photo;
-    if (LacksClose(photo) == 0 ||
-        !StandsApart(photos_.graph, ties_[photo], link.candidate.position))
-      continue;
-    if (IsCloseTo(photo, link.sights)) out.push_back(photo);
-  }
+  std::vector<uint32_t> out = photos_.graph.PhotosThatShow(
+      link.sights, [&](uint32_t photo) { return LacksClose(photo) > 0; });
+  std::erase_if(out, [&](uint32_t photo) {
+    return !StandsApart(photos_.graph, ties_[photo], link.candidate.position) ||
+           !IsCloseTo(photo, link.sights);
+  });
   return out;
 }
 
+// How many photos that lack partners get one.
 int Linker::ServedLone(const Assessed& link) const {
-  return static_cast<int>(std::ranges::count_if(link.partners, [&](const Partner& partner) {
-    return partner.strength >= kEnoughStrength && LacksPartners(partner.photo) > 0;
-  }));
+  return static_cast<int>(std::ranges::count_if(
+      photos_.graph.PhotosThatShow(link.sights,
+                                   [&](uint32_t photo) { return LacksPartners(photo) > 0; }),
+      [&](uint32_t photo) { return IsStrong(photo, link); }));
 }
 
 void Linker::Add(Assessed link) {
@@ -178,14 +191,12 @@ void Linker::ServeFacadePhotos() {
   for (uint32_t photo = 0; photo < count; ++photo) {
     ThrowIfCancelled();
     while (LacksClose(photo) > 0) {
-      auto link = Best(
-          GazeOf(photo, true), photo,
-          [&](std::span<const Sight> sights) { return IsCloseTo(photo, sights); },
-          [&](const Assessed& candidate) {
-            const std::vector<uint32_t> served = ServedClose(candidate);
-            const bool serves_it = std::ranges::find(served, photo) != served.end();
-            return serves_it ? static_cast<double>(served.size()) : 0;
-          });
+      auto link = Best(GazeOf(photo, true), photo, [&](const Assessed& candidate) {
+        if (!IsCloseTo(photo, candidate.sights)) return 0.0;
+        const std::vector<uint32_t> served = ServedClose(candidate);
+        const bool serves_it = std::ranges::find(served, photo) != served.end();
+        return serves_it ? static_cast<double>(served.size()) : 0.0;
+      });
       if (!link) break;
       Add(std::move(*link));
     }
@@ -195,12 +206,9 @@ void Linker::ServeFacadePhotos() {
 
 // Adds a partner for a photo that lacks one, if there is one.
 bool Linker::ServeLone(uint32_t photo) {
-  auto link = Best(
-      GazeOf(photo, false), photo,
-      [&](std::span<const Sight> sights) {
-        return photos_.graph.StrengthBetween(photo, sights) >= kEnoughStrength;
-      },
-      [&](const Assessed& candidate) { return ServedLone(candidate); });
+  auto link = Best(GazeOf(photo, false), photo, [&](const Assessed& candidate) {
+    return IsStrong(photo, candidate) ? ServedLone(candidate) : 0.0;
+  });
   if (!link) return false;
   Add(std::move(*link));
   return true;
@@ -219,10 +227,10 @@ void Linker::ServeLonePhotos() {
 bool Linker::Tie(const Connectivity& whole, int block) {
   for (uint32_t photo = 0; photo < whole.block.size(); ++photo) {
     if (whole.block[photo] != block) continue;
-    const auto any = [](std::span<const Sight> sights) { return !sights.empty(); };
-    auto link = Best(GazeOf(photo, false), photo, any, [&](const Assessed& candidate) {
+    auto link = Best(GazeOf(photo, false), photo, [&](const Assessed& candidate) {
       int inside = 0, outside = 0;
-      for (const Partner& partner : candidate.partners) {
+      for (const Partner& partner :
+           photos_.graph.PartnersOf(candidate.candidate.position, candidate.sights)) {
         if (partner.strength < kEnoughStrength) continue;
         const bool is_inside =
             partner.photo < whole.block.size() && whole.block[partner.photo] == block;

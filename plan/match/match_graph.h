@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -67,6 +68,19 @@ class MatchGraph {
                                   std::span<const Sight> sights) const;
   std::vector<Partner> PartnersOf(uint32_t photo) const {
     return PartnersOf(positions_[photo], sights_[photo]);
+  }
+  // Those of the photos that `wanted` names which show any of these samples, ascending.
+  template <typename Wanted>
+  std::vector<uint32_t> PhotosThatShow(std::span<const Sight> sights, const Wanted& wanted) const {
+    std::vector<uint32_t> out;
+    for (const Sight& sight : sights) {
+      for (const Ray& ray : rays_[sight.sample]) {
+        if (wanted(ray.photo)) out.push_back(ray.photo);
+      }
+    }
+    std::ranges::sort(out);
+    out.erase(std::ranges::unique(out).begin(), out.end());
+    return out;
   }
   // The strength of one pair: of a photo of the graph, and one that sees this.
   float StrengthBetween(uint32_t photo, std::span<const Sight> sights) const;

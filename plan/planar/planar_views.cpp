@@ -115,21 +115,16 @@ std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
            .threads = options.threads},
           grid, progress);
   std::vector<Hover> out = Kept(grid, graph);
+  const size_t idle = DropIdleShots(view, Square(SpacingOf(options, step)), out);
+  if (idle > 0) {
+    progress.Note(fmt::format("{} photos from above would show next to nothing of the area", idle));
+  }
+  // Last, as a photo that shows next to nothing may be the only one of a wall.
   const std::vector<Hover> kept = Joined(out, dipping);
   const auto lost =
       HoversForLostWalls(FacadeSight(site, camera, options.d_max_m, full),
                          FacadeSight(site, camera, options.d_max_m, kept), options.threads);
   for (const uint32_t hover : lost) out.push_back(full[hover]);
-  const size_t idle = DropIdleShots({.site = site,
-                                     .view = view,
-                                     .patch_m2 = Square(SpacingOf(options, step)),
-                                     .camera = camera,
-                                     .d_max_m = options.d_max_m,
-                                     .threads = options.threads},
-                                    dipping, out);
-  if (idle > 0) {
-    progress.Note(fmt::format("{} photos from above would show next to nothing of the area", idle));
-  }
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "plan/planar/idle_shots.h"
+#include "plan/camera/preset.h"
 #include "tests/site/made_site.h"
 
 namespace stucco::plan {
@@ -29,46 +30,26 @@ Hover Near(std::vector<Shot> shots) {
   return {{1.5, -6, 2}, std::move(shots)};
 }
 
-size_t Drop(std::vector<Hover>& hovers, const std::vector<Hover>& others) {
+size_t Drop(std::vector<Hover>& hovers) {
   const Site site = Shed();
-  const CameraPreset camera = FindCamera("mavic-3e");
-  const SurfaceView view(site, camera.Field(),
+  const SurfaceView view(site, FindCamera("mavic-3e").Field(),
                          SampleSurface(site, {.spacing_m = 1, .ground_reach_m = 3}), 60);
-  return DropIdleShots(
-      {.site = site, .view = view, .patch_m2 = 1, .camera = camera, .d_max_m = 60, .threads = 2},
-      others, hovers);
+  return DropIdleShots(view, 1, hovers);
 }
 
 TEST(IdleShots, AreNotTaken) {
-  std::vector<Hover> hovers{Near({Looking(0), Looking(90)}), Far({Looking(180)})};
-  EXPECT_EQ(Drop(hovers, {}), 2U);
+  std::vector<Hover> hovers{Near({Looking(0), Looking(90)}), Far({Looking(180)}),
+                            Far({Looking(0)})};
+  EXPECT_EQ(Drop(hovers), 3U);
   ASSERT_EQ(hovers.size(), 1U);
   ASSERT_EQ(hovers[0].shots.size(), 1U);
   EXPECT_EQ(hovers[0].shots[0].yaw_rad, 0);
-}
-
-TEST(IdleShots, ThatAloneSeeAWallAre) {
-  std::vector<Hover> hovers{Far({Looking(0), Looking(180)})};
-  EXPECT_EQ(Drop(hovers, {}), 1U);
-  ASSERT_EQ(hovers.size(), 1U);
-  ASSERT_EQ(hovers[0].shots.size(), 1U);
-  EXPECT_EQ(hovers[0].shots[0].yaw_rad, 0);
-}
-
-TEST(IdleShots, AreNotTakenWhereAnotherSeesTheirWall) {
-  std::vector<Hover> hovers{Far({Looking(0)}), Near({Looking(0)})};
-  EXPECT_EQ(Drop(hovers, {}), 1U);
-  ASSERT_EQ(hovers.size(), 1U);
   EXPECT_EQ(hovers[0].position.y(), -6);
-
-  hovers = {Far({Looking(0)})};
-  EXPECT_EQ(Drop(hovers, {Near({Looking(0)})}), 1U);
-  EXPECT_TRUE(hovers.empty());
 }
 
 TEST(IdleShots, OfNoHoversAreNone) {
   std::vector<Hover> hovers;
-  EXPECT_EQ(Drop(hovers, {}), 0U);
+  EXPECT_EQ(Drop(hovers), 0U);
 }
 
 }  // namespace
