@@ -146,7 +146,7 @@ std::optional<Assessed> Linker::Best(const Gaze& gaze, uint32_t photo, const Ser
 // The photos of facades that lack what this one would be.
 std::vector<uint32_t> Linker::ServedClose(const Assessed& link) const {
   std::vector<uint32_t> out = photos_.graph.PhotosThatShow(
-      link.sights, [&](uint32_t photo) { return LacksClose(photo) > 0; });
+      link.candidate.position, link.sights, [&](uint32_t photo) { return LacksClose(photo) > 0; });
   std::erase_if(out, [&](uint32_t photo) {
     return !StandsApart(photos_.graph, ties_[photo], link.candidate.position) ||
            !IsCloseTo(photo, link.sights);
@@ -157,7 +157,7 @@ std::vector<uint32_t> Linker::ServedClose(const Assessed& link) const {
 // How many photos that lack partners get one.
 int Linker::ServedLone(const Assessed& link) const {
   return static_cast<int>(std::ranges::count_if(
-      photos_.graph.PhotosThatShow(link.sights,
+      photos_.graph.PhotosThatShow(link.candidate.position, link.sights,
                                    [&](uint32_t photo) { return LacksPartners(photo) > 0; }),
       [&](uint32_t photo) { return IsStrong(photo, link); }));
 }

@@ -8,8 +8,6 @@
 namespace stucco::plan {
 namespace {
 
-// Photos nearer to each other are taken from one place.
-constexpr double kSamePlace_m = 0.5;
 // Nothing matches on a surface that is seen at less.
 constexpr float kLeastCosine = 0.02F;
 // Where half of the features are lost. Fitted to which photos of a flown survey share points
@@ -101,8 +99,7 @@ std::vector<Partner> MatchGraph::PartnersOf(const Eigen::Vector3d& position,
   }
   std::vector<Partner> out;
   for (uint32_t photo = 0; photo < size(); ++photo) {
-    if (!(strength[photo] > 0)) continue;
-    if ((positions_[photo] - position).norm() < kSamePlace_m) continue;
+    if (!(strength[photo] > 0) || IsFrom(photo, position)) continue;
     out.push_back({photo, strength[photo], walls > 0 ? close[photo] / walls : 0});
   }
   return out;

@@ -46,7 +46,10 @@ inline constexpr float kEnoughStrength = 0.08F;
 inline constexpr float kCloseAngle_rad = 0.611F;  // 35 degrees
 inline constexpr float kCloseRatio = 2.5F;
 inline constexpr float kCloseShare = 0.3F;
-// Two photos show a sample from within these.
+// Photos nearer to each other are taken from one place.
+inline constexpr double kSamePlace_m = 0.5;
+
+// Two photos show a sample near in direction and scale.
 bool IsClose(const Sight& one, const Sight& other);
 
 // Which photos of a plan should match, and how well. Photos from one place share no parallax and
@@ -69,9 +72,11 @@ class MatchGraph {
   std::vector<Partner> PartnersOf(uint32_t photo) const {
     return PartnersOf(positions_[photo], sights_[photo]);
   }
-  // Those of the photos that `wanted` names which show any of these samples, ascending.
+  // Those of the photos that `wanted` says, from another place than this, which show any of these
+  // samples, ascending.
   template <typename Wanted>
-  std::vector<uint32_t> PhotosThatShow(std::span<const Sight> sights, const Wanted& wanted) const {
+  std::vector<uint32_t> PhotosThatShow(const Eigen::Vector3d& position,
+                                       std::span<const Sight> sights, const Wanted& wanted) const {
     std::vector<uint32_t> out;
     for (const Sight& sight : sights) {
       for (const Ray& ray : rays_[sight.sample]) {
@@ -80,6 +85,7 @@ class MatchGraph {
     }
     std::ranges::sort(out);
     out.erase(std::ranges::unique(out).begin(), out.end());
+    std::erase_if(out, [&](uint32_t photo) { return IsFrom(photo, position); });
     return out;
   }
   // The strength of one pair: of a photo of the graph, and one that sees this.
@@ -92,6 +98,9 @@ class MatchGraph {
     Sight sight;
   };
   float CosineAt(const Sight& sight) const;
+  bool IsFrom(uint32_t photo, const Eigen::Vector3d& position) const {
+    return (positions_[photo] - position).norm() < kSamePlace_m;
+  }
 
   const SurfaceView& view_;
   std::vector<Eigen::Vector3d> positions_;

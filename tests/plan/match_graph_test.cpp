@@ -137,6 +137,20 @@ TEST(PhotoSights, AWallThatFillsThePhotoFillsItsFrame) {
   EXPECT_NEAR(share, 1, 0.2);  // patches at the rim are in or out as wholes
 }
 
+TEST(PhotoGraph, KnowsWhoShowsASampleFromElsewhere) {
+  const Site site = MadeSite({Rectangle(-30, 0, 30, 20)}, {.heights_m = {20}});
+  const CameraPreset camera = FindCamera("mavic-3e");
+  const std::vector<Hover> hovers{Facing(0, 12), Facing(2, 12), Facing(4, 12), Facing(0, 12, 180)};
+  const PhotoGraph photos({site, camera, 1}, hovers);
+  const auto showing = [&](const Eigen::Vector3d& position, uint32_t unwanted) {
+    return photos.graph.PhotosThatShow(position, photos.graph.sights(0),
+                                       [&](uint32_t photo) { return photo != unwanted; });
+  };
+  EXPECT_EQ(showing({0, -40, 2}, 9), (std::vector<uint32_t>{0, 1, 2}));
+  EXPECT_EQ(showing({0, -40, 2}, 1), (std::vector<uint32_t>{0, 2}));
+  EXPECT_EQ(showing(hovers[1].position, 9), (std::vector<uint32_t>{0, 2}));
+}
+
 TEST(PhotoGraph, CountsShotsByHover) {
   const Site site = MadeSite({Rectangle(-30, 0, 30, 20)}, {.heights_m = {20}});
   const CameraPreset camera = FindCamera("mavic-3e");

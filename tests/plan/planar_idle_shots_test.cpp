@@ -4,8 +4,8 @@
 
 #include <numbers>
 
-#include "plan/planar/idle_shots.h"
 #include "plan/camera/preset.h"
+#include "plan/planar/idle_shots.h"
 #include "tests/site/made_site.h"
 
 namespace stucco::plan {
