@@ -29,13 +29,17 @@ FacadeViews::FacadeViews(const Site& site, std::vector<Eigen::Vector3d> position
   std::ranges::stable_sort(by_x_, {}, [&](int i) { return positions_[i].x(); });
 }
 
-std::vector<SeenView> FacadeViews::Of(int facade) const {
+std::vector<uint32_t> FacadeViews::AllCells(int facade) const {
   std::vector<uint32_t> cells(grids_[facade].size());
   std::iota(cells.begin(), cells.end(), 0U);
-  return Of(facade, cells);
+  return cells;
 }
 
-std::vector<SeenView> FacadeViews::Of(int facade, std::span<const uint32_t> cells) const {
+std::vector<SeenView> FacadeViews::Of(int facade) const {
+  return Of(facade, AllCells(facade));
+}
+
+std::vector<int> FacadeViews::PlacesNear(int facade) const {
   const Facade& wall = site_.facades[facade];
   const auto x = [&](int i) { return positions_[i].x(); };
   const auto first =
@@ -44,9 +48,27 @@ std::vector<SeenView> FacadeViews::Of(int facade, std::span<const uint32_t> cell
       std::ranges::upper_bound(by_x_, std::max(wall.a.x(), wall.b.x()) + reach_m_, {}, x);
   std::vector<int> near(first, last);
   std::ranges::sort(near);
+  return near;
+}
+
+std::vector<SeenView> FacadeViews::Of(int facade, std::span<const uint32_t> cells) const {
   std::vector<SeenView> out;
-  for (const int place : near) AddViewsFrom(place, facade, cells, out);
+  for (const int place : PlacesNear(facade)) AddViewsFrom(place, facade, cells, out);
   return out;
+}
+
+std::vector<uint32_t> FacadeViews::Unseen(int facade) const {
+  std::vector<uint32_t> cells = AllCells(facade);
+  for (const int place : PlacesNear(facade)) {
+    std::vector<SeenView> views;
+    AddViewsFrom(place, facade, cells, views);
+    for (const SeenView& view : views) {
+      std::erase_if(cells,
+                    [&](uint32_t cell) { return std::ranges::binary_search(view.cells, cell); });
+    }
+    if (cells.empty()) break;
+  }
+  return cells;
 }
 
 void FacadeViews::AddViewsFrom(int place, int facade, std::span<const uint32_t> cells,

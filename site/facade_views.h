@@ -40,9 +40,15 @@ class FacadeViews {
   // The same, asking for these cells only (ascending).
   std::vector<SeenView> Of(int facade, std::span<const uint32_t> cells) const;
 
+  // Cells that no picture sees, ascending.
+  std::vector<uint32_t> Unseen(int facade) const;
+
   const FacadeGrid& grid(int facade) const { return grids_[facade]; }
 
  private:
+  std::vector<uint32_t> AllCells(int facade) const;
+  // Places that may see the facade, ascending.
+  std::vector<int> PlacesNear(int facade) const;
   void AddViewsFrom(int place, int facade, std::span<const uint32_t> cells,
                     std::vector<SeenView>& views) const;
 

@@ -31,6 +31,9 @@ class FacadeSight {
     return views_.Of(facade, cells);
   }
 
+  // Cells of a facade that no photo sees, ascending.
+  std::vector<uint32_t> Unseen(int facade) const { return views_.Unseen(facade); }
+
   // What `cells` of a view are worth in eq. 1 and 2 for the facade. The distance is that from the
   // camera to their centroid.
   SeenPart PartOf(int facade, const SeenView& view, std::span<const uint32_t> cells) const;

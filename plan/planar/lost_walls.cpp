@@ -15,18 +15,6 @@ namespace {
 // A piece of wall that is missing, with the hovers of the grid that see it.
 using Seers = std::vector<uint32_t>;
 
-std::vector<uint32_t> UnseenCells(const FacadeSight& sight, int facade) {
-  std::vector<uint8_t> seen(sight.grid(facade).size());
-  for (const SeenView& view : sight.ViewsOf(facade)) {
-    for (const uint32_t cell : view.cells) seen[cell] = 1;
-  }
-  std::vector<uint32_t> out;
-  for (uint32_t cell = 0; cell < seen.size(); ++cell) {
-    if (!seen[cell]) out.push_back(cell);
-  }
-  return out;
-}
-
 std::vector<Seers> SeersOf(const FacadeSight& sight, int facade, std::span<const uint32_t> cells) {
   std::vector<Seers> out(cells.size());
   for (const SeenView& view : sight.ViewsOf(facade, cells)) {
@@ -67,7 +55,7 @@ std::vector<uint32_t> HoversForLostWalls(const FacadeSight& full, const FacadeSi
   std::vector<std::vector<Seers>> lost(full.site().facades.size());
   ParallelFor(lost.size(), threads, [&](size_t i) {
     const int facade = static_cast<int>(i);
-    const std::vector<uint32_t> unseen = UnseenCells(kept, facade);
+    const std::vector<uint32_t> unseen = kept.Unseen(facade);
     if (!unseen.empty()) lost[i] = SeersOf(full, facade, unseen);
   });
   std::vector<Seers> all;

@@ -115,7 +115,7 @@ std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
            .threads = options.threads},
           grid, progress);
   std::vector<Hover> out = Kept(grid, graph);
-  const size_t idle = DropIdleShots(view, Square(SpacingOf(options, step)), out);
+  const size_t idle = DropIdleShots(view, Square(SpacingOf(options, step)), options.threads, out);
   if (idle > 0) {
     progress.Note(fmt::format("{} photos from above would show next to nothing of the area", idle));
   }

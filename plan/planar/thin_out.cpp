@@ -94,8 +94,7 @@ std::vector<Requirement> RequirementsOf(const ViewGraph& graph,
   std::vector<Requirement> out(samples.size());
   for (uint32_t s = 0; s < samples.size(); ++s) {
     const SampleState& state = graph.state(s);
-    const double h = state.reconstructability;
-    out[s].reconstructability = h >= tau_r ? tau_r : 0.5 * h;
+    out[s].reconstructability = std::min(tau_r, state.reconstructability);
     out[s].hovers = std::min(kFewestHovers, state.hovers);
     out[s].nadirs = samples[s].kind == SurfaceKind::kWall ? 0 : std::min(1, state.nadirs);
   }

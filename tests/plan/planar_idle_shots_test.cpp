@@ -34,7 +34,7 @@ size_t Drop(std::vector<Hover>& hovers) {
   const Site site = Shed();
   const SurfaceView view(site, FindCamera("mavic-3e").Field(),
                          SampleSurface(site, {.spacing_m = 1, .ground_reach_m = 3}), 60);
-  return DropIdleShots(view, 1, hovers);
+  return DropIdleShots(view, 1, 2, hovers);
 }
 
 TEST(IdleShots, AreNotTaken) {

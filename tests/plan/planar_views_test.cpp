@@ -96,8 +96,7 @@ TEST(Requirements, AreWhatTheFullSetGives) {
   for (uint32_t s = 0; s < view.samples.size(); ++s) {
     const SampleState& state = graph.state(s);
     below += state.reconstructability < tau;
-    EXPECT_EQ(requirements[s].reconstructability,
-              state.reconstructability >= tau ? tau : 0.5 * state.reconstructability);
+    EXPECT_EQ(requirements[s].reconstructability, std::min(tau, state.reconstructability));
     EXPECT_EQ(requirements[s].hovers, std::min(3, state.hovers));
     const bool wall = view.samples[s].kind == SurfaceKind::kWall;
     EXPECT_EQ(requirements[s].nadirs, !wall && state.nadirs > 0 ? 1 : 0);

@@ -65,6 +65,24 @@ TEST(FacadeViews, OtherBuildingsHideTheWall) {
   EXPECT_EQ(CellsSeen(site, Looking({10, -40, 36}, 0, -38)), 180U);  // over it
 }
 
+TEST(FacadeViews, WhatIsSeenAndWhatIsNotAreTheWholeWall) {
+  const Site site = House();
+  const FacadeViews views =
+      ViewsFrom(site, {Looking({0, -10, 4.5}, 0), Looking({4, -10, 4.5}, 0)}, kReach_m);
+  std::vector<int> seen(views.grid(0).size());
+  for (const SeenView& view : views.Of(0)) {
+    for (const uint32_t cell : view.cells) ++seen[cell];
+  }
+  std::vector<uint32_t> unseen;
+  for (uint32_t cell = 0; cell < seen.size(); ++cell) {
+    if (seen[cell] == 0) unseen.push_back(cell);
+  }
+  EXPECT_EQ(views.Unseen(0), unseen);
+  EXPECT_GT(unseen.size(), 40U);
+  EXPECT_LT(unseen.size(), seen.size() / 2 + 20);
+  EXPECT_TRUE(ViewsFrom(site, {Looking({10, -20, 4.5}, 0)}, kReach_m).Unseen(0).empty());
+}
+
 TEST(FacadeViews, FindsWhatAskingEveryPhotoFinds) {
   MadeSiteOptions options{.safe_altitude_m = 30};
   const std::vector<Ring> town = RandomTown(8, 9);
