@@ -21,10 +21,11 @@ constexpr size_t kMostTried = 7;
 constexpr size_t kPerturbationsPerHover = 12;
 constexpr size_t kMostPerturbations = 100000;
 // From so many hovers on the most part of the perturbations, once and again, goes to stretches of
-// the tour of up to so many hovers: they are searched at once.
+// the tour of up to so many hovers, which are searched at once; there, fewer gain as much.
 constexpr size_t kWorthParts = 1000;
 constexpr int kMostOfPart = 1500;
-constexpr double kShareOfParts = 0.4;
+constexpr double kShareOfParts = 0.45;
+constexpr size_t kPerturbationsPerHoverInParts = 8;
 
 Order BestOfAll(int hovers, PortCosts& costs) {
   Order order;
@@ -61,7 +62,8 @@ Order FirstTour(const HoverCosts& hover_costs,
 
 int PerturbationsOf(size_t hovers) {
   if (hovers <= kMostTried) return 0;
-  return static_cast<int>(std::min(kPerturbationsPerHover * hovers, kMostPerturbations));
+  const size_t each = hovers < kWorthParts ? kPerturbationsPerHover : kPerturbationsPerHoverInParts;
+  return static_cast<int>(std::min(each * hovers, kMostPerturbations));
 }
 
 // Stretches first, twice with other ends; then the whole, as stretches lie beside each other.
