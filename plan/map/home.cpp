@@ -10,6 +10,7 @@
 #include <numbers>
 #include <regex>
 
+#include "plan/map/internal/ogr.h"
 #include "site/box_grid.h"
 #include "survey/error.h"
 #include "survey/geometry2d.h"
@@ -18,6 +19,7 @@ namespace stucco::plan {
 namespace {
 
 constexpr double kMargin_m = 1;        // kept from everything: a drone does not take off to the cm
+constexpr double kNarrowestWay_m = 1;  // between two buildings, for a pilot
 constexpr double kFarthest_m = 10000;  // a home farther away from the buildings is a mistake
 
 // What makes a place unsafe; empty where it is safe.
@@ -41,14 +43,6 @@ class Hazards {
     return "";
   }
 
-  bool IsInCourtyard(const Eigen::Vector2d& position) const {
-    for (const int index : grid_.Touching({position, position})) {
-      const Polygon block{{site_.footprints[index].outline.rings.front()}};
-      if (Distance(block, position) <= 0) return true;
-    }
-    return false;
-  }
-
  private:
   static std::vector<Eigen::AlignedBox2d> Boxes(const Site& site) {
     std::vector<Eigen::AlignedBox2d> boxes;
@@ -64,6 +58,24 @@ class Hazards {
   BoxGrid grid_;
 };
 
+// The yards that buildings close in together, to which a pilot may have no way.
+std::vector<Polygon> ClosedYards(const Site& site) {
+  std::vector<Polygon> walls;
+  for (const Footprint& footprint : site.footprints) {
+    if (footprint.is_obstacle) continue;
+    for (Polygon& wall : internal::Around(footprint.outline, kNarrowestWay_m / 2)) {
+      walls.push_back(std::move(wall));
+    }
+  }
+  std::vector<Polygon> yards;
+  for (const Polygon& block : internal::Union(walls)) {
+    for (size_t hole = 1; hole < block.rings.size(); ++hole) {
+      yards.push_back({{block.rings[hole]}});
+    }
+  }
+  return yards;
+}
+
 Eigen::AlignedBox2d Captured(const Site& site) {
   Eigen::AlignedBox2d bounds;
   for (const Footprint& footprint : site.footprints) {
@@ -76,14 +88,13 @@ Eigen::Vector3d OnGround(const Site& site, const Eigen::Vector2d& position) {
   return {position.x(), position.y(), site.terrain.HeightAt(position)};
 }
 
-}  // namespace
-
 // Safe places in a grid over what is captured and a little beyond.
-static std::vector<Eigen::Vector2d> SafeGrid(const Site& site) {
+std::vector<Eigen::Vector2d> SafeGrid(const Site& site) {
   constexpr double kMostPlaces = 2500;
   constexpr double kFinest_m = 10;
   constexpr double kBeyond_m = 5;
   const Hazards hazards(site);
+  const std::vector<Polygon> yards = ClosedYards(site);
   Eigen::AlignedBox2d bounds = Captured(site);
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(site.d_min_m + kBeyond_m);
   bounds = {bounds.min() - margin, bounds.max() + margin};
@@ -92,11 +103,14 @@ static std::vector<Eigen::Vector2d> SafeGrid(const Site& site) {
   for (double y = bounds.min().y(); y <= bounds.max().y(); y += step) {
     for (double x = bounds.min().x(); x <= bounds.max().x(); x += step) {
       const Eigen::Vector2d place(x, y);
-      if (hazards.At(place).empty() && !hazards.IsInCourtyard(place)) places.push_back(place);
+      const auto holds = [&](const Polygon& yard) { return Contains(yard, place); };
+      if (std::ranges::none_of(yards, holds) && hazards.At(place).empty()) places.push_back(place);
     }
   }
   return places;
 }
+
+}  // namespace
 
 std::vector<Eigen::Vector3d> TakeOffPlaces(const Site& site, size_t most) {
   constexpr double kApart_m = 40;  // nearer ones save less than it takes to carry the things there

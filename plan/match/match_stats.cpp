@@ -27,7 +27,8 @@ std::string LooseFacades(const MatchStats& stats) {
   const size_t more = named.size() > kMostNamed ? named.size() - kMostNamed : 0;
   named.resize(named.size() - more);
   return fmt::format(
-      "{} photos of facades hang loose: no place from which a photo would tie them to the others "
+      "photos of facades that hang loose: {}; no place from which a photo would tie them to the "
+      "others "
       "is free. Their facades: {}{}",
       photos, fmt::join(named, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }

@@ -40,9 +40,9 @@ std::string Energy(const PlanStats& stats) {
 
 std::string Matches(const MatchStats& matches) {
   const std::string loose =
-      matches.loose == 0 ? "no photo is loose" : fmt::format("{} photos are loose", matches.loose);
+      matches.loose == 0 ? "no photo is loose" : fmt::format("loose photos: {}", matches.loose);
   if (matches.parts <= 1 && matches.bridges == 0) return loose + ", all hang together";
-  return loose + fmt::format(", {} parts, {} bridges", matches.parts, matches.bridges);
+  return loose + fmt::format(", parts: {}, bridges: {}", matches.parts, matches.bridges);
 }
 
 std::string Time(const PlanStats& stats) {

@@ -296,6 +296,26 @@ TEST_F(ReadSiteTest, CourtyardsAreNoTakeOffPlaces) {
   }
 }
 
+// Four houses around a yard of 140 m: one gap of 2 m lets a pilot in, one of half a metre does not.
+TEST_F(ReadSiteTest, YardsThatSeveralHousesCloseInAreNoTakeOffPlaces) {
+  const auto places_in_yard = [&](double gap_m) {
+    const std::vector<Ring> walls{Rectangle(0, 0, 200, 30), Rectangle(170, 30, 200, 170),
+                                  Rectangle(0, 170, 200, 200), Rectangle(0, 30 + gap_m, 30, 170)};
+    std::vector<MadeBuilding> houses;
+    for (size_t i = 0; i < walls.size(); ++i) {
+      houses.push_back({{{walls[i]}}, {{"id", std::to_string(i + 1)}, {"height", "10"}}});
+    }
+    const Site site = Read(houses);
+    const Eigen::Vector2d middle = In(site, 100, 100);
+    return std::ranges::count_if(site.take_off, [&](const Eigen::Vector3d& place) {
+      return (place.head<2>() - middle).cwiseAbs().maxCoeff() < 100;
+    });
+  };
+  EXPECT_EQ(places_in_yard(0), 0);
+  EXPECT_EQ(places_in_yard(0.5), 0);
+  EXPECT_GT(places_in_yard(2), 0);
+}
+
 TEST_F(ReadSiteTest, AGivenHomeIsTheOnlyOne) {
   inputs_.home = AsText({70, -30});
   EXPECT_TRUE(Read(Row()).take_off.empty());

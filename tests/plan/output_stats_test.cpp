@@ -121,7 +121,7 @@ TEST(Stats, SayHowThePhotosHangTogether) {
   EXPECT_EQ(matches["weakest"][0]["close"], 1);
   EXPECT_EQ(matches["weakest"][0]["facades"][0], "B0001/F00");
   EXPECT_FALSE(matches["weakest"][1].contains("facades"));
-  EXPECT_NE(StatsTable(stats).find("1 photos are loose, 2 parts, 1 bridges"), std::string::npos);
+  EXPECT_NE(StatsTable(stats).find("loose photos: 1, parts: 2, bridges: 1"), std::string::npos);
 }
 
 TEST(Stats, OfAnEmptyPlanAreZeros) {
