@@ -84,7 +84,7 @@ class MatchGraph {
       }
     }
     std::ranges::sort(out);
-    out.erase(std::ranges::unique(out).begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
     std::erase_if(out, [&](uint32_t photo) { return IsFrom(photo, position); });
     return out;
   }

@@ -114,8 +114,10 @@ void CheckFree(const Task& task, const std::vector<Hover>& hovers) {
 std::vector<std::vector<size_t>> NearPlaces(const std::vector<Place>& places,
                                             const std::vector<Hover>& hovers) {
   std::vector<std::vector<size_t>> out;
+  out.reserve(hovers.size());
   for (const Hover& hover : hovers) {
     std::vector<std::pair<double, size_t>> by_distance;
+    by_distance.reserve(places.size());
     for (size_t p = 1; p < places.size(); ++p) {
       by_distance.emplace_back((places[p].start - hover.position).head<2>().squaredNorm(), p);
     }
@@ -158,6 +160,7 @@ std::vector<SplitHome> CostsFromHomes(const Task& task, const std::vector<Place>
                                       const std::vector<Hover>& hovers) {
   const std::vector<std::vector<size_t>> near = NearPlaces(places, hovers);
   std::vector<SplitHome> homes;
+  homes.reserve(places.size());
   for (const Place& place : places) homes.push_back(HomeAt(task, place, hovers.size()));
   task.progress.Begin("ways from home", hovers.size());
   ParallelFor(hovers.size(), task.threads, [&](size_t k) {

@@ -94,6 +94,29 @@ double TourCost(const Order& order, PortCosts& costs) {
   return sum;
 }
 
+namespace {
+
+// The cheapest ways on from hover `from`, taken either way for `sum`, to either direction of `to`;
+// and which direction of `from` each comes by.
+struct DirectionStep {
+  std::array<double, 2> sum{kInfinity, kInfinity};
+  std::array<char, 2> before{};
+};
+DirectionStep StepOn(const std::array<double, 2>& sum, int from, int to, PortCosts& costs) {
+  DirectionStep step;
+  for (const int out : {0, 1}) {
+    for (const int in : {0, 1}) {
+      const double through = sum[out] + costs(2 * from + 1 - out, 2 * to + in);
+      if (!(through < step.sum[in])) continue;
+      step.sum[in] = through;
+      step.before[in] = static_cast<char>(out);
+    }
+  }
+  return step;
+}
+
+}  // namespace
+
 // Shortest path through the graph of the hovers' two directions, once for either direction of the
 // first hover.
 void ChooseDirections(Order& order, PortCosts& costs) {
@@ -105,18 +128,9 @@ void ChooseDirections(Order& order, PortCosts& costs) {
   for (const int first : {0, 1}) {
     std::array<double, 2> sum{first == 0 ? 0 : kInfinity, first == 1 ? 0 : kInfinity};
     for (size_t k = 1; k <= n; ++k) {
-      const int from = order.hovers[k - 1];
-      const int to = order.hovers[k % n];
-      std::array<double, 2> next{kInfinity, kInfinity};
-      for (const int out : {0, 1}) {
-        for (const int in : {0, 1}) {
-          const double through = sum[out] + costs(2 * from + 1 - out, 2 * to + in);
-          if (!(through < next[in])) continue;
-          next[in] = through;
-          before[k % n][in] = static_cast<char>(out);
-        }
-      }
-      sum = next;
+      const DirectionStep step = StepOn(sum, order.hovers[k - 1], order.hovers[k % n], costs);
+      sum = step.sum;
+      before[k % n] = step.before;
     }
     if (!(sum[first] < best)) continue;
     best = sum[first];

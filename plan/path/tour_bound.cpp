@@ -136,7 +136,7 @@ std::vector<int> TreeNeighbourOfLeaves(const OneTree& tree) {
 }
 
 // Prim's algorithm on the graph.
-OneTree LeastOneTree(const Graph& graph, const Weights& weights) {
+OneTree LeastTree(const Graph& graph, const Weights& weights) {
   const size_t n = graph.size();
   OneTree tree;
   tree.parent.assign(n, {});
@@ -166,6 +166,11 @@ OneTree LeastOneTree(const Graph& graph, const Weights& weights) {
     }
   }
   CountDegrees(tree);
+  return tree;
+}
+
+OneTree LeastOneTree(const Graph& graph, const Weights& weights) {
+  OneTree tree = LeastTree(graph, weights);
   const std::vector<int> neighbour = TreeNeighbourOfLeaves(tree);
   AddSecondEdge(tree, [&](int leaf) {
     Edge best;
@@ -265,9 +270,7 @@ class AllPairs {
 };
 
 // Prim's algorithm over all pairs: n squared distances, few costs.
-OneTree LeastOneTreeOfAll(const HoverCosts& costs, const Graph& graph, const Weights& weights) {
-  const int n = costs.size();
-  const AllPairs pairs(costs, graph, weights);
+OneTree LeastTreeOfAll(int n, const AllPairs& pairs) {
   OneTree tree;
   tree.parent.assign(n, {});
   std::vector<double> key(n, kInfinity);
@@ -289,8 +292,13 @@ OneTree LeastOneTreeOfAll(const HoverCosts& costs, const Graph& graph, const Wei
     open.pop_back();
   }
   CountDegrees(tree);
-  const std::vector<int> neighbour = TreeNeighbourOfLeaves(tree);
-  // One leaf is enough; the one whose second edge is dearest among candidates is as good as any.
+  return tree;
+}
+
+// The leaf whose second edge is dearest among candidates.
+int DearestLeaf(const OneTree& tree, std::span<const int> neighbour, const Graph& graph,
+                const Weights& weights) {
+  const int n = static_cast<int>(graph.size());
   int leaf = -1;
   double dearest = -kInfinity;
   for (int k = 0; k < n; ++k) {
@@ -305,6 +313,16 @@ OneTree LeastOneTreeOfAll(const HoverCosts& costs, const Graph& graph, const Wei
     dearest = second;
     leaf = k;
   }
+  return leaf;
+}
+
+// One leaf is enough, and the one whose second edge is dearest among candidates as good as any.
+OneTree LeastOneTreeOfAll(const HoverCosts& costs, const Graph& graph, const Weights& weights) {
+  const int n = costs.size();
+  const AllPairs pairs(costs, graph, weights);
+  OneTree tree = LeastTreeOfAll(n, pairs);
+  const std::vector<int> neighbour = TreeNeighbourOfLeaves(tree);
+  const int leaf = DearestLeaf(tree, neighbour, graph, weights);
   AddSecondEdge(tree, [&](int k) {
     Edge best;
     if (k != leaf) return best;

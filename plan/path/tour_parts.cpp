@@ -56,7 +56,7 @@ Order FromEndToEnd(Order order) {
                    order.hovers.size()] != 0) {
     ReadBackwards(order);
   }
-  std::ranges::rotate(order.hovers, std::ranges::find(order.hovers, 0));
+  std::rotate(order.hovers.begin(), std::ranges::find(order.hovers, 0), order.hovers.end());
   return order;
 }
 
