@@ -20,8 +20,8 @@ Geodetic ParseHome(const std::string& text);
 Eigen::Vector3d DefaultHome(const Site& site);
 
 // At most `most` other safe places spread over the site, each as far as possible from those before
-// it and from `site.home`, for flights that begin near their photos. Not in yards
-// that buildings close in, by themselves or together.
+// it and from `site.home`, for flights that begin near their photos. Not in yards that buildings
+// close in, by themselves or together.
 std::vector<Eigen::Vector3d> TakeOffPlaces(const Site& site, size_t most);
 
 // The given place on the ground. Throws Error (kUsage) where it is not safe, or not near the site.

@@ -24,8 +24,8 @@ struct Requirement {
 };
 
 // From what the full set of hovers gives. A sample that reaches `tau_r` may fall to it; one that
-// does not may lose nothing. A sample keeps three hovers that see it, or as many as it
-// has, and on roofs and ground a photo straight down.
+// does not may lose nothing. A sample keeps three hovers that see it, or as many as it has, and on
+// roofs and ground a photo straight down.
 std::vector<Requirement> RequirementsOf(const ViewGraph& graph,
                                         std::span<const SurfaceSample> samples, double tau_r);
 
