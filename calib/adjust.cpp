@@ -32,8 +32,10 @@ constexpr double kRadialSigma = 0.5;
 constexpr double kTangentialSigma = 0.01;
 constexpr double kRationalSigma = 0.2;
 
-// Position priors beyond this many standard deviations lose weight.
-constexpr double kPriorLossScale = 1;
+// Records beyond this many standard deviations lose weight. Not sooner: photos on one line turn about
+// it freely but for their records and few ties, of which wrong ones must not outweigh all records
+// together.
+constexpr double kPriorLossScale = 10;
 
 constexpr double kLeastNoise = 0.05;
 // Median of the length of a two-dimensional normal vector with unit variances: sqrt(2 ln 2).
@@ -148,7 +150,8 @@ class Adjustment {
 
   // Tracks that a variable photo may see, in order.
   std::vector<int> ConcernedTracks() const {
-    std::vector<int> tracks;
+    std::vector<int> tracks = options_.tracks;
+    if (!tracks.empty()) return tracks;
     if (options_.variable_photos.empty()) {
       tracks.resize(scene_.tracks.size());
       std::iota(tracks.begin(), tracks.end(), 0);
@@ -264,15 +267,26 @@ class Adjustment {
   void AddPriors() {
     bool has_priors = false;
     for (auto& [index, pose] : poses_) {
-      const auto& prior = scene_.photos[index].prior;
-      if (!options_.use_priors || !prior || !IsVariable(index)) continue;
-      has_priors = true;
-      const Eigen::Vector3d sigma(prior->sigma_horizontal_m, prior->sigma_horizontal_m,
-                                  prior->sigma_vertical_m);
-      problem_.AddResidualBlock(PositionCost::Create(prior->position, sigma), &prior_loss_,
-                                pose.values);
+      if (!options_.use_priors || !IsVariable(index)) continue;
+      has_priors = AddPosition(scene_.photos[index].prior, pose) || has_priors;
+      AddAttitude(scene_.photos[index].attitude, pose);
     }
     if (!has_priors) HoldFrame();
+  }
+
+  bool AddPosition(const std::optional<PositionPrior>& prior, PoseBlock& pose) {
+    if (!prior) return false;
+    const Eigen::Vector3d sigma(prior->sigma_horizontal_m, prior->sigma_horizontal_m,
+                                prior->sigma_vertical_m);
+    problem_.AddResidualBlock(PositionCost::Create(prior->position, sigma), &prior_loss_,
+                              pose.values);
+    return true;
+  }
+
+  void AddAttitude(const std::optional<AttitudePrior>& prior, PoseBlock& pose) {
+    if (!prior) return;
+    problem_.AddResidualBlock(AttitudeCost::Create(prior->cam_from_world, prior->sigma_rad),
+                              &prior_loss_, pose.values);
   }
 
   // Two photos that do not move hold the frame. Without any, the first one is held; with one, the
@@ -319,7 +333,9 @@ class Adjustment {
   std::unique_ptr<ScaleHoldingManifold> scale_holding_;
   std::vector<std::unique_ptr<ceres::SubsetManifold>> subsets_;
   ceres::CauchyLoss loss_{options_.loss_scale};
-  ceres::CauchyLoss prior_loss_{kPriorLossScale};
+  ceres::CauchyLoss prior_outliers_{kPriorLossScale};
+  ceres::ScaledLoss prior_loss_{&prior_outliers_, options_.noise * options_.noise,
+                                ceres::DO_NOT_TAKE_OWNERSHIP};
   ceres::Problem problem_;  // last: refers to the members above
 };
 

@@ -18,7 +18,13 @@ struct AdjustOptions {
   RefineIntrinsics refine = RefineIntrinsics::kDistortion;
   // Residuals beyond this many standard deviations lose weight (Cauchy loss).
   double loss_scale = 2;
-  bool use_priors = false;  // position priors of the photos; the scene must be in their frame
+  // Positions and attitudes that the photos were recorded at; the scene must be in their frame.
+  bool use_priors = false;
+  // Standard deviation of keypoints in units of the one they came with, against which the priors
+  // weigh: 1 lets them weigh as much as it says, less lets them weigh less.
+  double noise = 1;
+  // Tracks that take part, by index; empty: all that have a point.
+  std::vector<int> tracks;
   int threads = 1;          // more than one is faster but not reproducible
   int max_iterations = 50;
   double tolerance = 1e-4;  // relative change of the cost that ends the iteration
@@ -38,6 +44,10 @@ struct AdjustReport {
 // within a few per cent of the image, square pixels, small tangential distortion. Requires a
 // consistent scene. Throws Error (kStageFailed) for camera models without a cost function.
 AdjustReport Adjust(const AdjustOptions& options, Scene& scene);
+
+// What may be as far from its point as a tolerance errs by this part of it: observations weigh
+// little against records as long as their points and poses are rough.
+inline constexpr double kToleranceInNoise = 8;
 
 // Standard deviation of the keypoints per axis as their residuals show it, in units of the one they
 // came with: from the median, so that wrong matches do not count. At least 0.05; 1 without points.

@@ -18,11 +18,15 @@
 #include "calib/mapper.h"
 #include "calib/match_photos.h"
 #include "calib/panorama.h"
+#include "calib/records.h"
+#include "calib/start_from_records.h"
 #include "calib/summarize.h"
 #include "calib/tracks.h"
+#include "calib/wrong_poses.h"
 #include "survey/calibration.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
+#include "survey/plan_of_survey.h"
 #include "survey/survey_folder.h"
 
 namespace stucco {
@@ -178,20 +182,80 @@ void GuessFocalLengths(const Photos& photos, const std::vector<VerifiedPair>& pa
       "add photos between the existing ones, taken from clearly different positions");
 }
 
+// How the scene came about, and what its photos' records say.
+struct Reconstructed {
+  std::optional<Georef> frame;  // of the positions; nothing where there are none
+  std::vector<PoseRecord> records;
+  bool is_in_frame = false;  // it began at the records
+};
+
+// Photos at their records first, corrected by their matches; what has no record, or where records
+// are of no use, one photo after the other.
+Reconstructed PlacePhotos(const CalibOptions& options, const Photos& photos,
+                          const std::vector<VerifiedPair>& pairs, MapperOptions mapper,
+                          const StageContext& context, Scene& scene) {
+  Reconstructed result;
+  if (options.use_positions) result.frame = FrameFromPositions(photos.usable, scene);
+  const std::optional<Plan> plan = PlanOfSurvey(context);
+  result.records = ReadRecords(photos.usable, plan ? &*plan : nullptr, scene);
+  if (result.frame) {
+    const RecordsStart start = StartFromRecords(mapper, pairs, result.records, context, scene);
+    result.is_in_frame = start.usable;
+    if (!start.why_not.empty()) {
+      context.progress->Note(fmt::format("photos are placed one after the other: {}", start.why_not));
+    }
+  }
+  if (result.is_in_frame) {
+    mapper.use_priors = true;
+    GrowOn(mapper, context, scene);
+  } else {
+    Reconstruct(mapper, pairs, context, scene);
+  }
+  return result;
+}
+
 struct GeoreferenceResult {
   Georef georef;
   std::vector<int> prior_outliers;
   PriorResiduals residuals;
+  std::map<int, std::string> taken;  // photos whose poses contradict their records
 };
 
-// Adjusts once more with the positions that agree.
-void RefineWithPositions(const MapperOptions& mapper, const std::vector<int>& outliers,
-                         const StageContext& context, Scene& scene) {
-  std::vector<std::optional<PositionPrior>> all_priors;
-  for (const ScenePhoto& photo : scene.photos) all_priors.push_back(photo.prior);
-  for (const int photo : outliers) scene.photos[photo].prior.reset();
-  RefineAll(mapper, true, context, scene);
-  for (size_t i = 0; i < all_priors.size(); ++i) scene.photos[i].prior = all_priors[i];
+// Judges every pose by what the records turned out to be good to, and adjusts once more with those
+// that agree. Requires a scene in the frame of the records.
+GeoreferenceResult RefineWithRecords(const MapperOptions& mapper,
+                                     const std::vector<PoseRecord>& records,
+                                     const StageContext& context, Scene& scene) {
+  GeoreferenceResult result;
+  const auto apply = [&] { ApplyRecords(records, MeasureRecordErrors(records, scene), scene); };
+  apply();
+  const WrongPoses wrong = MendWrongPoses(mapper, context, scene);
+  for (const int photo : wrong.corrected) {
+    context.progress->Note(fmt::format("{}: posed anew from its record, which its first pose contradicted",
+                                       scene.photos[photo].name));
+  }
+  Settle(mapper, true, context, scene);
+  apply();
+  Converge(mapper, true, context, scene);
+  apply();
+  for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
+    if (!scene.photos[i].pose) continue;
+    const RecordVerdict verdict = JudgePose(scene, i);
+    if (verdict == RecordVerdict::kPositionOff) result.prior_outliers.push_back(i);
+    if (verdict != RecordVerdict::kContradicts) continue;
+    scene.photos[i].pose.reset();
+    result.taken[i] = {};
+  }
+  for (const int photo : wrong.taken) {
+    if (!scene.photos[photo].pose) result.taken[photo] = {};
+  }
+  for (auto& [photo, why] : result.taken) {
+    why = "its matches give a pose that contradicts its recorded position and angles by more than "
+          "these are good to; something that repeats itself looks like that, or a wrong record";
+  }
+  FilterScene(mapper, scene);
+  for (size_t i = 0; i < records.size(); ++i) scene.photos[i].prior = records[i].position;
+  return result;
 }
 
 GeoreferenceResult WithoutPositions(const Photos& photos, Scene& scene) {
@@ -203,53 +267,61 @@ GeoreferenceResult WithoutPositions(const Photos& photos, Scene& scene) {
   return result;
 }
 
-GeoreferenceResult Georeference(const CalibOptions& options, const MapperOptions& mapper,
-                                const Photos& photos, const StageContext& context, Scene& scene) {
-  const auto frame =
-      options.use_positions ? FrameFromPositions(photos.usable, scene) : std::optional<Georef>();
+// Fits a scene that did not begin at the records to the positions. Nothing where these do not hold
+// its frame, which then is what `result` says.
+bool BringIntoFrame(const Reconstructed& from, const MapperOptions& mapper, const Photos& photos,
+                    const StageContext& context, Scene& scene, GeoreferenceResult& result) {
   const auto fit_to_priors = [&] {
-    return frame ? FitToPriors(scene, UpFromGimbal(photos.usable, scene))
-                 : std::optional<PriorFit>();
+    return from.frame ? FitToPriors(scene, UpFromGimbal(photos.usable, scene))
+                      : std::optional<PriorFit>();
   };
   auto fit = fit_to_priors();
-  if (!fit || fit->holds != FitHolds::kEverything) {
-    // The positions take no part in the adjustment.
-    RefineAll(mapper, false, context, scene);
-    fit = fit_to_priors();
+  if (fit && fit->holds == FitHolds::kEverything) {
+    Transform(fit->enu_from_scene, scene);
+    return true;
   }
+  // The positions take no part in the adjustment.
+  RefineAll(mapper, false, context, scene);
+  fit = fit_to_priors();
   if (!fit) {
-    if (frame) {
+    if (from.frame) {
       context.progress->Warn(
           "the photos' positions are too close together or contradict each other: the model keeps "
           "an arbitrary scale and direction");
     }
-    return WithoutPositions(photos, scene);
+    result = WithoutPositions(photos, scene);
+    return false;
   }
   Transform(fit->enu_from_scene, scene);
+  if (fit->holds == FitHolds::kEverything) return true;
   if (fit->holds == FitHolds::kScale) {
     context.progress->Warn(
         "the photos were taken along one line: their positions give the scale, but not which way "
         "is up; photograph from two heights or distances to mend that");
-    GeoreferenceResult result = WithoutPositions(photos, scene);
+    result = WithoutPositions(photos, scene);
     result.georef.metric = true;
-    return result;
+    return false;
   }
+  context.progress->Note(
+      "the photos were taken along one line: the gimbal's angles say which way is up");
+  result.georef = *from.frame;
+  result.prior_outliers = fit->outliers;
+  return false;
+}
+
+GeoreferenceResult Georeference(const Reconstructed& from, const MapperOptions& mapper,
+                                const Photos& photos, const StageContext& context, Scene& scene) {
   GeoreferenceResult result;
-  for (const int photo : fit->outliers) {
+  if (from.is_in_frame || BringIntoFrame(from, mapper, photos, context, scene, result)) {
+    result = RefineWithRecords(mapper, from.records, context, scene);
+    result.georef = *from.frame;
+  }
+  for (const int photo : result.prior_outliers) {
     context.progress->Warn(
-        fmt::format("{}: its recorded position contradicts the other photos and "
-                    "is not used",
+        fmt::format("{}: its recorded position contradicts the other photos and is not used",
                     scene.photos[photo].name));
   }
-  if (fit->holds == FitHolds::kEverything) {
-    RefineWithPositions(mapper, fit->outliers, context, scene);
-  } else {
-    context.progress->Note(
-        "the photos were taken along one line: the gimbal's angles say which way is up");
-  }
-  result.georef = *frame;
-  result.prior_outliers = fit->outliers;
-  result.residuals = MeasurePriors(scene, fit->outliers);
+  result.residuals = MeasurePriors(scene, result.prior_outliers);
   return result;
 }
 
@@ -301,15 +373,17 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   MapperOptions mapper;
   mapper.min_angle_rad = options.min_angle_deg * kRadians;
   mapper.refine_principal_point = options.refine_principal_point;
-  mapper.threads = options.fast_adjustment ? context.threads : 1;
+  mapper.threads = context.threads;
+  mapper.adjust_threads = options.fast_adjustment ? context.threads : 1;
 
   for (VerifiedPair& pair : pairs) ClassifyMotion(scene, mapper.max_error_sigmas, pair);
-  const MapReport map = Reconstruct(mapper, pairs, context, scene);
+  const Reconstructed placed = PlacePhotos(options, photos, pairs, mapper, context, scene);
   const std::vector<std::string> findings = DescribePanoramas(scene, pairs, photos.usable);
   for (const std::string& finding : findings) context.progress->Warn(finding);
-  if (map.num_registered < 2) ThrowNothingRegistered(pairs, findings);
-  const GeoreferenceResult georeference = Georeference(options, mapper, photos, context, scene);
-  const std::map<int, std::string> unregistered = ExplainUnregistered(mapper, pairs, scene);
+  if (NumRegistered(scene) < 2) ThrowNothingRegistered(pairs, findings);
+  const GeoreferenceResult georeference = Georeference(placed, mapper, photos, context, scene);
+  std::map<int, std::string> unregistered = georeference.taken;
+  unregistered.merge(ExplainUnregistered(mapper, pairs, scene));
   for (const auto& [photo, why] : unregistered) {
     context.progress->Warn(fmt::format("{}: not placed: {}", scene.photos[photo].name, why));
   }

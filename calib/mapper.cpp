@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "calib/choose_tracks.h"
+#include "calib/points.h"
 #include "calib/resect.h"
 #include "calib/triangulate.h"
 #include "survey/disjoint_sets.h"
@@ -22,6 +24,9 @@ constexpr int kLeastInitialPoints = 30;
 constexpr int kMaxAttempts = 3;      // to place a photo
 constexpr size_t kCompared = 20;     // candidates for the next photo
 constexpr size_t kSureMatches = 30;  // tie two photos into one component
+// More observations than these take no part in an adjustment of everything: poses are as good
+// without, as each photo has its share of those that do.
+constexpr int kAllObservations = 150000;
 
 TriangulateOptions ForTriangulation(const MapperOptions& options) {
   return {.max_error_sigmas = options.max_error_sigmas, .min_angle_rad = options.min_angle_rad};
@@ -31,14 +36,6 @@ void Reset(const Scene& start, Scene& scene) {
   for (size_t i = 0; i < scene.photos.size(); ++i) scene.photos[i].pose.reset();
   for (size_t i = 0; i < scene.cameras.size(); ++i) scene.cameras[i] = start.cameras[i];
   for (SceneTrack& track : scene.tracks) ClearPoint(track);
-}
-
-int TriangulateMissing(const MapperOptions& options, Scene& scene) {
-  int added = 0;
-  for (SceneTrack& track : scene.tracks) {
-    if (!track.position && TriangulateTrack(scene, ForTriangulation(options), track)) ++added;
-  }
-  return added;
 }
 
 // Lets a newly registered photo take part: its keypoints join the points they agree with, and
@@ -59,25 +56,14 @@ void ConnectPhoto(const MapperOptions& options, int photo, Scene& scene) {
   }
 }
 
-// Observations of existing points that fit by now.
-void CompleteTracks(const MapperOptions& options, Scene& scene) {
-  for (SceneTrack& track : scene.tracks) {
-    if (!track.position) continue;
-    for (SceneElement& element : track.elements) {
-      element.used =
-          ReprojectionErrorInSigmas(scene, element, *track.position) < options.max_error_sigmas;
-    }
-  }
-}
-
 bool StartFrom(const MapperOptions& options, const InitialPair& pair, Scene& scene) {
   scene.photos[pair.first].pose = Pose{};
   scene.photos[pair.second].pose = pair.relative.second_from_first;
-  TriangulateMissing(options, scene);
+  TriangulateMissing(ForTriangulation(options), options.threads, scene);
   AdjustOptions adjust;
   adjust.variable_photos = {pair.second};
   adjust.refine = RefineIntrinsics::kNone;
-  adjust.threads = options.threads;
+  adjust.threads = options.adjust_threads;
   if (!Adjust(adjust, scene).usable) return false;
   FilterScene(options, scene);
   const int points = NumUsedObservations(scene, pair.second);
@@ -102,15 +88,39 @@ std::vector<int> Neighbourhood(const Scene& scene, int photo) {
   return order;
 }
 
+int NumObservations(const Scene& scene) {
+  int count = 0;
+  for (const SceneTrack& track : scene.tracks) {
+    if (!track.position) continue;
+    for (const SceneElement& element : track.elements) count += element.used;
+  }
+  return count;
+}
+
+// Adjusts everything; of a large scene with chosen tracks, the points of the others follow.
+AdjustReport AdjustChosen(const MapperOptions& options, AdjustOptions adjust, Scene& scene) {
+  if (NumObservations(scene) <= kAllObservations) return Adjust(adjust, scene);
+  adjust.tracks = ChooseTracks(scene, options.observations_per_photo);
+  const AdjustReport report = Adjust(adjust, scene);
+  std::vector<bool> is_chosen(scene.tracks.size(), false);
+  for (const int track : adjust.tracks) is_chosen[track] = true;
+  for (size_t t = 0; t < scene.tracks.size(); ++t) {
+    if (!is_chosen[t]) ClearPoint(scene.tracks[t]);
+  }
+  TriangulateMissing(ForTriangulation(options), options.threads, scene);
+  return report;
+}
+
 void AdjustEverything(const MapperOptions& options, Scene& scene) {
   AdjustOptions adjust;
+  adjust.use_priors = options.use_priors;
   adjust.refine = RefineIntrinsics::kDistortion;
-  adjust.threads = options.threads;
+  adjust.threads = options.adjust_threads;
   adjust.max_iterations = 30;
-  Adjust(adjust, scene);
+  AdjustChosen(options, adjust, scene);
   FilterScene(options, scene);
-  CompleteTracks(options, scene);
-  TriangulateMissing(options, scene);
+  CompleteTracks(options.max_error_sigmas, options.threads, scene);
+  TriangulateMissing(ForTriangulation(options), options.threads, scene);
 }
 
 void AdjustAround(const MapperOptions& options, int photo, Scene& scene) {
@@ -121,7 +131,7 @@ void AdjustAround(const MapperOptions& options, int photo, Scene& scene) {
     adjust.variable_photos.erase(adjust.variable_photos.begin());
   }
   adjust.refine = RefineIntrinsics::kNone;
-  adjust.threads = options.threads;
+  adjust.threads = options.adjust_threads;
   adjust.max_iterations = 15;
   Adjust(adjust, scene);
 }
@@ -233,28 +243,6 @@ std::string WhyUnregistered(const MapperOptions& options, const Scene& scene,
       NumVisiblePoints(scene, photo), options.min_inliers, best);
 }
 
-int FilterPoints(const MapperOptions& options, Scene& scene) {
-  int dropped = 0;
-  for (SceneTrack& track : scene.tracks) {
-    if (!track.position) continue;
-    int used = 0;
-    for (SceneElement& element : track.elements) {
-      if (!element.used) continue;
-      if (ReprojectionErrorInSigmas(scene, element, *track.position) < options.max_error_sigmas) {
-        ++used;
-      } else {
-        element.used = false;
-        ++dropped;
-      }
-    }
-    if (used < 2 || LargestRayAngle(scene, track) < options.min_angle_rad) {
-      dropped += used;
-      ClearPoint(track);
-    }
-  }
-  return dropped;
-}
-
 // Takes poses away that too few observations hold. Returns whether there were any.
 bool DropWeakPoses(const MapperOptions& options, Scene& scene) {
   bool any = false;
@@ -269,9 +257,9 @@ bool DropWeakPoses(const MapperOptions& options, Scene& scene) {
 }  // namespace
 
 int FilterScene(const MapperOptions& options, Scene& scene) {
-  int dropped = FilterPoints(options, scene);
+  int dropped = FilterPoints(ForTriangulation(options), options.threads, scene);
   // A photo that goes takes observations from points that other photos may then see too little of.
-  while (DropWeakPoses(options, scene)) dropped += FilterPoints(options, scene);
+  while (DropWeakPoses(options, scene)) dropped += FilterPoints(ForTriangulation(options), options.threads, scene);
   return dropped;
 }
 
@@ -282,24 +270,27 @@ AdjustOptions ForEverything(const MapperOptions& options, bool use_priors, const
   adjust.refine = options.refine_principal_point ? RefineIntrinsics::kPrincipalPoint
                                                  : RefineIntrinsics::kDistortion;
   adjust.use_priors = use_priors;
-  adjust.threads = options.threads;
-  // Robust by the noise that there is. The weight against positions and lens priors stays that of
-  // the stated one: keypoints also err together, which their residuals do not show.
-  adjust.loss_scale *= MeasureNoise(scene);
+  adjust.threads = options.adjust_threads;
+  // Robust by the noise that there is, which records weigh against too: their own deviations are
+  // measured. The weight against lens priors stays that of the stated one: keypoints also err
+  // together, which their residuals do not show.
+  adjust.noise = MeasureNoise(scene);
+  adjust.loss_scale *= adjust.noise;
   return adjust;
 }
 
-// Rounds of adjustment, filtering and triangulating anew until observations and noise stay as they
-// are.
+}  // namespace
+
 void Settle(const MapperOptions& options, bool use_priors, const StageContext& context,
             Scene& scene) {
   int last_observations = 0;
   double last_noise = -1;
   for (int round = 0; round < kMaxRounds; ++round) {
     context.ThrowIfCancelled();
-    CompleteTracks(options, scene);
-    TriangulateMissing(options, scene);
-    const AdjustReport report = Adjust(ForEverything(options, use_priors, scene), scene);
+    CompleteTracks(options.max_error_sigmas, options.threads, scene);
+    TriangulateMissing(ForTriangulation(options), options.threads, scene);
+    const AdjustReport report =
+        AdjustChosen(options, ForEverything(options, use_priors, scene), scene);
     FilterScene(options, scene);
     const double noise = MeasureNoise(scene);
     const bool same_observations =
@@ -311,18 +302,21 @@ void Settle(const MapperOptions& options, bool use_priors, const StageContext& c
   }
 }
 
-}  // namespace
-
-AdjustReport RefineAll(const MapperOptions& options, bool use_priors, const StageContext& context,
-                       Scene& scene) {
-  Settle(options, use_priors, context, scene);
+AdjustReport Converge(const MapperOptions& options, bool use_priors, const StageContext& context,
+                      Scene& scene) {
   context.ThrowIfCancelled();
   AdjustOptions adjust = ForEverything(options, use_priors, scene);
   adjust.max_iterations = 100;
   adjust.tolerance = 1e-6;
-  const AdjustReport report = Adjust(adjust, scene);
+  const AdjustReport report = AdjustChosen(options, adjust, scene);
   FilterScene(options, scene);
   return report;
+}
+
+AdjustReport RefineAll(const MapperOptions& options, bool use_priors, const StageContext& context,
+                       Scene& scene) {
+  Settle(options, use_priors, context, scene);
+  return Converge(options, use_priors, context, scene);
 }
 
 namespace {
@@ -393,6 +387,12 @@ std::map<int, std::string> ExplainUnregistered(const MapperOptions& options,
   return why;
 }
 
+void GrowOn(const MapperOptions& options, const StageContext& context, Scene& scene) {
+  context.progress->Begin("placing photos", scene.photos.size());
+  context.progress->Advance(NumRegistered(scene));
+  Grow(options, context, scene);
+}
+
 MapReport Reconstruct(const MapperOptions& options, const std::vector<VerifiedPair>& pairs,
                       const StageContext& context, Scene& scene) {
   assert(IsConsistent(scene) && scene.tracks_of_photo.size() == scene.photos.size());
@@ -407,7 +407,7 @@ MapReport Reconstruct(const MapperOptions& options, const std::vector<VerifiedPa
   }
   scene = std::move(best);
   if (NumRegistered(scene) >= 2) {
-    Settle(options, false, context, scene);
+    Settle(options, options.use_priors, context, scene);
     Grow(options, context, scene);  // photos that only fit now
   }
   report.num_registered = NumRegistered(scene);

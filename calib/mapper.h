@@ -19,7 +19,12 @@ struct MapperOptions {
   int min_inliers = 15;
   int max_initial_pairs = 8;
   bool refine_principal_point = true;
-  int threads = 1;  // of the bundle adjustment
+  int threads = 1;  // of what gives the same with any number of them
+  int adjust_threads = 1;  // of bundle adjustment
+  // Of each photo, at most, while a large survey is adjusted: chosen by how they cover it.
+  int observations_per_photo = 400;
+  // Whether the scene is in the frame of its priors, so that they take part in adjustments.
+  bool use_priors = false;
 };
 
 struct MapReport {
@@ -35,14 +40,24 @@ struct MapReport {
 MapReport Reconstruct(const MapperOptions& options, const std::vector<VerifiedPair>& pairs,
                       const StageContext& context, Scene& scene);
 
+// Grows from the photos that have a pose.
+void GrowOn(const MapperOptions& options, const StageContext& context, Scene& scene);
+
 // Why each photo without a pose has none, and what to do about it.
 std::map<int, std::string> ExplainUnregistered(const MapperOptions& options,
                                                const std::vector<VerifiedPair>& pairs,
                                                const Scene& scene);
 
 // Rounds of bundle adjustment of everything, filtering and triangulating anew, until nothing
-// changes, then one until it converges. With `use_priors` the scene must be in the frame of its
-// position priors. Returns the last adjustment's report.
+// changes. With `use_priors` the scene must be in the frame of its priors.
+void Settle(const MapperOptions& options, bool use_priors, const StageContext& context,
+            Scene& scene);
+
+// One adjustment of everything until it converges. Returns its report.
+AdjustReport Converge(const MapperOptions& options, bool use_priors, const StageContext& context,
+                      Scene& scene);
+
+// Both.
 AdjustReport RefineAll(const MapperOptions& options, bool use_priors, const StageContext& context,
                        Scene& scene);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -30,6 +31,12 @@ struct PositionPrior {
   double sigma_vertical_m = 10;
 };
 
+// Where the camera looks by its gimbal, in the frame of the positions.
+struct AttitudePrior {
+  Eigen::Quaterniond cam_from_world = Eigen::Quaterniond::Identity();
+  double sigma_rad = 0.02;  // about each axis
+};
+
 struct ScenePhoto {
   std::string name;
   int camera = 0;
@@ -38,6 +45,7 @@ struct ScenePhoto {
   std::vector<std::array<uint8_t, 3>> colors;
   std::optional<Pose> pose;  // cam_from_world once it is known
   std::optional<PositionPrior> prior;
+  std::optional<AttitudePrior> attitude;
 };
 
 struct SceneElement {

@@ -158,6 +158,27 @@ struct PositionCost {
   }
 };
 
+// Rotation vector from the recorded to the estimated rotation, in the camera's frame, over sigma
+// (twice the vector part of the quaternion between them, which is short of it by the third order).
+struct AttitudeCost {
+  Eigen::Quaterniond world_from_recorded;
+  double inverse_sigma;
+
+  template <typename T>
+  bool operator()(const T* pose, T* residual) const {
+    const Eigen::Map<const Eigen::Quaternion<T>> q(pose);
+    const Eigen::Quaternion<T> between = q * world_from_recorded.cast<T>();
+    const T twice = between.w() < T(0) ? T(-2) : T(2);
+    for (int i = 0; i < 3; ++i) residual[i] = twice * between.vec()[i] * T(inverse_sigma);
+    return true;
+  }
+
+  static ceres::CostFunction* Create(const Eigen::Quaterniond& cam_from_world, double sigma_rad) {
+    return new ceres::AutoDiffCostFunction<AttitudeCost, 3, kPoseSize>(
+        new AttitudeCost{cam_from_world.conjugate(), 1 / sigma_rad});
+  }
+};
+
 // Holds intrinsics near what is plausible for a lens: (parameter - expected) / sigma for each, and
 // the ratio of the two focal lengths near 1.
 template <int kNumParams>

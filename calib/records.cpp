@@ -1,0 +1,388 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/records.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <ctime>
+#include <iomanip>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "survey/attitude.h"
+#include "survey/median.h"
+
+namespace stucco {
+namespace {
+
+constexpr double kPause_s = 300;
+constexpr int kEnoughForOneFlight = 8;
+constexpr int kEnoughAtAll = 4;
+constexpr double kSignificant = 3;  // of its own standard deviation
+// Receivers are no better than this among themselves, gimbals no better than they write.
+constexpr double kLeastPosition_m = 0.01;
+constexpr double kLeastAttitude_rad = 0.05 * M_PI / 180;
+constexpr int kRounds = 10;  // of reweighting
+// From the median of absolute values to the standard deviation of a normal variable.
+constexpr double kNormalMedian = 0.6745;
+
+std::optional<double> SecondsOf(const std::string& capture_time) {
+  std::tm time = {};
+  std::istringstream text(capture_time);
+  text >> std::get_time(&time, "%Y:%m:%d %H:%M:%S");
+  if (text.fail()) return std::nullopt;
+  return static_cast<double>(timegm(&time));
+}
+
+// Photos in the order they were taken, those without a time by their order in the captures.
+std::vector<int> InTime(const std::vector<const CapturedPhoto*>& captures,
+                        const std::vector<std::optional<double>>& seconds) {
+  std::vector<int> order(captures.size());
+  for (size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    if (captures[a]->camera != captures[b]->camera) return captures[a]->camera < captures[b]->camera;
+    return seconds[a].value_or(0) < seconds[b].value_or(0);
+  });
+  return order;
+}
+
+std::vector<int> FlightsOf(const std::vector<const CapturedPhoto*>& captures, const Plan* plan) {
+  std::map<std::string, int> flight_of_view;
+  if (plan != nullptr) {
+    for (const PlannedView& view : plan->views) flight_of_view[view.id] = view.flight;
+  }
+  std::vector<std::optional<double>> seconds;
+  for (const CapturedPhoto* photo : captures) seconds.push_back(SecondsOf(photo->capture_time));
+  // A flight is a planned one on a day without a long pause, by one camera.
+  std::vector<int> flights(captures.size(), 0);
+  int flight = 0;
+  int planned = -1;
+  int before = -1;
+  for (const int i : InTime(captures, seconds)) {
+    const auto found = flight_of_view.find(captures[i]->view);
+    const int now = found == flight_of_view.end() ? planned : found->second;
+    if (before >= 0) {
+      const bool paused =
+          seconds[i] && seconds[before] && *seconds[i] - *seconds[before] > kPause_s;
+      const bool other = planned >= 0 && now != planned;
+      flight += paused || other || captures[i]->camera != captures[before]->camera;
+    }
+    flights[i] = flight;
+    planned = now;
+    before = i;
+  }
+  return flights;
+}
+
+double MedianOf(std::vector<double> values) {
+  return Median(std::move(values)).value_or(0);
+}
+
+Eigen::Vector3d RotationVector(const Eigen::Quaterniond& rotation) {
+  const Eigen::AngleAxisd turn(rotation);
+  const double angle = turn.angle() > M_PI ? turn.angle() - 2 * M_PI : turn.angle();
+  return angle * turn.axis();
+}
+
+Eigen::Quaterniond FromRotationVector(const Eigen::Vector3d& vector) {
+  const double angle = vector.norm();
+  if (angle < 1e-12) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle));
+}
+
+Eigen::Quaterniond AboutUp(double angle_rad) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()));
+}
+
+// Positions
+
+struct PositionError {
+  int flight = 0;
+  Eigen::Vector3d recorded_minus_posed = Eigen::Vector3d::Zero();
+};
+
+std::vector<PositionError> PositionErrors(const std::vector<PoseRecord>& records,
+                                          const Scene& scene) {
+  std::vector<PositionError> errors;
+  for (size_t i = 0; i < records.size(); ++i) {
+    if (!scene.photos[i].pose || !records[i].position) continue;
+    errors.push_back(
+        {records[i].flight, records[i].position->position - scene.photos[i].pose->Center()});
+  }
+  return errors;
+}
+
+Eigen::Vector3d MedianVector(const std::vector<Eigen::Vector3d>& vectors) {
+  Eigen::Vector3d median;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    values.reserve(vectors.size());
+    for (const Eigen::Vector3d& v : vectors) values.push_back(v[axis]);
+    median[axis] = MedianOf(std::move(values));
+  }
+  return median;
+}
+
+// Per axis, about zero.
+Eigen::Vector3d Deviations(const std::vector<Eigen::Vector3d>& vectors) {
+  std::vector<Eigen::Vector3d> absolute;
+  absolute.reserve(vectors.size());
+  for (const Eigen::Vector3d& v : vectors) absolute.emplace_back(v.cwiseAbs());
+  return MedianVector(absolute) / kNormalMedian;
+}
+
+void SetSigmas(const Eigen::Vector3d& deviations, FlightErrors& flight) {
+  const double level = std::hypot(deviations.x(), deviations.y()) / std::sqrt(2.0);
+  flight.sigma_horizontal_m = std::max(kLeastPosition_m, level);
+  flight.sigma_vertical_m = std::max(kLeastPosition_m, deviations.z());
+}
+
+void MeasurePositions(const std::vector<PoseRecord>& records, const Scene& scene,
+                      std::vector<FlightErrors>& flights) {
+  const std::vector<PositionError> errors = PositionErrors(records, scene);
+  if (errors.size() < kEnoughAtAll) return;
+  std::vector<std::vector<Eigen::Vector3d>> by_flight(flights.size());
+  std::vector<Eigen::Vector3d> all;
+  for (const PositionError& error : errors) {
+    by_flight[error.flight].push_back(error.recorded_minus_posed);
+    all.push_back(error.recorded_minus_posed);
+  }
+  const Eigen::Vector3d common = MedianVector(all);
+  std::vector<Eigen::Vector3d> rest;
+  for (size_t f = 0; f < flights.size(); ++f) {
+    if (by_flight[f].size() < kEnoughForOneFlight) continue;
+    const Eigen::Vector3d shift = MedianVector(by_flight[f]);
+    for (Eigen::Vector3d& error : by_flight[f]) error -= shift;
+    SetSigmas(Deviations(by_flight[f]), flights[f]);
+    // The standard deviation of a median of normal variables is 1.25 times that of the mean.
+    const double own = 1.25 * flights[f].sigma_horizontal_m /
+                       std::sqrt(static_cast<double>(by_flight[f].size()));
+    if ((shift - common).norm() > kSignificant * own) flights[f].shift_m = shift - common;
+    rest.insert(rest.end(), by_flight[f].begin(), by_flight[f].end());
+  }
+  if (rest.size() < kEnoughAtAll) {
+    for (const Eigen::Vector3d& error : all) rest.emplace_back(error - common);
+  }
+  FlightErrors together;
+  SetSigmas(Deviations(rest), together);
+  for (size_t f = 0; f < flights.size(); ++f) {
+    if (by_flight[f].size() >= kEnoughForOneFlight) continue;
+    flights[f].sigma_horizontal_m = together.sigma_horizontal_m;
+    flights[f].sigma_vertical_m = together.sigma_vertical_m;
+  }
+}
+
+// Attitudes
+
+struct AttitudePair {
+  int flight = 0;
+  Eigen::Quaterniond posed;     // cam_from_world
+  Eigen::Quaterniond recorded;  // cam_from_world
+};
+
+std::vector<AttitudePair> AttitudePairs(const std::vector<PoseRecord>& records,
+                                        const Scene& scene) {
+  std::vector<AttitudePair> pairs;
+  for (size_t i = 0; i < records.size(); ++i) {
+    if (!scene.photos[i].pose || !records[i].gimbal) continue;
+    pairs.push_back({records[i].flight, scene.photos[i].pose->rotation, *records[i].gimbal});
+  }
+  return pairs;
+}
+
+// Turn about up that takes the recorded attitude nearest to the posed one.
+double YawOf(const AttitudePair& pair) {
+  const Eigen::Quaterniond world = pair.recorded.conjugate() * pair.posed;
+  return 2 * std::atan2(world.z(), world.w());
+}
+
+// Median of angles, about their mean direction.
+double MedianAngle(const std::vector<double>& angles) {
+  double cosine = 0;
+  double sine = 0;
+  for (const double angle : angles) {
+    cosine += std::cos(angle);
+    sine += std::sin(angle);
+  }
+  const double mean = std::atan2(sine, cosine);
+  std::vector<double> about;
+  about.reserve(angles.size());
+  for (const double angle : angles) about.push_back(std::remainder(angle - mean, 2 * M_PI));
+  return mean + MedianOf(std::move(about));
+}
+
+// Which of the unknowns mount (3), tilt (2) and yaw of each flight (1 each) take part.
+struct AttitudeUnknowns {
+  bool mount = true;
+  std::vector<bool> yaw;
+
+  int size() const {
+    return (mount ? 3 : 0) + 2 + static_cast<int>(std::count(yaw.begin(), yaw.end(), true));
+  }
+  int yaw_index(int flight) const {
+    return (mount ? 3 : 0) + 2 +
+           static_cast<int>(std::count(yaw.begin(), yaw.begin() + flight, true));
+  }
+};
+
+struct AttitudeFit {
+  Eigen::VectorXd values;
+  Eigen::VectorXd sigmas;
+  double sigma_rad = 0;  // of a record, about each axis
+};
+
+// Least squares with Cauchy weights (Triggs et al. 2000, section 3.3) of
+//   log(R G^-1) = mount + G (tilt, yaw):
+// what turns with the camera and what stays with the world tell apart by the ways photos look.
+AttitudeFit FitAttitudes(const std::vector<AttitudePair>& pairs, const AttitudeUnknowns& unknowns) {
+  const int size = unknowns.size();
+  const int tilt = unknowns.mount ? 3 : 0;
+  AttitudeFit fit{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size), kLeastAttitude_rad};
+  std::vector<Eigen::MatrixXd> rows;
+  std::vector<Eigen::Vector3d> right;
+  for (const AttitudePair& pair : pairs) {
+    Eigen::MatrixXd row = Eigen::MatrixXd::Zero(3, size);
+    const Eigen::Matrix3d g = pair.recorded.toRotationMatrix();
+    if (unknowns.mount) row.leftCols<3>().setIdentity();
+    row.middleCols<2>(tilt) = g.leftCols<2>();
+    if (unknowns.yaw[pair.flight]) row.col(unknowns.yaw_index(pair.flight)) = g.col(2);
+    rows.push_back(row);
+    right.push_back(RotationVector(pair.posed * pair.recorded.conjugate()));
+  }
+  double scale = 0.05;
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Identity(size, size) * 1e-9;
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(size);
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const double r = (right[i] - rows[i] * fit.values).norm() / (2 * scale);
+      const double weight = 1 / (1 + r * r);
+      normal += weight * rows[i].transpose() * rows[i];
+      sum += weight * rows[i].transpose() * right[i];
+    }
+    const Eigen::LDLT<Eigen::MatrixXd> factors(normal);
+    fit.values = factors.solve(sum);
+    std::vector<double> absolute;
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const Eigen::Vector3d rest = right[i] - rows[i] * fit.values;
+      for (int axis = 0; axis < 3; ++axis) absolute.push_back(std::abs(rest[axis]));
+    }
+    scale = std::max(kLeastAttitude_rad, MedianOf(std::move(absolute)) / kNormalMedian);
+    fit.sigmas =
+        scale * factors.solve(Eigen::MatrixXd::Identity(size, size)).diagonal().cwiseSqrt();
+  }
+  fit.sigma_rad = scale;
+  return fit;
+}
+
+// Standard deviation of the scene's heading as its positions determine it.
+double HeadingSigma(const std::vector<PoseRecord>& records, const std::vector<FlightErrors>& flights,
+                    const Scene& scene) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  std::vector<Eigen::Vector2d> places;
+  double variance = 0;
+  for (size_t i = 0; i < records.size(); ++i) {
+    if (!scene.photos[i].pose || !records[i].position) continue;
+    places.emplace_back(scene.photos[i].pose->Center().head<2>());
+    mean += places.back();
+    variance += std::pow(flights[records[i].flight].sigma_horizontal_m, 2);
+  }
+  if (places.size() < 2) return M_PI;
+  mean /= static_cast<double>(places.size());
+  variance /= static_cast<double>(places.size());
+  double squares = 0;
+  for (const Eigen::Vector2d& place : places) squares += (place - mean).squaredNorm();
+  return squares > 0 ? std::sqrt(variance / squares) : M_PI;
+}
+
+void MeasureAttitudes(const std::vector<PoseRecord>& records, const Scene& scene,
+                      RecordErrors& errors) {
+  std::vector<AttitudePair> pairs = AttitudePairs(records, scene);
+  if (pairs.size() < kEnoughAtAll) return;
+  // A compass may be off by any angle: what is linear below is the rest.
+  std::vector<std::vector<double>> yaws(errors.flights.size());
+  for (const AttitudePair& pair : pairs) yaws[pair.flight].push_back(YawOf(pair));
+  for (size_t f = 0; f < yaws.size(); ++f) {
+    if (!yaws[f].empty()) errors.flights[f].yaw_rad = MedianAngle(yaws[f]);
+  }
+  for (AttitudePair& pair : pairs) {
+    pair.recorded = pair.recorded * AboutUp(errors.flights[pair.flight].yaw_rad);
+  }
+  AttitudeUnknowns unknowns{true, std::vector<bool>(errors.flights.size(), true)};
+  for (size_t f = 0; f < yaws.size(); ++f) unknowns.yaw[f] = yaws[f].size() >= kEnoughAtAll;
+  AttitudeFit fit = FitAttitudes(pairs, unknowns);
+  const Eigen::Array3d mount_in_sigmas = fit.values.head<3>().array() / fit.sigmas.head<3>().array();
+  if ((mount_in_sigmas.abs() < kSignificant).all()) {
+    unknowns.mount = false;
+    fit = FitAttitudes(pairs, unknowns);
+  }
+  if (unknowns.mount) errors.mount_rad = fit.values.head<3>();
+  errors.tilt_rad.head<2>() = fit.values.segment<2>(unknowns.mount ? 3 : 0);
+  errors.sigma_attitude_rad = fit.sigma_rad;
+  const double heading = HeadingSigma(records, errors.flights, scene);
+  for (size_t f = 0; f < yaws.size(); ++f) {
+    FlightErrors& flight = errors.flights[f];
+    double own = M_PI;
+    if (unknowns.yaw[f]) {
+      const int index = unknowns.yaw_index(static_cast<int>(f));
+      flight.yaw_rad += fit.values[index];
+      own = std::hypot(heading, fit.sigmas[index]);
+    }
+    if (std::abs(flight.yaw_rad) < kSignificant * own) flight.yaw_rad = 0;
+  }
+}
+
+}  // namespace
+
+std::vector<PoseRecord> ReadRecords(const std::vector<const CapturedPhoto*>& captures,
+                                    const Plan* plan, const Scene& scene) {
+  assert(captures.size() == scene.photos.size());
+  const std::vector<int> flights = FlightsOf(captures, plan);
+  std::vector<PoseRecord> records(captures.size());
+  for (size_t i = 0; i < captures.size(); ++i) {
+    records[i].position = scene.photos[i].prior;
+    if (captures[i]->gimbal) records[i].gimbal = CamFromEnu(*captures[i]->gimbal);
+    records[i].flight = flights[i];
+  }
+  return records;
+}
+
+RecordErrors MeasureRecordErrors(const std::vector<PoseRecord>& records, const Scene& scene) {
+  assert(records.size() == scene.photos.size());
+  int num_flights = 1;
+  for (const PoseRecord& record : records) num_flights = std::max(num_flights, record.flight + 1);
+  RecordErrors errors;
+  errors.flights.resize(num_flights);
+  for (size_t i = 0; i < records.size(); ++i) {
+    const bool counts = scene.photos[i].pose && (records[i].position || records[i].gimbal);
+    errors.flights[records[i].flight].num_photos += counts;
+  }
+  MeasurePositions(records, scene, errors.flights);
+  MeasureAttitudes(records, scene, errors);
+  return errors;
+}
+
+void ApplyRecords(const std::vector<PoseRecord>& records, const RecordErrors& errors,
+                  Scene& scene) {
+  assert(records.size() == scene.photos.size());
+  const Eigen::Quaterniond mount = FromRotationVector(errors.mount_rad);
+  for (size_t i = 0; i < records.size(); ++i) {
+    ScenePhoto& photo = scene.photos[i];
+    photo.prior = records[i].position;
+    photo.attitude.reset();
+    const FlightErrors& flight = errors.flights[records[i].flight];
+    if (photo.prior) {
+      photo.prior->position -= flight.shift_m;
+      photo.prior->sigma_horizontal_m = flight.sigma_horizontal_m;
+      photo.prior->sigma_vertical_m = flight.sigma_vertical_m;
+    }
+    if (!records[i].gimbal) continue;
+    photo.attitude = AttitudePrior{
+        (mount * *records[i].gimbal * AboutUp(flight.yaw_rad)).normalized(),
+        errors.sigma_attitude_rad};
+  }
+}
+
+}  // namespace stucco
