@@ -218,7 +218,8 @@ struct GeoreferenceResult {
   Georef georef;
   std::vector<int> prior_outliers;
   PriorResiduals residuals;
-  std::map<int, std::string> taken;  // photos whose poses contradict their records
+  std::map<int, std::string> taken;     // photos whose poses contradict their records
+  std::optional<RecordErrors> records;  // where they hold the frame
 };
 
 // Judges every pose by what the records turned out to be good to, and adjusts once more with those
@@ -227,7 +228,10 @@ GeoreferenceResult RefineWithRecords(const MapperOptions& mapper,
                                      const std::vector<PoseRecord>& records,
                                      const StageContext& context, Scene& scene) {
   GeoreferenceResult result;
-  const auto apply = [&] { ApplyRecords(records, MeasureRecordErrors(records, scene), scene); };
+  const auto apply = [&] {
+    result.records = MeasureRecordErrors(records, scene);
+    ApplyRecords(records, *result.records, scene);
+  };
   apply();
   const WrongPoses wrong = MendWrongPoses(mapper, context, scene);
   for (const int photo : wrong.corrected) {
@@ -345,7 +349,7 @@ void Write(const SummaryInput& input, const Georef& georef,
   WriteColmapText(reconstruction, sparse);
   WriteGeoref(georef, context.out / "georef.json");
   Calibration calibration = Summarize(input);
-  calibration.findings = findings;
+  calibration.findings.insert(calibration.findings.begin(), findings.begin(), findings.end());
   for (const CalibratedCamera& camera : calibration.cameras) {
     if (!camera.held.empty() && camera.held.size() < camera.names.size()) {
       calibration.findings.push_back(
@@ -388,7 +392,7 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
     context.progress->Warn(fmt::format("{}: not placed: {}", scene.photos[photo].name, why));
   }
   Write({photos.captures, photos.capture_of_photo, scene, unregistered, georeference.residuals,
-         georeference.prior_outliers},
+         georeference.prior_outliers, georeference.records ? &*georeference.records : nullptr},
         georeference.georef, findings, context);
 }
 

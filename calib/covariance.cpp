@@ -58,6 +58,15 @@ bool Linearise(const Scene& scene, const SceneElement& element, const Eigen::Vec
   return true;
 }
 
+// Derivatives of the centre by the rotation as Ceres' manifold turns it (q' = exp(d) q, a rotation
+// by twice the vector d), with the translation held.
+Eigen::Matrix3d CenterByRotation(const Pose& pose) {
+  const Eigen::Vector3d& t = pose.translation;
+  Eigen::Matrix3d cross;
+  cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
+  return -2 * pose.rotation.conjugate().toRotationMatrix() * cross;
+}
+
 class ReducedSystem {
  public:
   explicit ReducedSystem(const Scene& scene) : scene_(scene) {
@@ -194,6 +203,35 @@ std::vector<Eigen::VectorXd> IntrinsicsSigma(const Scene& scene, int max_photos)
   ReducedSystem system(scene);
   for (const SceneTrack& track : scene.tracks) system.AddTrack(track);
   return system.Solve();
+}
+
+std::vector<PoseSigma> PoseSigmas(const Scene& scene) {
+  assert(IsConsistent(scene));
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  std::vector<Matrix6> normals(scene.photos.size(), Matrix6::Zero());
+  for (const SceneTrack& track : scene.tracks) {
+    if (!track.position) continue;
+    for (const SceneElement& element : track.elements) {
+      Linearised l;
+      if (!element.used || !Linearise(scene, element, *track.position, l)) continue;
+      normals[element.photo] += l.pose.transpose() * l.pose;
+    }
+  }
+  const double noise = MeasureNoise(scene);
+  std::vector<PoseSigma> sigmas(scene.photos.size());
+  for (size_t i = 0; i < sigmas.size(); ++i) {
+    if (!scene.photos[i].pose) continue;
+    const Matrix6 covariance = noise * noise * normals[i].inverse();
+    if (!covariance.allFinite()) continue;
+    // The rotation block is of half angles (the manifold of quaternions); the centre is -R^T t.
+    const Pose& pose = *scene.photos[i].pose;
+    Eigen::Matrix<double, 3, 6> by_pose;
+    by_pose.leftCols<3>() = CenterByRotation(pose);
+    by_pose.rightCols<3>() = -pose.rotation.conjugate().toRotationMatrix();
+    sigmas[i].position = std::sqrt((by_pose * covariance * by_pose.transpose()).trace());
+    sigmas[i].rotation_rad = 2 * std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+  }
+  return sigmas;
 }
 
 }  // namespace stucco

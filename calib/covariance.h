@@ -16,4 +16,13 @@ namespace stucco {
 // pose and the scale.
 std::vector<Eigen::VectorXd> IntrinsicsSigma(const Scene& scene, int max_photos = 400);
 
+struct PoseSigma {
+  double position = -1;      // unit of the scene, root of the sum over the axes; -1 without a pose
+  double rotation_rad = -1;  // likewise
+};
+
+// Standard deviation of every pose with the points and intrinsics held: its own part of the error,
+// without what it shares with its neighbours. Scaled by the noise that the residuals show.
+std::vector<PoseSigma> PoseSigmas(const Scene& scene);
+
 }  // namespace stucco

@@ -150,7 +150,12 @@ void MeasurePositions(const std::vector<PoseRecord>& records, const Scene& scene
     by_flight[error.flight].push_back(error.recorded_minus_posed);
     all.push_back(error.recorded_minus_posed);
   }
-  const Eigen::Vector3d common = MedianVector(all);
+  Eigen::Vector3d common = Eigen::Vector3d::Zero();
+  for (const auto& of_flight : by_flight) {
+    if (of_flight.empty()) continue;
+    common += static_cast<double>(of_flight.size()) / static_cast<double>(all.size()) *
+              MedianVector(of_flight);
+  }
   std::vector<Eigen::Vector3d> rest;
   for (size_t f = 0; f < flights.size(); ++f) {
     if (by_flight[f].size() < kEnoughForOneFlight) continue;

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <set>
 
 #include "calib/adjust.h"
 #include "calib/covariance.h"
+#include "survey/median.h"
 
 namespace stucco {
 namespace {
@@ -17,6 +19,11 @@ namespace {
 // A parameter whose uncertainty is still most of what was assumed beforehand is not measured.
 constexpr double kUndetermined = 0.7;
 constexpr int kCoverageCells = 10;
+constexpr double kDegree = M_PI / 180;
+// A pose is weak when so few observations hold it, or when it is this many times less certain than
+// the middle one.
+constexpr int kFewObservations = 50;
+constexpr double kUncertain = 5;
 
 double Coverage(const Camera& camera, const RegisteredImage& photo) {
   std::set<int> filled;
@@ -65,6 +72,65 @@ CalibratedCamera SummarizeCamera(const CapturedCamera& captured, const SceneCame
     }
   }
   return result;
+}
+
+// Photos of the scene in the order of `result.photos`.
+void AddSigmas(const Scene& scene, const std::vector<int>& photos, Calibration& result) {
+  const std::vector<PoseSigma> sigmas = PoseSigmas(scene);
+  std::vector<double> positions;
+  for (const int photo : photos) positions.push_back(sigmas[photo].position);
+  const double usual = Median(std::move(positions)).value_or(0);
+  for (size_t i = 0; i < photos.size(); ++i) {
+    CalibratedPhoto& photo = result.photos[i];
+    const PoseSigma& sigma = sigmas[photos[i]];
+    photo.position_sigma = sigma.position;
+    photo.rotation_sigma_deg = sigma.rotation_rad < 0 ? -1 : sigma.rotation_rad / kDegree;
+    const bool is_weak = sigma.position < 0 || sigma.position > kUncertain * usual ||
+                         photo.observations < kFewObservations;
+    photo.state = is_weak ? "weak" : "tied";
+  }
+}
+
+CalibratedRecords SummarizeRecords(const RecordErrors& errors) {
+  CalibratedRecords result;
+  result.attitude_sigma_deg = errors.sigma_attitude_rad / kDegree;
+  result.mount_deg = errors.mount_rad.norm() / kDegree;
+  for (const FlightErrors& flight : errors.flights) {
+    result.flights.push_back({flight.num_photos,
+                              {flight.shift_m.x(), flight.shift_m.y(), flight.shift_m.z()},
+                              flight.sigma_horizontal_m,
+                              flight.sigma_vertical_m,
+                              -flight.yaw_rad / kDegree});
+  }
+  return result;
+}
+
+// Sentences for what a user should look after.
+void AddFindings(const CalibratedRecords& records, Calibration& result) {
+  constexpr double kMuchYaw_deg = 2;
+  constexpr double kMuchMount_deg = 1;
+  constexpr double kMuchShift_m = 1;
+  for (size_t f = 0; f < records.flights.size(); ++f) {
+    const CalibratedFlight& flight = records.flights[f];
+    const double shift =
+        std::hypot(flight.shift_m[0], std::hypot(flight.shift_m[1], flight.shift_m[2]));
+    if (std::abs(flight.yaw_deg) > kMuchYaw_deg) {
+      result.findings.push_back(
+          fmt::format("flight {}: its recorded yaw is {:.1f} degrees off; calibrate the compass",
+                      f + 1, std::abs(flight.yaw_deg)));
+    }
+    if (shift > kMuchShift_m) {
+      result.findings.push_back(
+          fmt::format("flight {}: its positions are shifted by {:.1f} m against those of the "
+                      "other flights, which was taken into account",
+                      f + 1, shift));
+    }
+  }
+  if (records.mount_deg > kMuchMount_deg) {
+    result.findings.push_back(fmt::format(
+        "the camera looks {:.1f} degrees beside what the gimbal says; calibrate the gimbal",
+        records.mount_deg));
+  }
 }
 
 }  // namespace
@@ -131,11 +197,18 @@ Calibration Summarize(const SummaryInput& input) {
   result.mean_track_length = MeanTrackLength(reconstruction);
   result.prior_rms_horizontal_m = input.priors.rms_horizontal_m;
   result.prior_rms_vertical_m = input.priors.rms_vertical_m;
+  std::vector<int> posed;
   for (size_t i = 0; i < input.scene.photos.size(); ++i) {
     const auto registered = reconstruction.photos.find(PhotoId{ids[i]});
     if (registered == reconstruction.photos.end()) continue;
+    posed.push_back(static_cast<int>(i));
     result.photos.push_back(
         SummarizePhoto(input, reconstruction, registered->second, static_cast<int>(i)));
+  }
+  AddSigmas(input.scene, posed, result);
+  if (input.records != nullptr) {
+    result.records = SummarizeRecords(*input.records);
+    AddFindings(result.records, result);
   }
   for (const auto& [photo, why] : input.unregistered) {
     result.unposed.push_back({input.scene.photos[photo].name, why});

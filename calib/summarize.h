@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calib/georeference.h"
+#include "calib/records.h"
 #include "calib/scene.h"
 #include "survey/calibration.h"
 #include "survey/captures.h"
@@ -26,6 +27,7 @@ struct SummaryInput {
   const std::map<int, std::string>& unregistered;  // photos of the scene without a pose, and why
   const PriorResiduals& priors;
   const std::vector<int>& prior_outliers;
+  const RecordErrors* records = nullptr;  // where they hold the frame
 };
 
 // Photo ids of the result by photo of the scene: the place in captures.json, counted from 1.

@@ -197,7 +197,7 @@ bool SeesSeveralPlanes(const Scene& scene, int photo) {
     const Eigen::Vector3d& b = points[random() % count];
     const Eigen::Vector3d& c = points[random() % count];
     const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
-    if (!normal.allFinite()) continue;
+    if (normal.squaredNorm() < 0.5) continue;  // on one line: no plane
     most = std::max(most, static_cast<int>(std::ranges::count_if(points, [&](const auto& p) {
                       return std::abs(normal.dot(p - a)) < kOnPlane * (p - center).norm();
                     })));

@@ -14,6 +14,25 @@ static void Fields(Archive& archive, T& photo) {
   archive.Optional("prior_residual_m", photo.prior_residual_m);
   archive.Optional("prior_outlier", photo.prior_outlier);
   archive.Optional("coverage", photo.coverage);
+  archive.Optional("state", photo.state);
+  archive.Optional("position_sigma", photo.position_sigma);
+  archive.Optional("rotation_sigma_deg", photo.rotation_sigma_deg);
+}
+
+template <typename Archive, internal::Is<CalibratedFlight> T>
+static void Fields(Archive& archive, T& flight) {
+  archive.Required("photos", flight.photos);
+  archive.Required("shift_m", flight.shift_m);
+  archive.Required("sigma_horizontal_m", flight.sigma_horizontal_m);
+  archive.Required("sigma_vertical_m", flight.sigma_vertical_m);
+  archive.Required("yaw_deg", flight.yaw_deg);
+}
+
+template <typename Archive, internal::Is<CalibratedRecords> T>
+static void Fields(Archive& archive, T& records) {
+  archive.Optional("flights", records.flights);
+  archive.Optional("attitude_sigma_deg", records.attitude_sigma_deg);
+  archive.Optional("mount_deg", records.mount_deg);
 }
 
 template <typename Archive, internal::Is<UnposedPhoto> T>
@@ -47,6 +66,7 @@ static void Fields(Archive& archive, T& calibration) {
   archive.Required("photos", calibration.photos);
   archive.Required("unposed", calibration.unposed);
   archive.Required("cameras", calibration.cameras);
+  archive.Optional("records", calibration.records);
   archive.Optional("findings", calibration.findings);
 }
 

@@ -17,6 +17,27 @@ struct CalibratedPhoto {
   double prior_residual_m = -1;  // distance to its GPS position; -1: none
   bool prior_outlier = false;
   double coverage = 0;  // share of a 10 x 10 grid over the image with observations
+  // "tied", or "weak" where little holds the pose: do not trust it alone.
+  std::string state = "tied";
+  // One standard deviation of the pose among the points as they are (its own part of the error);
+  // position in the unit of the model; -1: not computed.
+  double position_sigma = -1;
+  double rotation_sigma_deg = -1;
+};
+
+// How the photos' records of one flight err, as the model shows.
+struct CalibratedFlight {
+  int photos = 0;
+  std::vector<double> shift_m = {0, 0, 0};  // east, north, up, against the mean of all flights
+  double sigma_horizontal_m = 0;  // per axis
+  double sigma_vertical_m = 0;
+  double yaw_deg = 0;  // true minus recorded, clockwise
+};
+
+struct CalibratedRecords {
+  std::vector<CalibratedFlight> flights;
+  double attitude_sigma_deg = -1;  // about each axis; -1: no records of angles
+  double mount_deg = 0;            // angle between what the gimbal says and where the camera looks
 };
 
 struct UnposedPhoto {
@@ -46,6 +67,7 @@ struct Calibration {
   std::vector<CalibratedPhoto> photos;
   std::vector<UnposedPhoto> unposed;
   std::vector<CalibratedCamera> cameras;
+  CalibratedRecords records;          // empty where there are none, or they do not fit
   std::vector<std::string> findings;  // "6 photos were taken from one point (rotation only) ..."
 };
 

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/records.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "survey/attitude.h"
+#include "tests/calib/made_records.h"
+
+namespace stucco::test {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+
+// Photos that look all ways, as those of a flight do: what turns with the camera and what stays
+// with the world are told apart by that.
+Scene MakeFlight(int num_photos) {
+  Scene scene = MakeScene({.num_photos = num_photos, .num_points = 30});
+  for (int i = 0; i < num_photos; ++i) {
+    const GimbalAngles angles{90.0 * (i % 4), i % 3 == 0 ? -90.0 : -40.0 * (i % 3 - 1), 0};
+    const Eigen::Quaterniond rotation = CamFromEnu(angles);
+    const Eigen::Vector3d place(8.0 * (i % 12), 9.0 * (i / 12), 30 + 5 * (i % 2));
+    scene.photos[i].pose = Pose{rotation, -(rotation * place)};
+  }
+  return scene;
+}
+
+TEST(MeasureRecordErrors, FindsWhatRecordsAreGoodTo) {
+  const Scene scene = MakeFlight(96);
+  const auto records = MakeRecords(scene, {});
+  const RecordErrors errors = MeasureRecordErrors(records, scene);
+  ASSERT_EQ(errors.flights.size(), 1U);
+  EXPECT_EQ(errors.flights[0].num_photos, 96);
+  EXPECT_NEAR(errors.flights[0].sigma_horizontal_m, 0.5, 0.12);
+  EXPECT_NEAR(errors.flights[0].sigma_vertical_m, 0.5, 0.15);
+  EXPECT_NEAR(errors.sigma_attitude_rad, 0.003, 0.0006);
+}
+
+TEST(MeasureRecordErrors, TakesForZeroWhatChanceExplains) {
+  const Scene scene = MakeFlight(96);
+  const RecordErrors errors = MeasureRecordErrors(MakeRecords(scene, {}), scene);
+  EXPECT_EQ(errors.mount_rad, Eigen::Vector3d::Zero());
+  EXPECT_EQ(errors.flights[0].yaw_rad, 0);
+  EXPECT_EQ(errors.flights[0].shift_m, Eigen::Vector3d::Zero());
+  EXPECT_LT(errors.tilt_rad.norm(), 0.05 * kDegree);
+}
+
+TEST(MeasureRecordErrors, TellsMountAndCompassApart) {
+  const Scene scene = MakeFlight(96);
+  const Eigen::Vector3d mount(2 * kDegree, -1 * kDegree, 0.5 * kDegree);
+  const auto records =
+      MakeRecords(scene, {.mount_rad = mount, .yaw_rad = {25 * kDegree, -4 * kDegree}});
+  const RecordErrors errors = MeasureRecordErrors(records, scene);
+  ASSERT_EQ(errors.flights.size(), 2U);
+  EXPECT_LT((errors.mount_rad - mount).norm(), 0.2 * kDegree);
+  EXPECT_NEAR(errors.flights[0].yaw_rad, 25 * kDegree, 0.3 * kDegree);
+  EXPECT_NEAR(errors.flights[1].yaw_rad, -4 * kDegree, 0.3 * kDegree);
+  EXPECT_LT(errors.tilt_rad.norm(), 0.2 * kDegree);
+}
+
+TEST(MeasureRecordErrors, SeesTheTiltOfTheScene) {
+  Scene scene = MakeFlight(96);
+  const auto records = MakeRecords(scene, {});
+  const Eigen::Vector3d tilt(0.4 * kDegree, -0.3 * kDegree, 0);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(tilt.norm(), tilt.normalized()));
+  for (ScenePhoto& photo : scene.photos) {
+    const Eigen::Vector3d place = turn.conjugate() * photo.pose->Center();
+    photo.pose->rotation = photo.pose->rotation * turn;
+    photo.pose->translation = -(photo.pose->rotation * place);
+  }
+  EXPECT_LT((MeasureRecordErrors(records, scene).tilt_rad - tilt).norm(), 0.06 * kDegree);
+}
+
+TEST(MeasureRecordErrors, FindsShiftsBetweenFlights) {
+  const Scene scene = MakeFlight(96);
+  const auto records = MakeRecords(
+      scene, {.yaw_rad = {0, 0}, .shift_m = {Eigen::Vector3d(2, 0, 0), Eigen::Vector3d(0, 0, 4)}});
+  const RecordErrors errors = MeasureRecordErrors(records, scene);
+  const Eigen::Vector3d between = errors.flights[1].shift_m - errors.flights[0].shift_m;
+  EXPECT_LT((between - Eigen::Vector3d(-2, 0, 4)).norm(), 0.5);
+  EXPECT_NEAR(errors.flights[0].sigma_horizontal_m, 0.5, 0.15);
+}
+
+TEST(MeasureRecordErrors, IsNotMovedByWrongOnes) {
+  const Scene scene = MakeFlight(96);
+  auto records = MakeRecords(scene, {});
+  for (size_t i = 0; i < records.size(); i += 5) {
+    records[i].position->position += Eigen::Vector3d(30, -10, 3);
+    records[i].gimbal = Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX())) *
+                        *records[i].gimbal;
+  }
+  const RecordErrors errors = MeasureRecordErrors(records, scene);
+  EXPECT_LT(errors.flights[0].sigma_horizontal_m, 0.9);
+  EXPECT_LT(errors.sigma_attitude_rad, 0.006);
+  EXPECT_LT(errors.tilt_rad.norm(), 0.1 * kDegree);
+}
+
+TEST(ApplyRecords, CorrectsWhatWasMeasured) {
+  Scene scene = MakeFlight(96);
+  const auto records = MakeRecords(
+      scene, {.mount_rad = {0.03, 0, 0}, .yaw_rad = {0.3, 0},
+              .shift_m = {Eigen::Vector3d(0, 3, 0), Eigen::Vector3d(0, -3, 0)}});
+  ApplyRecords(records, MeasureRecordErrors(records, scene), scene);
+  for (const ScenePhoto& photo : scene.photos) {
+    EXPECT_LT((photo.prior->position - photo.pose->Center()).norm(), 3);
+    EXPECT_LT(photo.attitude->cam_from_world.angularDistance(photo.pose->rotation), 0.02);
+    EXPECT_LT(photo.prior->sigma_horizontal_m, 1);
+  }
+}
+
+TEST(MeasureRecordErrors, SaysNothingOfFewPhotos) {
+  Scene scene = MakeFlight(96);
+  const auto records = MakeRecords(scene, {});
+  for (size_t i = 3; i < scene.photos.size(); ++i) scene.photos[i].pose.reset();
+  const RecordErrors errors = MeasureRecordErrors(records, scene);
+  EXPECT_EQ(errors.flights[0].num_photos, 3);
+  EXPECT_EQ(errors.flights[0].sigma_horizontal_m, FlightErrors().sigma_horizontal_m);
+}
+
+TEST(ReadRecords, TellsFlightsByThePlanAndByPauses) {
+  Scene scene = MakeFlight(5);
+  Plan plan;
+  plan.views.resize(2);
+  plan.views[0].id = "h1v1";
+  plan.views[0].flight = 0;
+  plan.views[1].id = "h2v1";
+  plan.views[1].flight = 1;
+  std::vector<CapturedPhoto> photos(5);
+  const std::vector<std::string> seconds = {"00", "10", "20", "30", "40"};
+  for (int i = 0; i < 5; ++i) {
+    photos[i].camera = 0;
+    photos[i].capture_time = "2026:04:30 10:00:" + seconds[i];
+  }
+  photos[0].view = "h1v1";
+  photos[2].view = "h2v1";
+  photos[4].capture_time = "2026:04:30 12:00:00";
+  std::vector<const CapturedPhoto*> captures;
+  for (const CapturedPhoto& photo : photos) captures.push_back(&photo);
+  std::vector<int> flights;
+  for (const PoseRecord& record : ReadRecords(captures, &plan, scene)) {
+    flights.push_back(record.flight);
+  }
+  EXPECT_EQ(flights, (std::vector{0, 0, 1, 1, 2}));
+  flights.clear();
+  for (const PoseRecord& record : ReadRecords(captures, nullptr, scene)) {
+    flights.push_back(record.flight);
+  }
+  EXPECT_EQ(flights, (std::vector{0, 0, 0, 0, 1}));
+}
+
+}  // namespace
+}  // namespace stucco::test

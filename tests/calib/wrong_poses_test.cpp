@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/wrong_poses.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/calib/made_records.h"
+
+namespace stucco::test {
+namespace {
+
+class WrongPosesTest : public testing::Test {
+ protected:
+  WrongPosesTest() {
+    context_.progress = &SilentProgress();
+    context_.units = &NoUnits();
+    truth_ = MakeScene({.num_photos = 30, .num_points = 600, .num_planes = 3, .arc_rad = 2,
+                        .noise_px = 0.3});
+    scene_ = truth_;
+    records_ = MakeRecords(truth_, {});
+    ApplyRecords(records_, MeasureRecordErrors(records_, scene_), scene_);
+  }
+
+  StageContext context_;
+  Scene truth_;
+  Scene scene_;
+  std::vector<PoseRecord> records_;
+};
+
+TEST_F(WrongPosesTest, NoneAreFoundWhereNoneAre) {
+  const WrongPoses wrong = MendWrongPoses({}, context_, scene_);
+  EXPECT_TRUE(wrong.corrected.empty());
+  EXPECT_TRUE(wrong.taken.empty());
+}
+
+TEST_F(WrongPosesTest, TenBrokenOnesAreFoundAndMended) {
+  Random random(9);
+  std::vector<int> broken;
+  for (int i = 1; i < 30; i += 3) {
+    broken.push_back(i);
+    scene_.photos[i].pose = Disturbed(*scene_.photos[i].pose, 0.1, 3, random);
+    ASSERT_EQ(JudgePose(scene_, i), RecordVerdict::kContradicts);
+  }
+  ASSERT_EQ(broken.size(), 10U);
+  const WrongPoses wrong = MendWrongPoses({}, context_, scene_);
+  std::vector<int> found = wrong.corrected;
+  found.insert(found.end(), wrong.taken.begin(), wrong.taken.end());
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, broken);
+  EXPECT_EQ(wrong.corrected, broken);
+  EXPECT_LT(ComparePoses(scene_, truth_).position_m, 0.05);
+}
+
+// All that a photo shows is matched to what lies farther along: as where windows repeat.
+TEST_F(WrongPosesTest, AShiftAlongAWallIsNotBelieved) {
+  const int photo = 12;
+  ScenePhoto& shifted = scene_.photos[photo];
+  const Pose moved = LookAt(shifted.pose->Center() + Eigen::Vector3d(6, 0, 0),
+                            shifted.pose->Center() + Eigen::Vector3d(6, 20, 0));
+  for (SceneTrack& track : scene_.tracks) {
+    for (SceneElement& e : track.elements) {
+      if (e.photo != photo) continue;
+      const auto pixel = scene_.CameraOf(photo).Project(moved * *track.position);
+      if (pixel) shifted.keypoints[e.keypoint] = *pixel;
+    }
+  }
+  shifted.pose = moved;
+  ASSERT_EQ(JudgePose(scene_, photo), RecordVerdict::kContradicts);
+  const WrongPoses wrong = MendWrongPoses({}, context_, scene_);
+  EXPECT_EQ(wrong.taken, std::vector{photo});
+  EXPECT_FALSE(scene_.photos[photo].pose);
+}
+
+TEST_F(WrongPosesTest, APositionIsDistrustedWhereThePoseIsSure) {
+  scene_.photos[5].prior->position += Eigen::Vector3d(0, 30, 0);
+  EXPECT_EQ(JudgePose(scene_, 5), RecordVerdict::kPositionOff);
+  const WrongPoses wrong = MendWrongPoses({}, context_, scene_);
+  EXPECT_TRUE(wrong.corrected.empty());
+  EXPECT_TRUE(wrong.taken.empty());
+}
+
+TEST_F(WrongPosesTest, WithoutRecordsNothingIsJudged) {
+  scene_.photos[5].prior.reset();
+  scene_.photos[5].attitude.reset();
+  scene_.photos[5].pose = LookAt({0, -60, 9}, {20, 0, 0});
+  EXPECT_EQ(JudgePose(scene_, 5), RecordVerdict::kAgrees);
+}
+
+TEST(SeesSeveralPlanes, CountsWhatLiesOffTheLargest) {
+  const Scene one = MakeScene({.num_points = 200, .num_planes = 1, .clutter_share = 0});
+  const Scene three = MakeScene({.num_points = 200, .num_planes = 3, .clutter_share = 0});
+  EXPECT_FALSE(SeesSeveralPlanes(one, 3));
+  EXPECT_TRUE(SeesSeveralPlanes(three, 3));
+}
+
+}  // namespace
+}  // namespace stucco::test
