@@ -12,6 +12,7 @@
 #include "calib/choose_pairs.h"
 #include "calib/descriptors.h"
 #include "calib/matches.h"
+#include "calib/same_place.h"
 #include "survey/files.h"
 #include "survey/parallel.h"
 
@@ -19,13 +20,11 @@ namespace stucco {
 namespace {
 
 // Raise when the code behind a checkpoint changes what it computes.
-constexpr char kPairVersion[] = "pair-3";
+constexpr char kPairVersion[] = "pair-4";
 // Recorded positions of one flight, gimbal angles and the map are this good together.
 constexpr double kReachOnWall_m = 4;
 // When fewer of the pairs that should overlap do, the photos do not show what the plan says.
 constexpr double kLeastRight = 0.3;
-// A point that is found in the photo and in its rectified wall counts once.
-constexpr double kSamePoint_px = 2;
 
 // A pair of photos to match, and the walls to match it on.
 struct Candidate {
@@ -67,20 +66,30 @@ std::string PairKey(const CalibOptions& options, const PhotoSet& set, const Cand
 // The keypoints that a candidate matches in one of its photos, numbered from 0: what a checkpoint
 // stores must not depend on which other walls the photo has.
 struct CandidateKeypoints {
-  std::vector<Eigen::Vector2d> pixels;
+  std::vector<Keypoint> keypoints;
+  size_t num_plain = 0;
   std::vector<int32_t> of_photo;  // their numbers among all of the photo
 
   void Add(const Features& features, size_t begin) {
     for (size_t i = 0; i < features.size(); ++i) {
-      pixels.emplace_back(features.keypoints[i].x, features.keypoints[i].y);
+      keypoints.push_back(features.keypoints[i]);
       of_photo.push_back(static_cast<int32_t>(begin + i));
     }
+  }
+  std::vector<Eigen::Vector2d> Pixels() const {
+    std::vector<Eigen::Vector2d> pixels;
+    pixels.reserve(keypoints.size());
+    for (const Keypoint& k : keypoints) pixels.emplace_back(k.x, k.y);
+    return pixels;
   }
 };
 
 CandidateKeypoints KeypointsOf(const DetectedFeatures& features, const Candidate& pair, int photo) {
   CandidateKeypoints keypoints;
-  if (pair.plain) keypoints.Add(features.plain[photo], 0);
+  if (pair.plain) {
+    keypoints.Add(features.plain[photo], 0);
+    keypoints.num_plain = keypoints.keypoints.size();
+  }
   for (const int wall : pair.walls) {
     const WallRun& run = features.walls.at({photo, wall});
     keypoints.Add(run.features, run.begin);
@@ -88,37 +97,9 @@ CandidateKeypoints KeypointsOf(const DetectedFeatures& features, const Candidate
   return keypoints;
 }
 
-struct Ends {
-  const CandidateKeypoints& first;
-  const CandidateKeypoints& second;
-};
-
-// Takes out of matches[begin ...] those that join the same pixels as one before.
-void DropRepeated(const Ends& ends, size_t begin, double same_px, std::vector<Match>& matches) {
-  const auto x_of = [&](const Match& match) { return ends.first.pixels[match.first].x(); };
-  std::vector<Match> known(matches.begin(), matches.begin() + static_cast<std::ptrdiff_t>(begin));
-  std::sort(known.begin(), known.end(),
-            [&](const Match& a, const Match& b) { return x_of(a) < x_of(b); });
-  const auto is_known = [&](const Match& match) {
-    auto near = std::lower_bound(known.begin(), known.end(), x_of(match) - same_px,
-                                 [&](const Match& a, double x) { return x_of(a) < x; });
-    for (; near != known.end() && x_of(*near) <= x_of(match) + same_px; ++near) {
-      const auto& [first, second] = ends;
-      if ((first.pixels[near->first] - first.pixels[match.first]).norm() <= same_px &&
-          (second.pixels[near->second] - second.pixels[match.second]).norm() <= same_px) {
-        return true;
-      }
-    }
-    return false;
-  };
-  matches.erase(
-      std::remove_if(matches.begin() + static_cast<std::ptrdiff_t>(begin), matches.end(), is_known),
-      matches.end());
-}
-
 // In the candidate's own numbers.
 std::vector<Match> MatchCandidate(const CalibOptions& options, const DetectedFeatures& features,
-                                  const Candidate& pair, const Ends& ends, double same_px) {
+                                  const Candidate& pair) {
   std::vector<Match> matches;
   int32_t begin_first = 0;
   int32_t begin_second = 0;
@@ -128,7 +109,6 @@ std::vector<Match> MatchCandidate(const CalibOptions& options, const DetectedFea
     begin_first = static_cast<int32_t>(features.plain[pair.first].size());
     begin_second = static_cast<int32_t>(features.plain[pair.second].size());
   }
-  const size_t num_plain = matches.size();
   for (const int wall : pair.walls) {
     const WallRun& first = features.walls.at({pair.first, wall});
     const WallRun& second = features.walls.at({pair.second, wall});
@@ -141,7 +121,6 @@ std::vector<Match> MatchCandidate(const CalibOptions& options, const DetectedFea
     begin_first += static_cast<int32_t>(first.features.size());
     begin_second += static_cast<int32_t>(second.features.size());
   }
-  DropRepeated(ends, num_plain, same_px, matches);
   return matches;
 }
 
@@ -149,26 +128,40 @@ struct MatchInput {
   const CalibOptions& options;
   const PhotoSet& set;
   const DetectedFeatures& features;
+  std::vector<std::vector<int32_t>> places;  // by photo and keypoint
   const StageContext& context;
 };
 
-std::optional<PairGeometry> VerifyCandidate(const MatchInput& input, const Candidate& pair) {
+// In the candidate's own numbers, as they are kept.
+std::optional<PairGeometry> MatchAndVerify(const MatchInput& input, const Candidate& pair,
+                                           const VerifyOptions& verify) {
   const CandidateKeypoints first = KeypointsOf(input.features, pair, pair.first);
   const CandidateKeypoints second = KeypointsOf(input.features, pair, pair.second);
+  const auto places_of = [&](const CandidateKeypoints& of, int photo) {
+    return FindPlaces(of.keypoints, of.num_plain,
+                      SamePlace_px(input.options, *input.set.photos[photo]));
+  };
+  std::vector<Match> matches = MatchCandidate(input.options, input.features, pair);
+  // What is found twice in both photos is one piece of evidence.
+  DropRepeated({places_of(first, pair.first), places_of(second, pair.second)}, matches);
+  return VerifyPair(first.Pixels(), second.Pixels(), matches, verify);
+}
+
+std::optional<PairGeometry> VerifyCandidate(const MatchInput& input, const Candidate& pair) {
   const double scale = std::max(DetectionScale(input.options, *input.set.photos[pair.first]),
                                 DetectionScale(input.options, *input.set.photos[pair.second]));
   VerifyOptions verify;
   verify.max_error_px = 4 * scale;
   auto geometry = DeserializePair(
-      ComputeUnit(input.context, "pairs", PairKey(input.options, input.set, pair, verify), [&] {
-        const auto matches = MatchCandidate(input.options, input.features, pair, {first, second},
-                                            kSamePoint_px * scale);
-        return Serialize(VerifyPair(first.pixels, second.pixels, matches, verify));
-      }));
+      ComputeUnit(input.context, "pairs", PairKey(input.options, input.set, pair, verify),
+                  [&] { return Serialize(MatchAndVerify(input, pair, verify)); }));
   if (!geometry) return geometry;
+  const CandidateKeypoints first = KeypointsOf(input.features, pair, pair.first);
+  const CandidateKeypoints second = KeypointsOf(input.features, pair, pair.second);
   for (Match& match : geometry->inliers) {
     match = {first.of_photo.at(match.first), second.of_photo.at(match.second)};
   }
+  JoinPlaces({input.places[pair.first], input.places[pair.second]}, geometry->inliers);
   return geometry;
 }
 
@@ -204,7 +197,7 @@ size_t NumVerified(const PhotoPairs& pairs, const std::vector<VerifiedPair>& ver
 
 std::vector<VerifiedPair> MatchAll(const CalibOptions& options, const PhotoSet& set,
                                    const DetectedFeatures& features, const StageContext& context) {
-  const MatchInput input{options, set, features, context};
+  const MatchInput input{options, set, features, PlacesOfAll(options, set, features), context};
   const PairChoice choice = ChoosePairs(options, set, features.plain);
   std::vector<VerifiedPair> verified =
       Verify(input, Candidates(choice.pairs, set.guidance.wall_pairs));
