@@ -76,12 +76,6 @@ Camera AsModel(const Camera& camera, CameraModel model) {
   return result;
 }
 
-double FocalSigmaRatio(const CapturedCamera& camera) {
-  if (camera.fixed) return 0;
-  if (camera.focal_source == "option" || camera.focal_source == "dewarp") return 0.02;
-  return camera.focal_source == "default" ? 0.5 : 0.1;
-}
-
 // Without tracks.
 Scene MakeScene(const CalibOptions& options, const Photos& photos,
                 const DetectedFeatures& features) {

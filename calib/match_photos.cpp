@@ -3,6 +3,7 @@
 #include "calib/match_photos.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -20,11 +21,13 @@ namespace stucco {
 namespace {
 
 // Raise when the code behind a checkpoint changes what it computes.
-constexpr char kPairVersion[] = "pair-4";
+constexpr char kPairVersion[] = "pair-5";
 // Recorded positions of one flight, gimbal angles and the map are this good together.
 constexpr double kReachOnWall_m = 4;
 // When fewer of the pairs that should overlap do, the photos do not show what the plan says.
 constexpr double kLeastRight = 0.3;
+// Standard deviation, share: focal lengths better known than this question what F explains.
+constexpr double kKnownFocal = 0.3;
 
 // A pair of photos to match, and the walls to match it on.
 struct Candidate {
@@ -49,12 +52,21 @@ std::vector<Candidate> Candidates(const std::vector<std::pair<int, int>>& pairs,
   return candidates;
 }
 
+std::string KeyOf(const Camera& camera) {
+  return fmt::format("{} {} {}", Name(camera.model), camera.width_px,
+                     fmt::join(camera.params, " "));
+}
+
 std::string PairKey(const CalibOptions& options, const PhotoSet& set, const Candidate& pair,
                     const VerifyOptions& verify) {
   std::vector<std::string> parts = {kPairVersion, FeaturesKey(options, *set.photos[pair.first]),
                                     FeaturesKey(options, *set.photos[pair.second]),
                                     fmt::format("{}", options.match_ratio),
                                     fmt::format("{}", verify.max_error_px)};
+  if (verify.cameras) {
+    parts.push_back(KeyOf(verify.cameras->first) + " " + KeyOf(verify.cameras->second));
+    parts.push_back(fmt::format("{}", verify.cameras->focal_sigma_ratio));
+  }
   if (!pair.walls.empty()) parts.push_back(pair.plain ? "and walls" : "walls");
   for (const int wall : pair.walls) {
     parts.push_back(WallKey(options, set, pair.first, wall));
@@ -147,11 +159,21 @@ std::optional<PairGeometry> MatchAndVerify(const MatchInput& input, const Candid
   return VerifyPair(first.Pixels(), second.Pixels(), matches, verify);
 }
 
+// Nothing where a focal length is a guess.
+std::optional<PairCameras> CamerasOf(const PhotoSet& set, const Candidate& pair) {
+  const CapturedCamera& first = set.captures.cameras[set.photos[pair.first]->camera];
+  const CapturedCamera& second = set.captures.cameras[set.photos[pair.second]->camera];
+  const double sigma = std::max(FocalSigmaRatio(first), FocalSigmaRatio(second));
+  if (sigma > kKnownFocal) return std::nullopt;
+  return PairCameras{first.intrinsics, second.intrinsics, sigma};
+}
+
 std::optional<PairGeometry> VerifyCandidate(const MatchInput& input, const Candidate& pair) {
   const double scale = std::max(DetectionScale(input.options, *input.set.photos[pair.first]),
                                 DetectionScale(input.options, *input.set.photos[pair.second]));
   VerifyOptions verify;
   verify.max_error_px = 4 * scale;
+  verify.cameras = CamerasOf(input.set, pair);
   auto geometry = DeserializePair(
       ComputeUnit(input.context, "pairs", PairKey(input.options, input.set, pair, verify),
                   [&] { return Serialize(MatchAndVerify(input, pair, verify)); }));

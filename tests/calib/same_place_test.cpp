@@ -20,13 +20,14 @@ TEST(FindPlaces, GivesAWallKeypointThePlainOneAtItsPlace) {
 }
 
 TEST(FindPlaces, TakesTheNearestAndOfEquallyNearOnesTheFirst) {
-  const std::vector<Keypoint> keypoints = {{10, 10, 2},     {11, 10, 2},    {12, 10, 2},
+  const std::vector<Keypoint> keypoints = {{10, 10, 2},    {11, 10, 2},    {12, 10, 2},
                                            {10.8f, 10, 2}, {11.5f, 10, 2}, {10.5f, 10, 2}};
   EXPECT_EQ(FindPlaces(keypoints, 3, 1), Places({0, 1, 2, 1, 1, 0}));
 }
 
 TEST(FindPlaces, TellsBlobsOfAnotherSizeApart) {
-  const std::vector<Keypoint> keypoints = {{10, 10, 2}, {10, 10, 4.1f}, {10, 10, 0.9f}, {10, 10, 4}};
+  const std::vector<Keypoint> keypoints = {
+      {10, 10, 2}, {10, 10, 4.1f}, {10, 10, 0.9f}, {10, 10, 4}};
   EXPECT_EQ(FindPlaces(keypoints, 1, 1), Places({0, 1, 2, 0}));
 }
 
@@ -36,7 +37,8 @@ TEST(FindPlaces, OfThePhotoItselfOnlyOrientationsAreOnePlace) {
 }
 
 TEST(FindPlaces, MakesOnePlaceOfWhatTwoWallsShow) {
-  const std::vector<Keypoint> keypoints = {{90, 90, 2}, {10, 10, 2}, {10.7f, 10, 2}, {11.4f, 10, 2}};
+  const std::vector<Keypoint> keypoints = {
+      {90, 90, 2}, {10, 10, 2}, {10.7f, 10, 2}, {11.4f, 10, 2}};
   // The last is near the third only, which stands for nothing.
   EXPECT_EQ(FindPlaces(keypoints, 1, 1), Places({0, 1, 1, 3}));
 }
