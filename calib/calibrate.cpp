@@ -18,11 +18,13 @@
 #include "calib/mapper.h"
 #include "calib/match_photos.h"
 #include "calib/panorama.h"
+#include "calib/photos_csv.h"
 #include "calib/summarize.h"
 #include "calib/tracks.h"
 #include "survey/calibration.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
+#include "survey/files.h"
 #include "survey/survey_folder.h"
 
 namespace stucco {
@@ -286,7 +288,8 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   const Guidance guidance = GuideByPlan(options, photos.captures, photos.usable, context);
   const PhotoSet set{photos.captures, photos.usable, guidance};
   const DetectedFeatures features = DetectAll(options, set, context);
-  std::vector<VerifiedPair> pairs = MatchAll(options, set, features, context);
+  MatchedPairs matched = MatchAll(options, set, features, context);
+  std::vector<VerifiedPair>& pairs = matched.verified;
 
   Scene scene = MakeScene(options, photos, features);
   GuessFocalLengths(photos, pairs, context, scene);
@@ -307,9 +310,11 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   for (const auto& [photo, why] : unregistered) {
     context.progress->Warn(fmt::format("{}: not placed: {}", scene.photos[photo].name, why));
   }
-  Write({photos.captures, photos.capture_of_photo, scene, unregistered, georeference.residuals,
-         georeference.prior_outliers},
-        georeference.georef, findings, context);
+  const SummaryInput summary{photos.captures, photos.capture_of_photo, scene,
+                             unregistered,    georeference.residuals,  georeference.prior_outliers};
+  Write(summary, georeference.georef, findings, context);
+  const auto keypoints = CountKeypoints(features, PlacesOfAll(options, set, features));
+  WriteFile(context.out / "photos.csv", PhotosCsv(summary, {keypoints, matched.tried, pairs}));
 }
 
 }  // namespace stucco

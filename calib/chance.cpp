@@ -39,8 +39,7 @@ double LogFalseAlarms(const Finding& finding) {
   const int others = finding.num_matches - finding.sample_size;
   const int agreeing = finding.num_inliers - finding.sample_size;
   if (agreeing <= 0) return std::numeric_limits<double>::infinity();
-  return std::log(finding.models_per_sample) +
-         LogChoose(finding.num_matches, finding.sample_size) +
+  return std::log(finding.models_per_sample) + LogChoose(finding.num_matches, finding.sample_size) +
          LogBinomialTail(others, agreeing, finding.chance);
 }
 

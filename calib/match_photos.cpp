@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstring>
 #include <iterator>
 #include <map>
 #include <tuple>
@@ -14,6 +15,7 @@
 #include "calib/descriptors.h"
 #include "calib/matches.h"
 #include "calib/same_place.h"
+#include "survey/error.h"
 #include "survey/files.h"
 #include "survey/parallel.h"
 
@@ -21,7 +23,7 @@ namespace stucco {
 namespace {
 
 // Raise when the code behind a checkpoint changes what it computes.
-constexpr char kPairVersion[] = "pair-5";
+constexpr char kPairVersion[] = "pair-6";
 // Recorded positions of one flight, gimbal angles and the map are this good together.
 constexpr double kReachOnWall_m = 4;
 // When fewer of the pairs that should overlap do, the photos do not show what the plan says.
@@ -144,9 +146,31 @@ struct MatchInput {
   const StageContext& context;
 };
 
-// In the candidate's own numbers, as they are kept.
-std::optional<PairGeometry> MatchAndVerify(const MatchInput& input, const Candidate& pair,
-                                           const VerifyOptions& verify) {
+// What matching a candidate gave, in its own numbers: this is kept.
+struct Outcome {
+  int32_t num_matches = 0;
+  std::optional<PairGeometry> geometry;
+};
+
+std::string Serialize(const Outcome& outcome) {
+  std::string bytes(sizeof(outcome.num_matches), '\0');
+  std::memcpy(bytes.data(), &outcome.num_matches, sizeof(outcome.num_matches));
+  return bytes + Serialize(outcome.geometry);
+}
+
+Outcome DeserializeOutcome(std::string_view bytes) {
+  Outcome outcome;
+  if (bytes.size() < sizeof(outcome.num_matches)) {
+    throw Error(ErrorKind::kBadInput, "matches: the checkpoint is damaged");
+  }
+  std::memcpy(&outcome.num_matches, bytes.data(), sizeof(outcome.num_matches));
+  bytes.remove_prefix(sizeof(outcome.num_matches));
+  outcome.geometry = DeserializePair(bytes);
+  return outcome;
+}
+
+Outcome MatchAndVerify(const MatchInput& input, const Candidate& pair,
+                       const VerifyOptions& verify) {
   const CandidateKeypoints first = KeypointsOf(input.features, pair, pair.first);
   const CandidateKeypoints second = KeypointsOf(input.features, pair, pair.second);
   const auto places_of = [&](const CandidateKeypoints& of, int photo) {
@@ -156,7 +180,8 @@ std::optional<PairGeometry> MatchAndVerify(const MatchInput& input, const Candid
   std::vector<Match> matches = MatchCandidate(input.options, input.features, pair);
   // What is found twice in both photos is one piece of evidence.
   DropRepeated({places_of(first, pair.first), places_of(second, pair.second)}, matches);
-  return VerifyPair(first.Pixels(), second.Pixels(), matches, verify);
+  return {static_cast<int32_t>(matches.size()),
+          VerifyPair(first.Pixels(), second.Pixels(), matches, verify)};
 }
 
 // Nothing where a focal length is a guess.
@@ -168,44 +193,47 @@ std::optional<PairCameras> CamerasOf(const PhotoSet& set, const Candidate& pair)
   return PairCameras{first.intrinsics, second.intrinsics, sigma};
 }
 
-std::optional<PairGeometry> VerifyCandidate(const MatchInput& input, const Candidate& pair) {
+// In the numbers of the photos' keypoints.
+Outcome VerifyCandidate(const MatchInput& input, const Candidate& pair) {
   const double scale = std::max(DetectionScale(input.options, *input.set.photos[pair.first]),
                                 DetectionScale(input.options, *input.set.photos[pair.second]));
   VerifyOptions verify;
   verify.max_error_px = 4 * scale;
   verify.cameras = CamerasOf(input.set, pair);
-  auto geometry = DeserializePair(
+  Outcome outcome = DeserializeOutcome(
       ComputeUnit(input.context, "pairs", PairKey(input.options, input.set, pair, verify),
                   [&] { return Serialize(MatchAndVerify(input, pair, verify)); }));
-  if (!geometry) return geometry;
+  if (!outcome.geometry) return outcome;
   const CandidateKeypoints first = KeypointsOf(input.features, pair, pair.first);
   const CandidateKeypoints second = KeypointsOf(input.features, pair, pair.second);
-  for (Match& match : geometry->inliers) {
+  for (Match& match : outcome.geometry->inliers) {
     match = {first.of_photo.at(match.first), second.of_photo.at(match.second)};
   }
-  JoinPlaces({input.places[pair.first], input.places[pair.second]}, geometry->inliers);
-  return geometry;
+  JoinPlaces({input.places[pair.first], input.places[pair.second]}, outcome.geometry->inliers);
+  return outcome;
 }
 
 // Those of the candidates whose matches agree on a geometry, in their order.
-std::vector<VerifiedPair> Verify(const MatchInput& input,
-                                 const std::vector<Candidate>& candidates) {
-  std::vector<std::optional<PairGeometry>> geometries(candidates.size());
+MatchedPairs Verify(const MatchInput& input, const std::vector<Candidate>& candidates) {
+  std::vector<Outcome> outcomes(candidates.size());
   input.context.progress->Begin("matching pairs", candidates.size());
   ParallelFor(candidates.size(), input.context.threads, [&](size_t i) {
     input.context.ThrowIfCancelled();
-    geometries[i] = VerifyCandidate(input, candidates[i]);
+    outcomes[i] = VerifyCandidate(input, candidates[i]);
     input.context.progress->Advance();
   });
-  std::vector<VerifiedPair> verified;
+  MatchedPairs matched;
   for (size_t i = 0; i < candidates.size(); ++i) {
-    if (!geometries[i]) continue;
+    const auto& [first, second, plain, walls] = candidates[i];
+    matched.tried.push_back({first, second, outcomes[i].num_matches, 0});
+    if (!outcomes[i].geometry) continue;
+    matched.tried.back().num_verified = static_cast<int>(outcomes[i].geometry->inliers.size());
     VerifiedPair pair;
-    pair.pair = {candidates[i].first, candidates[i].second, geometries[i]->inliers};
-    pair.geometry = std::move(*geometries[i]);
-    verified.push_back(std::move(pair));
+    pair.pair = {first, second, outcomes[i].geometry->inliers};
+    pair.geometry = std::move(*outcomes[i].geometry);
+    matched.verified.push_back(std::move(pair));
   }
-  return verified;
+  return matched;
 }
 
 // How many of the pairs (ascending) are verified ones.
@@ -217,18 +245,17 @@ size_t NumVerified(const PhotoPairs& pairs, const std::vector<VerifiedPair>& ver
 
 }  // namespace
 
-std::vector<VerifiedPair> MatchAll(const CalibOptions& options, const PhotoSet& set,
-                                   const DetectedFeatures& features, const StageContext& context) {
+MatchedPairs MatchAll(const CalibOptions& options, const PhotoSet& set,
+                      const DetectedFeatures& features, const StageContext& context) {
   const MatchInput input{options, set, features, PlacesOfAll(options, set, features), context};
   const PairChoice choice = ChoosePairs(options, set, features.plain);
-  std::vector<VerifiedPair> verified =
-      Verify(input, Candidates(choice.pairs, set.guidance.wall_pairs));
-  if (!choice.by_plan) return verified;
+  MatchedPairs matched = Verify(input, Candidates(choice.pairs, set.guidance.wall_pairs));
+  if (!choice.by_plan) return matched;
   const size_t expected = set.guidance.pairs.size();
-  const size_t found = NumVerified(set.guidance.pairs, verified);
+  const size_t found = NumVerified(set.guidance.pairs, matched.verified);
   context.progress->Note(
       fmt::format("{} of {} pairs of photos that should overlap by the plan do", found, expected));
-  if (static_cast<double>(found) >= kLeastRight * static_cast<double>(expected)) return verified;
+  if (static_cast<double>(found) >= kLeastRight * static_cast<double>(expected)) return matched;
   context.progress->Warn(
       "the photos do not show what the plan says: too few of those that should overlap do; pairs "
       "are chosen by position and appearance too");

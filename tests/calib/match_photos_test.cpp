@@ -84,7 +84,7 @@ class MatchPhotos : public testing::Test {
   std::vector<VerifiedPair> Matched() {
     photos_.clear();
     for (const CapturedPhoto& photo : captures_.photos) photos_.push_back(&photo);
-    return MatchAll(options_, {captures_, photos_, guidance_}, features_, context_);
+    return MatchAll(options_, {captures_, photos_, guidance_}, features_, context_).verified;
   }
 
   // What joins what: (photo, pixel) to (photo, pixel).
