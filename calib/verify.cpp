@@ -179,6 +179,9 @@ struct Explained {
   std::vector<char> which;  // by match
   int count = 0;
   bool above_chance = false;
+
+  int CountAboveChance() const { return above_chance ? count : 0; }
+  bool Believes(size_t match) const { return above_chance && which[match]; }
 };
 
 Explained Explain(const Joined& joined, const Model& model) {
@@ -296,12 +299,31 @@ Model HomographyModel(const Eigen::Matrix3d& h, double limit_px, const Extent& e
   return model;
 }
 
+// Zero where there is none: it explains nothing.
+struct Matrices {
+  Eigen::Matrix3d fundamental = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d homography = Eigen::Matrix3d::Zero();
+};
+
+Matrices FindMatrices(const Joined& joined, const VerifyOptions& options) {
+  const auto first = ToOpenCv(joined.first);
+  const auto second = ToOpenCv(joined.second);
+  const cv::UsacParams params = Usac(options.max_error_px, options.seed);
+  cv::Mat mask;
+  const cv::Mat f = cv::findFundamentalMat(first, second, mask, params);
+  const cv::Mat h = cv::findHomography(first, second, mask, params);
+  Matrices found;
+  if (f.rows == 3) found.fundamental = ToEigen(f);
+  if (h.rows == 3) found.homography = ToEigen(h);
+  return found;
+}
+
 // Which matches stay of what F and the homography explain, where one of them is above chance.
 std::vector<char> Believed(const Joined& joined, const Model& f, const Explained& by_f,
                            const Explained& by_h, const VerifyOptions& options) {
   std::vector<char> either(joined.size(), 0);
   for (size_t i = 0; i < either.size(); ++i) {
-    either[i] = (by_f.above_chance && by_f.which[i]) || (by_h.above_chance && by_h.which[i]);
+    either[i] = by_f.Believes(i) || by_h.Believes(i);
   }
   if (!by_f.above_chance) return either;
   std::optional<std::vector<char>> confirmed;
@@ -312,7 +334,7 @@ std::vector<char> Believed(const Joined& joined, const Model& f, const Explained
     confirmed = by_h.which;
   }
   for (size_t i = 0; i < either.size(); ++i) {
-    either[i] = either[i] && ((by_h.above_chance && by_h.which[i]) || (*confirmed)[i]);
+    either[i] = either[i] && (by_h.Believes(i) || (*confirmed)[i]);
   }
   return either;
 }
@@ -333,28 +355,16 @@ std::optional<PairGeometry> VerifyPair(const std::vector<Eigen::Vector2d>& first
     joined.first.push_back(first[match.first]);
     joined.second.push_back(second[match.second]);
   }
-  const auto cv_a = ToOpenCv(joined.first);
-  const auto cv_b = ToOpenCv(joined.second);
-  const cv::UsacParams params = Usac(options.max_error_px, options.seed);
-  cv::Mat mask;
-  const cv::Mat found_f = cv::findFundamentalMat(cv_a, cv_b, mask, params);
-  const cv::Mat found_h = cv::findHomography(cv_a, cv_b, mask, params);
-  // What is no matrix explains nothing.
-  PairGeometry pair;
-  if (found_f.rows == 3) pair.fundamental = ToEigen(found_f);
-  const Eigen::Matrix3d h = found_h.rows == 3 ? ToEigen(found_h) : Eigen::Matrix3d::Zero();
+  const Matrices found = FindMatrices(joined, options);
   const Extent extent = ExtentOf(second);
-  const Model f_model = FundamentalModel(pair.fundamental, options.max_error_px, extent);
+  const Model f_model = FundamentalModel(found.fundamental, options.max_error_px, extent);
   const Explained by_f = Explain(joined, f_model);
-  const Explained by_h = Explain(joined, HomographyModel(h, options.max_error_px, extent));
-  pair.num_fundamental = by_f.count;
-  pair.num_homography = by_h.count;
-  if (std::max(by_f.above_chance ? by_f.count : 0, by_h.above_chance ? by_h.count : 0) <
-          options.min_inliers ||
-      !FollowAlongLines(joined, by_f, by_h)) {
-    return std::nullopt;
-  }
+  const Explained by_h =
+      Explain(joined, HomographyModel(found.homography, options.max_error_px, extent));
+  const int most = std::max(by_f.CountAboveChance(), by_h.CountAboveChance());
+  if (most < options.min_inliers || !FollowAlongLines(joined, by_f, by_h)) return std::nullopt;
   const std::vector<char> believed = Believed(joined, f_model, by_f, by_h, options);
+  PairGeometry pair{{}, found.fundamental, by_f.count, by_h.count};
   for (size_t i = 0; i < matches.size(); ++i) {
     if (believed[i]) pair.inliers.push_back(matches[i]);
   }

@@ -51,9 +51,8 @@ TEST(PhotosCsv, SaysOfEachPhotoWhatItHadAndWhatBecameOfIt) {
   const std::vector<KeypointCounts> keypoints = {{100, 10, 4}, {200, 0, 0}, {300, 30, 30}};
   const std::vector<TriedPair> tried = {{0, 1, 90, 50}, {0, 2, 20, 0}, {1, 2, 40, 25}};
   const std::vector<VerifiedPair> used = {{{0, 1, std::vector<Match>(50)}, {}, false}};
-  const auto rows = Parsed(
-      PhotosCsv({captures, capture_of_photo, scene, unregistered, priors, {}},
-                {keypoints, tried, used}));
+  const auto rows = Parsed(PhotosCsv({captures, capture_of_photo, scene, unregistered, priors, {}},
+                                     {keypoints, tried, used}));
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0].at("path"), "a.jpg");
   EXPECT_EQ(rows[0].at("candidates"), "2");
