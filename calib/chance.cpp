@@ -10,8 +10,12 @@
 namespace stucco {
 namespace {
 
+// lgamma() sets a global variable.
 double LogChoose(int n, int k) {
-  return std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0);
+  double log = 0;
+  const int fewer = std::min(k, n - k);
+  for (int i = 1; i <= fewer; ++i) log += std::log(static_cast<double>(n - fewer + i) / i);
+  return log;
 }
 
 }  // namespace

@@ -183,6 +183,7 @@ std::vector<Tied> FindTied(const std::vector<VerifiedPair>& pairs, const Opinion
     if (large != small && opinion.Believes(large)) ties[{large, small}].push_back(i);
   }
   std::vector<Tied> tied;
+  tied.reserve(ties.size());
   for (auto& [ends, of_pairs] : ties)
     tied.push_back({ends.first, ends.second, std::move(of_pairs)});
   std::stable_sort(tied.begin(), tied.end(),
