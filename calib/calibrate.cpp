@@ -18,6 +18,7 @@
 #include "calib/mapper.h"
 #include "calib/match_photos.h"
 #include "calib/panorama.h"
+#include "calib/photos_csv.h"
 #include "calib/records.h"
 #include "calib/start_from_records.h"
 #include "calib/summarize.h"
@@ -26,6 +27,7 @@
 #include "survey/calibration.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
+#include "survey/files.h"
 #include "survey/plan_of_survey.h"
 #include "survey/survey_folder.h"
 
@@ -78,12 +80,6 @@ Camera AsModel(const Camera& camera, CameraModel model) {
     for (size_t i = 3; i < camera.params.size(); ++i) result.params[i + 1] = camera.params[i];
   }
   return result;
-}
-
-double FocalSigmaRatio(const CapturedCamera& camera) {
-  if (camera.fixed) return 0;
-  if (camera.focal_source == "option" || camera.focal_source == "dewarp") return 0.02;
-  return camera.focal_source == "default" ? 0.5 : 0.1;
 }
 
 // Without tracks.
@@ -368,7 +364,8 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   const Guidance guidance = GuideByPlan(options, photos.captures, photos.usable, context);
   const PhotoSet set{photos.captures, photos.usable, guidance};
   const DetectedFeatures features = DetectAll(options, set, context);
-  std::vector<VerifiedPair> pairs = MatchAll(options, set, features, context);
+  MatchedPairs matched = MatchAll(options, set, features, context);
+  std::vector<VerifiedPair>& pairs = matched.verified;
 
   Scene scene = MakeScene(options, photos, features);
   GuessFocalLengths(photos, pairs, context, scene);
@@ -391,9 +388,12 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   for (const auto& [photo, why] : unregistered) {
     context.progress->Warn(fmt::format("{}: not placed: {}", scene.photos[photo].name, why));
   }
-  Write({photos.captures, photos.capture_of_photo, scene, unregistered, georeference.residuals,
-         georeference.prior_outliers, georeference.records ? &*georeference.records : nullptr},
-        georeference.georef, findings, context);
+  const SummaryInput summary{
+      photos.captures, photos.capture_of_photo, scene, unregistered, georeference.residuals,
+      georeference.prior_outliers, georeference.records ? &*georeference.records : nullptr};
+  Write(summary, georeference.georef, findings, context);
+  const auto keypoints = CountKeypoints(features, PlacesOfAll(options, set, features));
+  WriteFile(context.out / "photos.csv", PhotosCsv(summary, {keypoints, matched.tried, pairs}));
 }
 
 }  // namespace stucco

@@ -10,7 +10,7 @@ namespace stucco {
 // Features -> matches -> structure from motion -> bundle adjustment -> georeferencing.
 // Reads ingest/captures.json and the photos it lists as usable. Writes below context.out:
 //   sparse/0/{cameras,images,points3D}.{bin,txt}   COLMAP's format, world frame as georef.json says
-//   georef.json, calibration.json
+//   georef.json, calibration.json, photos.csv
 // Throws Error (kStageFailed) when no two photos can be oriented, saying what was found instead.
 void RunCalib(const CalibOptions& options, StageContext& context);
 

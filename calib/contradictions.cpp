@@ -7,8 +7,12 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <tuple>
+#include <utility>
 
+#include "calib/corrections.h"
 #include "survey/disjoint_sets.h"
 
 namespace stucco {
@@ -27,7 +31,9 @@ constexpr double kTooNear_m = 2;
 // A focal length of which no more is known gives no directions.
 constexpr double kGuessedFocal = 0.3;  // standard deviation, share
 constexpr size_t kSureMatches = 30;    // of a pair that ties two photos together
-constexpr int kLeastGroup = 5;         // photos that are believed against their records together
+// Pairs that must say the same of a record before it is corrected: what repeats itself is matched
+// now with one place, now with another.
+constexpr int kLeastAgreeing = 3;
 
 double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -38,11 +44,18 @@ struct Ray {
   Eigen::Vector3d way = Eigen::Vector3d::UnitX();  // unit
 };
 
-std::optional<Ray> RayInPlan(const ExpectedViews& views, const Scene& scene, int photo,
-                             int keypoint) {
+// Where the photos are as far as is known, and what they were seen to match.
+struct Records {
+  const Occluders& site;
+  const Scene& scene;
+  std::vector<std::optional<Pose>> poses;  // cam_from_plan; corrected in the course
+};
+
+std::optional<Ray> RayInPlan(const Records& records, int photo, int keypoint) {
+  const Scene& scene = records.scene;
   const auto ray = scene.CameraOf(photo).Unproject(scene.photos[photo].keypoints[keypoint]);
   if (!ray) return std::nullopt;
-  const Pose& pose = *views.poses[photo];
+  const Pose& pose = *records.poses[photo];
   return Ray{pose.Center(), pose.rotation.conjugate() * ray->homogeneous().normalized()};
 }
 
@@ -62,28 +75,27 @@ Verdict LookUp(const Occluders& site, const Ray& first, const Ray& second) {
 }
 
 // A match contradicts the plan only from both sides.
-Verdict JudgeMatch(const ExpectedViews& views, const Scene& scene, const PhotoPair& pair,
-                   const Match& match) {
-  const auto a = RayInPlan(views, scene, pair.first, match.first);
-  const auto b = RayInPlan(views, scene, pair.second, match.second);
+Verdict JudgeMatch(const Records& records, const PhotoPair& pair, const Match& match) {
+  const auto a = RayInPlan(records, pair.first, match.first);
+  const auto b = RayInPlan(records, pair.second, match.second);
   if (!a || !b) return Verdict::kUnknown;
-  const Verdict forth = LookUp(views.site, *a, *b);
+  const Verdict forth = LookUp(records.site, *a, *b);
   if (forth == Verdict::kFits) return forth;
-  const Verdict back = LookUp(views.site, *b, *a);
+  const Verdict back = LookUp(records.site, *b, *a);
   return forth == Verdict::kUnknown || back == Verdict::kFits ? back : forth;
 }
 
-Verdict JudgePair(const ExpectedViews& views, const Scene& scene, const PhotoPair& pair) {
+Verdict JudgePair(const Records& records, const PhotoPair& pair) {
   for (const int photo : {pair.first, pair.second}) {
-    if (!views.poses[photo]) return Verdict::kUnknown;
-    const double sigma = scene.cameras[scene.photos[photo].camera].focal_sigma_ratio;
-    if (sigma > kGuessedFocal) return Verdict::kUnknown;
+    if (!records.poses[photo]) return Verdict::kUnknown;
+    const int camera = records.scene.photos[photo].camera;
+    if (records.scene.cameras[camera].focal_sigma_ratio > kGuessedFocal) return Verdict::kUnknown;
   }
   int fit = 0;
   int told = 0;
   const size_t step = pair.matches.size() / kSampled + 1;
   for (size_t i = 0; i < pair.matches.size(); i += step) {
-    const Verdict verdict = JudgeMatch(views, scene, pair, pair.matches[i]);
+    const Verdict verdict = JudgeMatch(records, pair, pair.matches[i]);
     told += verdict != Verdict::kUnknown;
     fit += verdict == Verdict::kFits;
   }
@@ -91,42 +103,137 @@ Verdict JudgePair(const ExpectedViews& views, const Scene& scene, const PhotoPai
   return 2 * fit >= told ? Verdict::kFits : Verdict::kContradicts;
 }
 
-// Photos whose records fit at least as many of their pairs as they contradict.
-std::vector<bool> Believed(const std::vector<VerifiedPair>& pairs,
-                           const std::vector<Verdict>& verdicts, size_t num_photos) {
-  std::vector<int> fits(num_photos, 0);
-  std::vector<int> against(num_photos, 0);
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    for (const int photo : {pairs[i].pair.first, pairs[i].pair.second}) {
-      fits[photo] += verdicts[i] == Verdict::kFits;
-      against[photo] += verdicts[i] == Verdict::kContradicts;
+// What the pairs say of the photos.
+struct Opinion {
+  std::vector<Verdict> verdicts;  // by pair
+  std::vector<int> fits;          // by photo: pairs
+  std::vector<int> against;
+
+  // A record fits at least as many pairs of its photo as it contradicts.
+  bool Believes(int photo) const { return fits[photo] >= std::max(1, against[photo]); }
+};
+
+Opinion Judge(const Records& records, const std::vector<VerifiedPair>& pairs) {
+  const size_t num_photos = records.scene.photos.size();
+  Opinion opinion{{}, std::vector<int>(num_photos, 0), std::vector<int>(num_photos, 0)};
+  for (const VerifiedPair& each : pairs) {
+    const Verdict verdict = JudgePair(records, each.pair);
+    opinion.verdicts.push_back(verdict);
+    for (const int photo : {each.pair.first, each.pair.second}) {
+      opinion.fits[photo] += verdict == Verdict::kFits;
+      opinion.against[photo] += verdict == Verdict::kContradicts;
     }
   }
-  std::vector<bool> believed(num_photos);
-  for (size_t i = 0; i < num_photos; ++i) believed[i] = fits[i] >= std::max(1, against[i]);
-  return believed;
+  return opinion;
 }
 
-// Keeps of the pairs to drop those between groups of photos that nothing else ties together: two
-// flights whose records do not fit each other are still one survey.
-void KeepTies(const std::vector<VerifiedPair>& pairs, size_t num_photos, std::vector<bool>& drop) {
-  DisjointSets groups(num_photos);
-  std::vector<size_t> dropped;
+// Photos whose records are right or wrong together: those believed that sure pairs tie together.
+// Any other is alone.
+DisjointSets Parts(const std::vector<VerifiedPair>& pairs, const Opinion& opinion) {
+  DisjointSets parts(opinion.fits.size());
   for (size_t i = 0; i < pairs.size(); ++i) {
-    if (pairs[i].pair.matches.size() < kSureMatches) continue;
-    if (drop[i]) {
-      dropped.push_back(i);
-    } else {
-      groups.Join(pairs[i].pair.first, pairs[i].pair.second);
+    const PhotoPair& pair = pairs[i].pair;
+    if (opinion.verdicts[i] == Verdict::kContradicts || pair.matches.size() < kSureMatches)
+      continue;
+    if (!opinion.Believes(pair.first) || !opinion.Believes(pair.second)) continue;
+    parts.Join(pair.first, pair.second);
+  }
+  return parts;
+}
+
+// What `photo` shows, if the pair is right and the record of its other photo too.
+std::vector<Sighting> SightingsOf(const Records& records, const PhotoPair& pair, int photo) {
+  std::vector<Sighting> sightings;
+  const size_t step = pair.matches.size() / kSampled + 1;
+  for (size_t i = 0; i < pair.matches.size(); i += step) {
+    const Match& match = pair.matches[i];
+    const bool is_first = pair.first == photo;
+    const auto ray = RayInPlan(records, is_first ? pair.second : pair.first,
+                               is_first ? match.second : match.first);
+    if (!ray) continue;
+    const auto distance = records.site.FirstHit(ray->from, ray->way);
+    if (!distance || *distance < kTooNear_m) continue;
+    sightings.push_back({is_first ? match.first : match.second, ray->from + *distance * ray->way});
+  }
+  return sightings;
+}
+
+// A part whose record is to be looked into, and the pairs that tie it to another.
+struct Tied {
+  int to = 0;
+  int part = 0;
+  std::vector<size_t> pairs;
+};
+
+// Parts that only contradicting pairs tie to a larger one whose record is believed; those to the
+// largest first.
+std::vector<Tied> FindTied(const std::vector<VerifiedPair>& pairs, const Opinion& opinion) {
+  DisjointSets parts = Parts(pairs, opinion);
+  std::vector<int> size(opinion.fits.size(), 0);
+  for (size_t i = 0; i < size.size(); ++i) ++size[parts.Find(static_cast<int>(i))];
+  std::map<std::pair<int, int>, std::vector<size_t>> ties;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    if (opinion.verdicts[i] != Verdict::kContradicts) continue;
+    int large = parts.Find(pairs[i].pair.first);
+    int small = parts.Find(pairs[i].pair.second);
+    const auto rank = [&](int part) {
+      return std::tuple(opinion.Believes(part), size[part], -part);
+    };
+    if (rank(large) < rank(small)) std::swap(large, small);
+    if (large != small && opinion.Believes(large)) ties[{large, small}].push_back(i);
+  }
+  std::vector<Tied> tied;
+  tied.reserve(ties.size());
+  for (auto& [ends, of_pairs] : ties)
+    tied.push_back({ends.first, ends.second, std::move(of_pairs)});
+  std::stable_sort(tied.begin(), tied.end(),
+                   [&](const Tied& a, const Tied& b) { return size[a.to] > size[b.to]; });
+  return tied;
+}
+
+// What most of the pairs say of the record of the part.
+std::optional<Pose> AgreedMotion(const std::vector<VerifiedPair>& pairs, const Opinion& opinion,
+                                 const Records& records, const Tied& tied,
+                                 const std::vector<int>& members) {
+  std::vector<Correction> corrections;
+  for (const size_t i : tied.pairs) {
+    const PhotoPair& pair = pairs[i].pair;
+    const bool has_first = std::ranges::binary_search(members, pair.first);
+    const int photo = has_first ? pair.first : pair.second;
+    if (auto correction = ProposeCorrection(records.scene, photo, *records.poses[photo],
+                                            SightingsOf(records, pair, photo))) {
+      corrections.push_back(*correction);
     }
   }
-  std::vector<int> size(num_photos, 0);
-  for (size_t i = 0; i < num_photos; ++i) ++size[groups.Find(static_cast<int>(i))];
-  for (const size_t i : dropped) {
-    const int a = groups.Find(pairs[i].pair.first);
-    const int b = groups.Find(pairs[i].pair.second);
-    drop[i] = a == b || std::min(size[a], size[b]) < kLeastGroup;
+  const Agreement agreement = LargestAgreement(corrections);
+  // What speaks for the record as it is: the pairs of one photo with others, but not those within a
+  // part.
+  const int for_record = members.size() == 1 ? opinion.fits[members[0]] : 0;
+  const int all = static_cast<int>(tied.pairs.size()) + for_record;
+  if (agreement.count < kLeastAgreeing || 2 * agreement.count <= all) return std::nullopt;
+  return corrections[agreement.center].moved_from_recorded;
+}
+
+// Corrects records by what photos with believed records show, each once. Returns whether any was.
+bool CorrectRecords(const std::vector<VerifiedPair>& pairs, const Opinion& opinion,
+                    std::vector<bool>& corrected, Records& records) {
+  DisjointSets parts = Parts(pairs, opinion);
+  std::vector<std::vector<int>> members(corrected.size());
+  for (int i = 0; i < static_cast<int>(corrected.size()); ++i) members[parts.Find(i)].push_back(i);
+  const std::vector<Tied> all_tied = FindTied(pairs, opinion);
+  std::vector<bool> touched(corrected.size(), false);  // parts
+  for (const Tied& tied : all_tied) {
+    const std::vector<int>& photos = members[tied.part];
+    if (touched[tied.part] || touched[tied.to] || corrected[photos[0]]) continue;
+    const auto motion = AgreedMotion(pairs, opinion, records, tied, photos);
+    if (!motion) continue;
+    touched[tied.part] = true;
+    for (const int photo : photos) {
+      if (records.poses[photo]) records.poses[photo] = *records.poses[photo] * motion->Inverse();
+      corrected[photo] = true;
+    }
   }
+  return std::ranges::count(touched, true) > 0;
 }
 
 }  // namespace
@@ -134,19 +241,16 @@ void KeepTies(const std::vector<VerifiedPair>& pairs, size_t num_photos, std::ve
 int DropContradictions(const ExpectedViews& views, const Scene& scene,
                        std::vector<VerifiedPair>& pairs) {
   assert(views.poses.size() == scene.photos.size());
-  std::vector<Verdict> verdicts;
-  verdicts.reserve(pairs.size());
-  for (const VerifiedPair& pair : pairs) verdicts.push_back(JudgePair(views, scene, pair.pair));
-  const std::vector<bool> believed = Believed(pairs, verdicts, scene.photos.size());
-  std::vector<bool> drop(pairs.size());
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    drop[i] = verdicts[i] == Verdict::kContradicts && believed[pairs[i].pair.first] &&
-              believed[pairs[i].pair.second];
-  }
-  KeepTies(pairs, scene.photos.size(), drop);
+  Records records{views.site, scene, views.poses};
+  Opinion opinion = Judge(records, pairs);
+  std::vector<bool> corrected(scene.photos.size(), false);
+  while (CorrectRecords(pairs, opinion, corrected, records)) opinion = Judge(records, pairs);
   size_t kept = 0;
   for (size_t i = 0; i < pairs.size(); ++i) {
-    if (drop[i]) continue;
+    const PhotoPair& pair = pairs[i].pair;
+    // Where neither record is believed there is nothing to judge a pair by.
+    const bool known = opinion.Believes(pair.first) || opinion.Believes(pair.second);
+    if (known && opinion.verdicts[i] == Verdict::kContradicts) continue;
     if (kept != i) pairs[kept] = std::move(pairs[i]);
     ++kept;
   }

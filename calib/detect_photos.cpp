@@ -6,6 +6,7 @@
 #include <array>
 #include <opencv2/core/utility.hpp>
 
+#include "calib/same_place.h"
 #include "survey/files.h"
 #include "survey/image.h"
 #include "survey/parallel.h"
@@ -18,6 +19,9 @@ constexpr char kFeaturesVersion[] = "features-1";
 constexpr char kWallVersion[] = "wall-2";
 // A rectified wall gets at most this part of the features of a photo.
 constexpr int kWallShare = 4;
+// Keypoints this near to each other show the same, pixels of the picture they were detected in: as
+// far as one is off.
+constexpr double kSamePlace_px = 1;
 
 // SIFT keeps about 20 float images of the doubled size while it works.
 int ThreadsWithinMemory(const CalibOptions& options,
@@ -97,6 +101,21 @@ std::string WallKey(const CalibOptions& options, const PhotoSet& set, int photo,
 double DetectionScale(const CalibOptions& options, const CapturedPhoto& photo) {
   const ImageSize scaled = ScaledSize({photo.width_px, photo.height_px}, options.max_image_px);
   return static_cast<double>(photo.width_px) / scaled.width_px;
+}
+
+double SamePlace_px(const CalibOptions& options, const CapturedPhoto& photo) {
+  return kSamePlace_px * DetectionScale(options, photo);
+}
+
+std::vector<std::vector<int32_t>> PlacesOfAll(const CalibOptions& options, const PhotoSet& set,
+                                              const DetectedFeatures& detected) {
+  std::vector<std::vector<int32_t>> places(set.photos.size());
+  for (size_t i = 0; i < places.size(); ++i) {
+    const Features all = detected.AllOf(static_cast<int>(i));
+    places[i] =
+        FindPlaces(all.keypoints, detected.plain[i].size(), SamePlace_px(options, *set.photos[i]));
+  }
+  return places;
 }
 
 Features DetectedFeatures::AllOf(int photo) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -37,6 +38,14 @@ struct DetectedFeatures {
 // Features of every photo, checkpointed by content.
 DetectedFeatures DetectAll(const CalibOptions& options, const PhotoSet& set,
                            const StageContext& context);
+
+// By photo and keypoint: the keypoint that stands for its place (FindPlaces). What a rectified wall
+// shows where the photo itself shows it too is one place, and so are the finds of several walls.
+std::vector<std::vector<int32_t>> PlacesOfAll(const CalibOptions& options, const PhotoSet& set,
+                                              const DetectedFeatures& detected);
+
+// Pixels of the full photo within which keypoints are one place.
+double SamePlace_px(const CalibOptions& options, const CapturedPhoto& photo);
 
 // Full-resolution pixels per pixel of the image that features are detected in.
 double DetectionScale(const CalibOptions& options, const CapturedPhoto& photo);

@@ -8,9 +8,9 @@
 namespace stucco {
 
 struct Match {
-  int32_t first = 0;   // keypoint of the first photo
-  int32_t second = 0;  // keypoint of the second photo
-  auto operator<=>(const Match&) const = default;
+  int32_t first = 0;                               // keypoint of the first photo
+  int32_t second = 0;                              // keypoint of the second photo
+  auto operator<=>(const Match&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 }  // namespace stucco

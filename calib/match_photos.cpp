@@ -3,8 +3,10 @@
 #include "calib/match_photos.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstring>
 #include <iterator>
 #include <map>
 #include <tuple>
@@ -12,6 +14,8 @@
 #include "calib/choose_pairs.h"
 #include "calib/descriptors.h"
 #include "calib/matches.h"
+#include "calib/same_place.h"
+#include "survey/error.h"
 #include "survey/files.h"
 #include "survey/parallel.h"
 
@@ -19,13 +23,13 @@ namespace stucco {
 namespace {
 
 // Raise when the code behind a checkpoint changes what it computes.
-constexpr char kPairVersion[] = "pair-3";
+constexpr char kPairVersion[] = "pair-6";
 // Recorded positions of one flight, gimbal angles and the map are this good together.
 constexpr double kReachOnWall_m = 4;
 // When fewer of the pairs that should overlap do, the photos do not show what the plan says.
 constexpr double kLeastRight = 0.3;
-// A point that is found in the photo and in its rectified wall counts once.
-constexpr double kSamePoint_px = 2;
+// Standard deviation, share: focal lengths better known than this question what F explains.
+constexpr double kKnownFocal = 0.3;
 
 // A pair of photos to match, and the walls to match it on.
 struct Candidate {
@@ -50,12 +54,21 @@ std::vector<Candidate> Candidates(const std::vector<std::pair<int, int>>& pairs,
   return candidates;
 }
 
+std::string KeyOf(const Camera& camera) {
+  return fmt::format("{} {} {}", Name(camera.model), camera.width_px,
+                     fmt::join(camera.params, " "));
+}
+
 std::string PairKey(const CalibOptions& options, const PhotoSet& set, const Candidate& pair,
                     const VerifyOptions& verify) {
   std::vector<std::string> parts = {kPairVersion, FeaturesKey(options, *set.photos[pair.first]),
                                     FeaturesKey(options, *set.photos[pair.second]),
                                     fmt::format("{}", options.match_ratio),
                                     fmt::format("{}", verify.max_error_px)};
+  if (verify.cameras) {
+    parts.push_back(KeyOf(verify.cameras->first) + " " + KeyOf(verify.cameras->second));
+    parts.push_back(fmt::format("{}", verify.cameras->focal_sigma_ratio));
+  }
   if (!pair.walls.empty()) parts.push_back(pair.plain ? "and walls" : "walls");
   for (const int wall : pair.walls) {
     parts.push_back(WallKey(options, set, pair.first, wall));
@@ -67,20 +80,30 @@ std::string PairKey(const CalibOptions& options, const PhotoSet& set, const Cand
 // The keypoints that a candidate matches in one of its photos, numbered from 0: what a checkpoint
 // stores must not depend on which other walls the photo has.
 struct CandidateKeypoints {
-  std::vector<Eigen::Vector2d> pixels;
+  std::vector<Keypoint> keypoints;
+  size_t num_plain = 0;
   std::vector<int32_t> of_photo;  // their numbers among all of the photo
 
   void Add(const Features& features, size_t begin) {
     for (size_t i = 0; i < features.size(); ++i) {
-      pixels.emplace_back(features.keypoints[i].x, features.keypoints[i].y);
+      keypoints.push_back(features.keypoints[i]);
       of_photo.push_back(static_cast<int32_t>(begin + i));
     }
+  }
+  std::vector<Eigen::Vector2d> Pixels() const {
+    std::vector<Eigen::Vector2d> pixels;
+    pixels.reserve(keypoints.size());
+    for (const Keypoint& k : keypoints) pixels.emplace_back(k.x, k.y);
+    return pixels;
   }
 };
 
 CandidateKeypoints KeypointsOf(const DetectedFeatures& features, const Candidate& pair, int photo) {
   CandidateKeypoints keypoints;
-  if (pair.plain) keypoints.Add(features.plain[photo], 0);
+  if (pair.plain) {
+    keypoints.Add(features.plain[photo], 0);
+    keypoints.num_plain = keypoints.keypoints.size();
+  }
   for (const int wall : pair.walls) {
     const WallRun& run = features.walls.at({photo, wall});
     keypoints.Add(run.features, run.begin);
@@ -88,37 +111,9 @@ CandidateKeypoints KeypointsOf(const DetectedFeatures& features, const Candidate
   return keypoints;
 }
 
-struct Ends {
-  const CandidateKeypoints& first;
-  const CandidateKeypoints& second;
-};
-
-// Takes out of matches[begin ...] those that join the same pixels as one before.
-void DropRepeated(const Ends& ends, size_t begin, double same_px, std::vector<Match>& matches) {
-  const auto x_of = [&](const Match& match) { return ends.first.pixels[match.first].x(); };
-  std::vector<Match> known(matches.begin(), matches.begin() + static_cast<std::ptrdiff_t>(begin));
-  std::sort(known.begin(), known.end(),
-            [&](const Match& a, const Match& b) { return x_of(a) < x_of(b); });
-  const auto is_known = [&](const Match& match) {
-    auto near = std::lower_bound(known.begin(), known.end(), x_of(match) - same_px,
-                                 [&](const Match& a, double x) { return x_of(a) < x; });
-    for (; near != known.end() && x_of(*near) <= x_of(match) + same_px; ++near) {
-      const auto& [first, second] = ends;
-      if ((first.pixels[near->first] - first.pixels[match.first]).norm() <= same_px &&
-          (second.pixels[near->second] - second.pixels[match.second]).norm() <= same_px) {
-        return true;
-      }
-    }
-    return false;
-  };
-  matches.erase(
-      std::remove_if(matches.begin() + static_cast<std::ptrdiff_t>(begin), matches.end(), is_known),
-      matches.end());
-}
-
 // In the candidate's own numbers.
 std::vector<Match> MatchCandidate(const CalibOptions& options, const DetectedFeatures& features,
-                                  const Candidate& pair, const Ends& ends, double same_px) {
+                                  const Candidate& pair) {
   std::vector<Match> matches;
   int32_t begin_first = 0;
   int32_t begin_second = 0;
@@ -128,7 +123,6 @@ std::vector<Match> MatchCandidate(const CalibOptions& options, const DetectedFea
     begin_first = static_cast<int32_t>(features.plain[pair.first].size());
     begin_second = static_cast<int32_t>(features.plain[pair.second].size());
   }
-  const size_t num_plain = matches.size();
   for (const int wall : pair.walls) {
     const WallRun& first = features.walls.at({pair.first, wall});
     const WallRun& second = features.walls.at({pair.second, wall});
@@ -141,7 +135,6 @@ std::vector<Match> MatchCandidate(const CalibOptions& options, const DetectedFea
     begin_first += static_cast<int32_t>(first.features.size());
     begin_second += static_cast<int32_t>(second.features.size());
   }
-  DropRepeated(ends, num_plain, same_px, matches);
   return matches;
 }
 
@@ -149,48 +142,98 @@ struct MatchInput {
   const CalibOptions& options;
   const PhotoSet& set;
   const DetectedFeatures& features;
+  std::vector<std::vector<int32_t>> places;  // by photo and keypoint
   const StageContext& context;
 };
 
-std::optional<PairGeometry> VerifyCandidate(const MatchInput& input, const Candidate& pair) {
+// What matching a candidate gave, in its own numbers: this is kept.
+struct Outcome {
+  int32_t num_matches = 0;
+  std::optional<PairGeometry> geometry;
+};
+
+std::string Serialize(const Outcome& outcome) {
+  std::string bytes(sizeof(outcome.num_matches), '\0');
+  std::memcpy(bytes.data(), &outcome.num_matches, sizeof(outcome.num_matches));
+  return bytes + Serialize(outcome.geometry);
+}
+
+Outcome DeserializeOutcome(std::string_view bytes) {
+  Outcome outcome;
+  if (bytes.size() < sizeof(outcome.num_matches)) {
+    throw Error(ErrorKind::kBadInput, "matches: the checkpoint is damaged");
+  }
+  std::memcpy(&outcome.num_matches, bytes.data(), sizeof(outcome.num_matches));
+  bytes.remove_prefix(sizeof(outcome.num_matches));
+  outcome.geometry = DeserializePair(bytes);
+  return outcome;
+}
+
+Outcome MatchAndVerify(const MatchInput& input, const Candidate& pair,
+                       const VerifyOptions& verify) {
   const CandidateKeypoints first = KeypointsOf(input.features, pair, pair.first);
   const CandidateKeypoints second = KeypointsOf(input.features, pair, pair.second);
+  const auto places_of = [&](const CandidateKeypoints& of, int photo) {
+    return FindPlaces(of.keypoints, of.num_plain,
+                      SamePlace_px(input.options, *input.set.photos[photo]));
+  };
+  std::vector<Match> matches = MatchCandidate(input.options, input.features, pair);
+  // What is found twice in both photos is one piece of evidence.
+  DropRepeated({places_of(first, pair.first), places_of(second, pair.second)}, matches);
+  return {static_cast<int32_t>(matches.size()),
+          VerifyPair(first.Pixels(), second.Pixels(), matches, verify)};
+}
+
+// Nothing where a focal length is a guess.
+std::optional<PairCameras> CamerasOf(const PhotoSet& set, const Candidate& pair) {
+  const CapturedCamera& first = set.captures.cameras[set.photos[pair.first]->camera];
+  const CapturedCamera& second = set.captures.cameras[set.photos[pair.second]->camera];
+  const double sigma = std::max(FocalSigmaRatio(first), FocalSigmaRatio(second));
+  if (sigma > kKnownFocal) return std::nullopt;
+  return PairCameras{first.intrinsics, second.intrinsics, sigma};
+}
+
+// In the numbers of the photos' keypoints.
+Outcome VerifyCandidate(const MatchInput& input, const Candidate& pair) {
   const double scale = std::max(DetectionScale(input.options, *input.set.photos[pair.first]),
                                 DetectionScale(input.options, *input.set.photos[pair.second]));
   VerifyOptions verify;
   verify.max_error_px = 4 * scale;
-  auto geometry = DeserializePair(
-      ComputeUnit(input.context, "pairs", PairKey(input.options, input.set, pair, verify), [&] {
-        const auto matches = MatchCandidate(input.options, input.features, pair, {first, second},
-                                            kSamePoint_px * scale);
-        return Serialize(VerifyPair(first.pixels, second.pixels, matches, verify));
-      }));
-  if (!geometry) return geometry;
-  for (Match& match : geometry->inliers) {
+  verify.cameras = CamerasOf(input.set, pair);
+  Outcome outcome = DeserializeOutcome(
+      ComputeUnit(input.context, "pairs", PairKey(input.options, input.set, pair, verify),
+                  [&] { return Serialize(MatchAndVerify(input, pair, verify)); }));
+  if (!outcome.geometry) return outcome;
+  const CandidateKeypoints first = KeypointsOf(input.features, pair, pair.first);
+  const CandidateKeypoints second = KeypointsOf(input.features, pair, pair.second);
+  for (Match& match : outcome.geometry->inliers) {
     match = {first.of_photo.at(match.first), second.of_photo.at(match.second)};
   }
-  return geometry;
+  JoinPlaces({input.places[pair.first], input.places[pair.second]}, outcome.geometry->inliers);
+  return outcome;
 }
 
 // Those of the candidates whose matches agree on a geometry, in their order.
-std::vector<VerifiedPair> Verify(const MatchInput& input,
-                                 const std::vector<Candidate>& candidates) {
-  std::vector<std::optional<PairGeometry>> geometries(candidates.size());
+MatchedPairs Verify(const MatchInput& input, const std::vector<Candidate>& candidates) {
+  std::vector<Outcome> outcomes(candidates.size());
   input.context.progress->Begin("matching pairs", candidates.size());
   ParallelFor(candidates.size(), input.context.threads, [&](size_t i) {
     input.context.ThrowIfCancelled();
-    geometries[i] = VerifyCandidate(input, candidates[i]);
+    outcomes[i] = VerifyCandidate(input, candidates[i]);
     input.context.progress->Advance();
   });
-  std::vector<VerifiedPair> verified;
+  MatchedPairs matched;
   for (size_t i = 0; i < candidates.size(); ++i) {
-    if (!geometries[i]) continue;
+    const auto& [first, second, plain, walls] = candidates[i];
+    matched.tried.push_back({first, second, outcomes[i].num_matches, 0});
+    if (!outcomes[i].geometry) continue;
+    matched.tried.back().num_verified = static_cast<int>(outcomes[i].geometry->inliers.size());
     VerifiedPair pair;
-    pair.pair = {candidates[i].first, candidates[i].second, geometries[i]->inliers};
-    pair.geometry = std::move(*geometries[i]);
-    verified.push_back(std::move(pair));
+    pair.pair = {first, second, outcomes[i].geometry->inliers};
+    pair.geometry = std::move(*outcomes[i].geometry);
+    matched.verified.push_back(std::move(pair));
   }
-  return verified;
+  return matched;
 }
 
 // How many of the pairs (ascending) are verified ones.
@@ -202,18 +245,17 @@ size_t NumVerified(const PhotoPairs& pairs, const std::vector<VerifiedPair>& ver
 
 }  // namespace
 
-std::vector<VerifiedPair> MatchAll(const CalibOptions& options, const PhotoSet& set,
-                                   const DetectedFeatures& features, const StageContext& context) {
-  const MatchInput input{options, set, features, context};
+MatchedPairs MatchAll(const CalibOptions& options, const PhotoSet& set,
+                      const DetectedFeatures& features, const StageContext& context) {
+  const MatchInput input{options, set, features, PlacesOfAll(options, set, features), context};
   const PairChoice choice = ChoosePairs(options, set, features.plain);
-  std::vector<VerifiedPair> verified =
-      Verify(input, Candidates(choice.pairs, set.guidance.wall_pairs));
-  if (!choice.by_plan) return verified;
+  MatchedPairs matched = Verify(input, Candidates(choice.pairs, set.guidance.wall_pairs));
+  if (!choice.by_plan) return matched;
   const size_t expected = set.guidance.pairs.size();
-  const size_t found = NumVerified(set.guidance.pairs, verified);
+  const size_t found = NumVerified(set.guidance.pairs, matched.verified);
   context.progress->Note(
       fmt::format("{} of {} pairs of photos that should overlap by the plan do", found, expected));
-  if (static_cast<double>(found) >= kLeastRight * static_cast<double>(expected)) return verified;
+  if (static_cast<double>(found) >= kLeastRight * static_cast<double>(expected)) return matched;
   context.progress->Warn(
       "the photos do not show what the plan says: too few of those that should overlap do; pairs "
       "are chosen by position and appearance too");

@@ -12,10 +12,23 @@
 
 namespace stucco {
 
+// A pair of photos that was matched.
+struct TriedPair {
+  int first = 0;
+  int second = 0;
+  int num_matches = 0;   // before verification
+  int num_verified = 0;  // of these; 0 where the pair was refused
+};
+
+struct MatchedPairs {
+  std::vector<VerifiedPair> verified;
+  std::vector<TriedPair> tried;
+};
+
 // Verified pairs among the photos, by their indices, checkpointed by the content of both. Where a
 // plan chose the pairs and most of those do not match, the photos show something else: then others
 // are tried too, with a warning.
-std::vector<VerifiedPair> MatchAll(const CalibOptions& options, const PhotoSet& set,
-                                   const DetectedFeatures& features, const StageContext& context);
+MatchedPairs MatchAll(const CalibOptions& options, const PhotoSet& set,
+                      const DetectedFeatures& features, const StageContext& context);
 
 }  // namespace stucco

@@ -16,4 +16,8 @@ struct PhotoSet {
   const Guidance& guidance;
 };
 
+// One standard deviation of the focal length that the metadata say, relative to it; 0 where it is
+// given as the truth.
+double FocalSigmaRatio(const CapturedCamera& camera);
+
 }  // namespace stucco

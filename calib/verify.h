@@ -14,10 +14,18 @@
 
 namespace stucco {
 
+// Both cameras, where the metadata know their focal lengths.
+struct PairCameras {
+  Camera first;
+  Camera second;
+  double focal_sigma_ratio = 0.1;  // one standard deviation of the focal lengths, relative
+};
+
 struct VerifyOptions {
   double max_error_px = 4;  // full-resolution pixels
   int min_inliers = 15;
   int seed = 0;
+  std::optional<PairCameras> cameras = std::nullopt;
 };
 
 // Matches of two photos that one epipolar geometry or one homography explains.
@@ -30,8 +38,11 @@ struct PairGeometry {
 };
 
 // Robust fundamental matrix (USAC, MAGSAC++ score, Barath et al. 2020) and homography. Nothing when
-// fewer than min_inliers matches agree with either. Works without knowing the cameras. Requires
-// matches of the given points.
+// fewer than min_inliers matches agree with either, or no more than chance lets agree
+// (LogFalseAlarms), or when they lie on epipolar lines but anywhere along them, as matches of rows
+// that look alike do. On a plane F takes any epipole: what F alone explains stays when the
+// essential matrix explains it too, or, without cameras, more than chance lets. Requires matches of
+// the given points, which are all that each photo has.
 std::optional<PairGeometry> VerifyPair(const std::vector<Eigen::Vector2d>& first,
                                        const std::vector<Eigen::Vector2d>& second,
                                        const std::vector<Match>& matches,

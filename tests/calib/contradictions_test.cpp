@@ -88,10 +88,32 @@ TEST_F(Contradictions, TakesOutWhatMatchesSomewhereElse) {
 TEST_F(Contradictions, BelievesAPhotoMoreThanARecordThatFitsNoneOfItsPairs) {
   Match(0, 1, 60, Vector3d::Zero());
   Match(1, 2, 60, Vector3d::Zero());
-  Match(2, 3, 60, Vector3d::Zero());
+  for (int i = 0; i < 3; ++i) Match(i, 3, 60, Vector3d::Zero());
   recorded_[3] = SitePose({60, 40, 25}, 120, -90);
   EXPECT_EQ(Drop(), 0);
-  EXPECT_EQ(pairs_.size(), 3u);
+  EXPECT_EQ(pairs_.size(), 5u);
+}
+
+TEST_F(Contradictions, BelievesARecordMoreThanTwoPairs) {
+  Match(0, 1, 60, Vector3d::Zero());
+  Match(1, 2, 60, Vector3d::Zero());
+  Match(1, 3, 60, Vector3d::Zero());
+  Match(2, 3, 60, Vector3d::Zero());
+  recorded_[3] = SitePose({60, 40, 25}, 120, -90);
+  EXPECT_EQ(Drop(), 2);
+}
+
+TEST_F(Contradictions, CorrectsRecordsFromPhotosWhoseRecordsWereCorrected) {
+  Match(0, 1, 60, Vector3d::Zero());
+  Match(0, 2, 60, Vector3d::Zero());
+  Match(1, 2, 60, Vector3d::Zero());
+  for (int i = 0; i < 3; ++i) Match(i, 3, 60, Vector3d::Zero());
+  recorded_[3] = SitePose({60, 40, 25}, 120, -90);
+  const int next = Take({12, -16, 25}, Vector3d::Zero());
+  for (const int i : {1, 2, 3}) Match(i, next, 60, Vector3d::Zero());
+  recorded_[next] = SitePose({-30, 30, 25}, -70, -90);
+  EXPECT_EQ(Drop(), 0);
+  EXPECT_EQ(pairs_.size(), 9u);
 }
 
 TEST_F(Contradictions, BelievesAPhotoMoreThanARecordThatMostPairsSpeakAgainst) {
@@ -110,24 +132,83 @@ TEST_F(Contradictions, BelievesAPhotoMoreThanARecordThatMostPairsSpeakAgainst) {
     chance.pair.matches.push_back({static_cast<int>(scene_.photos[3].keypoints.size()) - 1, i});
   }
   pairs_.push_back(chance);
-  EXPECT_EQ(Drop(), 0);
+  EXPECT_EQ(Drop(), 1);
+  EXPECT_EQ(pairs_.size(), 5u);
+  EXPECT_EQ(pairs_.back().pair.second, 2);
 }
 
-TEST_F(Contradictions, NeverTearsTwoFlightsApart) {
-  // Five photos whose records are all 25 m off fit each other, but not the first flight.
-  for (int i = 0; i < 3; ++i) Match(i, i + 1, 60, Vector3d::Zero());
-  const int more = Take({14, -20, 25}, Vector3d::Zero());
-  Match(3, more, 60, Vector3d::Zero());
-  std::vector<int> second;
-  for (int i = 0; i < 5; ++i) second.push_back(Take({-10.0 + 6 * i, -17, 25}, {0, 25, 0}));
-  for (int i = 0; i < 4; ++i) Match(second[i], second[i + 1], 60, {0, 0, 0});
-  Match(1, second[1], 60, Vector3d::Zero());
+// Two flights above the same ground, the records of the second one off by `off`.
+class TwoFlights : public Contradictions {
+ protected:
+  explicit TwoFlights(const Vector3d& off = Vector3d::Zero()) {
+    first_ = {0, 1, 2, 3, Take({14, -20, 25}, Vector3d::Zero())};
+    for (int i = 0; i < 5; ++i) second_.push_back(Take({-10.0 + 6 * i, -17, 25}, off));
+    for (int i = 0; i < 4; ++i) {
+      Match(first_[i], first_[i + 1], 60, Vector3d::Zero());
+      Match(second_[i], second_[i + 1], 60, Vector3d::Zero());
+    }
+  }
+  std::vector<int> first_;
+  std::vector<int> second_;
+};
+
+class TwoFlightsApart : public TwoFlights {
+ protected:
+  TwoFlightsApart() : TwoFlights({0, 25, 0}) {}
+};
+
+TEST_F(TwoFlightsApart, StayTiedByPairsThatSayTheSame) {
+  for (int i = 1; i < 4; ++i) Match(first_[i], second_[i], 60, Vector3d::Zero());
   EXPECT_EQ(Drop(), 0);
-  // One photo alone is no flight.
+  // A photo whose one pair speaks against its record is not believed.
   const int alone = Take({-10, -17, 25}, {0, 25, 0});
-  Match(second[0], alone, 20, Vector3d::Zero());
+  Match(second_[0], alone, 20, Vector3d::Zero());
   Match(0, alone, 60, Vector3d::Zero());
+  EXPECT_EQ(Drop(), 2);
+}
+
+TEST_F(TwoFlightsApart, LoseAPairThatSaysSomethingElse) {
+  for (int i = 0; i < 4; ++i) Match(first_[i], second_[i], 60, Vector3d::Zero());
+  Match(first_[4], second_[3], 60, {-20, 0, 0});
   EXPECT_EQ(Drop(), 1);
+  EXPECT_EQ(pairs_.size(), 12u);
+}
+
+TEST_F(TwoFlights, AreNotTiedByPairsThatRepeatDifferently) {
+  Match(first_[0], second_[0], 60, {18, 0, 0});
+  Match(first_[1], second_[1], 60, {-18, 0, 0});
+  Match(first_[2], second_[2], 60, {26, 0, 0});
+  Match(first_[3], second_[3], 60, {-26, 0, 0});
+  EXPECT_EQ(Drop(), 4);
+  EXPECT_EQ(pairs_.size(), 8u);
+}
+
+TEST_F(TwoFlights, AreNotTiedByAMinorityThatAgrees) {
+  for (int i = 0; i < 3; ++i) Match(first_[i], second_[i], 60, {18, 0, 0});
+  Match(first_[3], second_[3], 60, {-18, 0, 0});
+  Match(first_[4], second_[4], 60, {-18, 0, 0});
+  Match(first_[2], second_[1], 60, {26, 0, 0});
+  EXPECT_EQ(Drop(), 6);
+}
+
+TEST_F(TwoFlights, KeepARecordThatWrongPairsContradictDifferently) {
+  const int beside = Take({14, -17, 25}, Vector3d::Zero());
+  Match(first_[4], beside, 60, Vector3d::Zero());
+  Match(first_[3], beside, 60, {18, 0, 0});
+  Match(first_[2], beside, 60, {26, 0, 0});
+  Match(second_[4], beside, 60, {18, 0, 0});
+  Match(second_[3], beside, 60, {26, 0, 0});
+  EXPECT_EQ(Drop(), 4);
+  EXPECT_EQ(pairs_.size(), 9u);
+  EXPECT_EQ(pairs_.back().pair.second, beside);
+}
+
+TEST_F(Contradictions, SaysNothingWhereNoRecordIsBelieved) {
+  for (int i = 0; i < 3; ++i) {
+    Match(i, i + 1, 60, Vector3d::Zero());
+    recorded_[i] = SitePose({40.0 - 20 * i, 30, 25}, 90.0 * i, -90);
+  }
+  EXPECT_EQ(Drop(), 0);
 }
 
 TEST_F(Contradictions, SaysNothingWithAGuessedFocalLength) {

@@ -5,10 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <tuple>
 
 #include "calib/choose_pairs.h"
+#include "calib/tracks.h"
 #include "tests/calib/expect/made_site.h"
 #include "tests/calib/made_scene.h"
 #include "tests/survey/stage_support.h"
@@ -82,7 +84,7 @@ class MatchPhotos : public testing::Test {
   std::vector<VerifiedPair> Matched() {
     photos_.clear();
     for (const CapturedPhoto& photo : captures_.photos) photos_.push_back(&photo);
-    return MatchAll(options_, {captures_, photos_, guidance_}, features_, context_);
+    return MatchAll(options_, {captures_, photos_, guidance_}, features_, context_).verified;
   }
 
   // What joins what: (photo, pixel) to (photo, pixel).
@@ -137,6 +139,56 @@ TEST_F(MatchPhotos, CountsAPointOnceThatIsFoundInThePhotoAndOnItsWall) {
   SeeOnWall(b, 0, 30, 60);
   guidance_.wall_pairs = {{a, b, 0}};
   EXPECT_EQ(Joins(Matched()).size(), plain);
+}
+
+// The tracks that the matches give, as numbers of (photo, keypoint).
+std::vector<SceneTrack> Tracks(const DetectedFeatures& features,
+                               const std::vector<VerifiedPair>& pairs) {
+  std::vector<size_t> num_keypoints;
+  for (size_t i = 0; i < features.plain.size(); ++i) {
+    num_keypoints.push_back(features.AllOf(static_cast<int>(i)).size());
+  }
+  std::vector<PhotoPair> matches;
+  for (const VerifiedPair& pair : pairs) matches.push_back(pair.pair);
+  return BuildTracks(num_keypoints, std::move(matches));
+}
+
+std::ptrdiff_t NumOfThree(const std::vector<SceneTrack>& tracks) {
+  return std::ranges::count_if(tracks,
+                               [](const SceneTrack& track) { return track.elements.size() == 3; });
+}
+
+TEST_F(MatchPhotos, JoinsWhatAPhotoAndItsWallShowToOneTrack) {
+  const int a = AddPhoto(SitePose({6, -15, 6}, 5, 0));
+  const int b = AddPhoto(SitePose({13, -15, 6}, -5, 0));
+  const int c = AddPhoto(SitePose({10, -15, 6}, 0, 0));
+  // The first two photos match as they are, the third only on the wall.
+  SeePlain(a, 0, 60);
+  SeePlain(b, 0, 60);
+  SeePlain(c, 300, 310);
+  SeeOnWall(b, 0, 0, 60);
+  SeeOnWall(c, 0, 0, 60);
+  guidance_.wall_pairs = {{b, c, 0}};
+  const auto pairs = Matched();
+  EXPECT_EQ(pairs.size(), 2u);
+  const auto tracks = Tracks(features_, pairs);
+  EXPECT_GT(NumOfThree(tracks), 40);
+  for (const SceneTrack& track : tracks) {
+    for (const SceneElement& element : track.elements) {
+      if (element.photo != b) continue;
+      EXPECT_LT(element.keypoint, static_cast<int>(features_.plain[b].size()));
+    }
+  }
+}
+
+TEST_F(MatchPhotos, JoinsWhatSeveralWallsShowToOneTrack) {
+  const int a = AddPhoto(SitePose({6, -15, 6}, 5, 0));
+  const int b = AddPhoto(SitePose({13, -15, 6}, -5, 0));
+  const int c = AddPhoto(SitePose({10, -15, 6}, 0, 0));
+  for (const int photo : {a, b}) SeeOnWall(photo, 0, 0, 60);
+  for (const int photo : {b, c}) SeeOnWall(photo, 1, 0, 60);
+  guidance_.wall_pairs = {{a, b, 0}, {b, c, 1}};
+  EXPECT_GT(NumOfThree(Tracks(features_, Matched())), 40);
 }
 
 TEST_F(MatchPhotos, GivesWithCheckpointsWhatItGivesWithout) {

@@ -102,6 +102,126 @@ TEST(VerifyPair, RefusesRandomMatches) {
   EXPECT_FALSE(VerifyPair(first, second, matches, {.max_error_px = 1, .min_inliers = 20}));
 }
 
+// Matches of points anywhere in the pictures.
+struct RandomCase {
+  std::vector<Eigen::Vector2d> first;
+  std::vector<Eigen::Vector2d> second;
+  std::vector<Match> matches;
+
+  void Add(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    matches.push_back({static_cast<int>(first.size()), static_cast<int>(second.size())});
+    first.push_back(a);
+    second.push_back(b);
+  }
+};
+
+Eigen::Vector2d Anywhere(Random& random) {
+  const double x = random.Uniform(0, 1000);
+  return {x, random.Uniform(0, 750)};
+}
+
+TEST(VerifyPair, NeverTakesRandomMatches) {
+  Random random(5);
+  for (const auto& [count, times] : {std::pair(50, 60), {100, 40}, {200, 20}, {500, 4}}) {
+    for (int time = 0; time < times; ++time) {
+      RandomCase c;
+      for (int i = 0; i < count; ++i) c.Add(Anywhere(random), Anywhere(random));
+      EXPECT_FALSE(VerifyPair(c.first, c.second, c.matches, {})) << count << " " << time;
+    }
+  }
+}
+
+TEST(VerifyPair, NeverTakesRandomMatchesNearEachOther) {
+  Random random(6);
+  for (const auto& [count, times] : {std::pair(50, 40), {200, 10}}) {
+    for (int time = 0; time < times; ++time) {
+      RandomCase c;
+      for (int i = 0; i < count; ++i) {
+        const Eigen::Vector2d a = Anywhere(random);
+        const double dx = random.Uniform(-200, 200);
+        c.Add(a, a + Eigen::Vector2d(dx, random.Uniform(-200, 200)));
+      }
+      EXPECT_FALSE(VerifyPair(c.first, c.second, c.matches, {})) << count << " " << time;
+    }
+  }
+}
+
+TEST(VerifyPair, TakesTwentyRightMatchesOfThirty) {
+  for (uint32_t seed = 1; seed <= 20; ++seed) {
+    const PairCase c = MakePair({.num_points = 200, .noise_px = 0.5, .seed = seed}, 0);
+    RandomCase mixed;
+    Random random(seed);
+    for (int i = 0; i < 20; ++i) {
+      const Match& match = c.pair.matches[i * c.pair.matches.size() / 20];
+      mixed.Add(c.scene.photos[0].keypoints[match.first],
+                c.scene.photos[1].keypoints[match.second]);
+    }
+    for (int i = 0; i < 10; ++i) mixed.Add(Anywhere(random), Anywhere(random));
+    EXPECT_TRUE(VerifyPair(mixed.first, mixed.second, mixed.matches, {})) << seed;
+  }
+}
+
+// Level ground looks alike along rows of the picture.
+TEST(VerifyPair, RefusesRowsThatMatchAnywhereAlongThem) {
+  Random random(7);
+  RandomCase c;
+  for (int i = 0; i < 120; ++i) {
+    const Eigen::Vector2d a = Anywhere(random);
+    c.Add(a, {random.Uniform(0, 1000), a.y() + random.Gauss(1)});
+  }
+  EXPECT_FALSE(VerifyPair(c.first, c.second, c.matches, {}));
+}
+
+TEST(VerifyPair, RefusesABandThatOnlyMatchesItself) {
+  Random random(8);
+  RandomCase c;
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::Vector2d a(random.Uniform(0, 1000), random.Uniform(580, 600));
+    c.Add(a, {random.Uniform(0, 1000), random.Uniform(580, 600)});
+  }
+  EXPECT_FALSE(VerifyPair(c.first, c.second, c.matches, {}));
+}
+
+// A plane in both pictures, and wrong matches.
+PairCase PlaneAndWrong(double wrong) {
+  return MakePair({.num_points = 300, .num_planes = 1, .clutter_share = 0, .noise_px = 0.3}, wrong);
+}
+
+TEST(VerifyPair, KeepsOnAPlaneWhatThePlaneExplains) {
+  const PairCase c = PlaneAndWrong(0.4);
+  const auto found = Verify(c, c.pair.matches);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(CountRight(c, found->inliers), CountRight(c, c.pair.matches));
+  EXPECT_GE(CountRight(c, found->inliers), static_cast<int>(found->inliers.size()) - 1);
+}
+
+TEST(VerifyPair, TakesMatchesOffAPlaneThatCamerasConfirm) {
+  const PairCase c =
+      MakePair({.num_points = 400, .num_planes = 1, .clutter_share = 0.08, .noise_px = 0.3}, 0.4);
+  const PairCameras cameras{c.scene.CameraOf(0), c.scene.CameraOf(1), 0.02};
+  const auto found = VerifyPair(c.scene.photos[0].keypoints, c.scene.photos[1].keypoints,
+                                c.pair.matches, {.cameras = cameras});
+  const auto without = Verify(c, c.pair.matches);
+  ASSERT_TRUE(found && without);
+  EXPECT_GT(CountRight(c, found->inliers), 0.97 * CountRight(c, c.pair.matches));
+  const auto wrong = [&](const PairGeometry& pair) {
+    return static_cast<int>(pair.inliers.size()) - CountRight(c, pair.inliers);
+  };
+  EXPECT_LE(wrong(*found), wrong(*without));
+  EXPECT_LT(wrong(*found), 5);
+}
+
+TEST(VerifyPair, KeepsWhatWrongCamerasDoNotExplain) {
+  const PairCase c = MakePair({.num_points = 300, .noise_px = 0.3}, 0.2);
+  Camera wrong = c.scene.CameraOf(0);
+  wrong.params[0] *= 6;
+  wrong.params[1] *= 6;
+  const auto found = VerifyPair(c.scene.photos[0].keypoints, c.scene.photos[1].keypoints,
+                                c.pair.matches, {.cameras = PairCameras{wrong, wrong, 0}});
+  ASSERT_TRUE(found);
+  EXPECT_GT(CountRight(c, found->inliers), 0.9 * CountRight(c, c.pair.matches));
+}
+
 TEST(VerifyPair, RefusesTooFewMatches) {
   const PairCase c = MakePair({.num_points = 100}, 0);
   EXPECT_FALSE(Verify(c, {}));
