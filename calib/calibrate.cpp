@@ -238,13 +238,14 @@ GeoreferenceResult RefineWithRecords(const MapperOptions& mapper,
   apply();
   Converge(mapper, true, context, scene);
   apply();
+  for (const int photo : ContradictingPoses(scene)) {
+    scene.photos[photo].pose.reset();
+    result.taken[photo] = {};
+  }
   for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
-    if (!scene.photos[i].pose) continue;
-    const RecordVerdict verdict = JudgePose(scene, i);
-    if (verdict == RecordVerdict::kPositionOff) result.prior_outliers.push_back(i);
-    if (verdict != RecordVerdict::kContradicts) continue;
-    scene.photos[i].pose.reset();
-    result.taken[i] = {};
+    if (scene.photos[i].pose && JudgePose(scene, i) != RecordVerdict::kAgrees) {
+      result.prior_outliers.push_back(i);
+    }
   }
   for (const int photo : wrong.taken) {
     if (!scene.photos[photo].pose) result.taken[photo] = {};

@@ -274,8 +274,8 @@ AdjustOptions ForEverything(const MapperOptions& options, bool use_priors, const
   // Robust by the noise that there is, which records weigh against too: their own deviations are
   // measured. The weight against lens priors stays that of the stated one: keypoints also err
   // together, which their residuals do not show.
-  adjust.noise = MeasureNoise(scene);
-  adjust.loss_scale *= adjust.noise;
+  adjust.noise = std::max(0.5, MeasureNoise(scene));
+  adjust.loss_scale *= MeasureNoise(scene);
   return adjust;
 }
 

@@ -11,6 +11,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "survey/attitude.h"
 #include "survey/median.h"
@@ -26,6 +27,9 @@ constexpr double kSignificant = 3;  // of its own standard deviation
 constexpr double kLeastPosition_m = 0.01;
 constexpr double kLeastAttitude_rad = 0.05 * M_PI / 180;
 constexpr int kRounds = 10;  // of reweighting
+constexpr double kExpectedMount_rad = 2 * M_PI / 180;
+constexpr double kExpectedTilt_rad = 5 * M_PI / 180;
+constexpr double kExpectedYaw_rad = 10 * M_PI / 180;  // that is left
 // From the median of absolute values to the standard deviation of a normal variable.
 constexpr double kNormalMedian = 0.6745;
 
@@ -102,6 +106,7 @@ Eigen::Quaterniond AboutUp(double angle_rad) {
 struct PositionError {
   int flight = 0;
   Eigen::Vector3d recorded_minus_posed = Eigen::Vector3d::Zero();
+  Eigen::Vector3d stated = Eigen::Vector3d::Ones();  // standard deviations
 };
 
 std::vector<PositionError> PositionErrors(const std::vector<PoseRecord>& records,
@@ -109,8 +114,11 @@ std::vector<PositionError> PositionErrors(const std::vector<PoseRecord>& records
   std::vector<PositionError> errors;
   for (size_t i = 0; i < records.size(); ++i) {
     if (!scene.photos[i].pose || !records[i].position) continue;
-    errors.push_back(
-        {records[i].flight, records[i].position->position - scene.photos[i].pose->Center()});
+    const PositionPrior& recorded = *records[i].position;
+    errors.push_back({records[i].flight,
+                      recorded.position - scene.photos[i].pose->Center(),
+                      {recorded.sigma_horizontal_m, recorded.sigma_horizontal_m,
+                       recorded.sigma_vertical_m}});
   }
   return errors;
 }
@@ -126,57 +134,67 @@ Eigen::Vector3d MedianVector(const std::vector<Eigen::Vector3d>& vectors) {
   return median;
 }
 
-// Per axis, about zero.
-Eigen::Vector3d Deviations(const std::vector<Eigen::Vector3d>& vectors) {
-  std::vector<Eigen::Vector3d> absolute;
-  absolute.reserve(vectors.size());
-  for (const Eigen::Vector3d& v : vectors) absolute.emplace_back(v.cwiseAbs());
-  return MedianVector(absolute) / kNormalMedian;
+Eigen::Vector3d MedianShift(const std::vector<PositionError>& errors) {
+  std::vector<Eigen::Vector3d> shifts;
+  shifts.reserve(errors.size());
+  for (const PositionError& error : errors) shifts.push_back(error.recorded_minus_posed);
+  return MedianVector(shifts);
 }
 
-void SetSigmas(const Eigen::Vector3d& deviations, FlightErrors& flight) {
-  const double level = std::hypot(deviations.x(), deviations.y()) / std::sqrt(2.0);
-  flight.sigma_horizontal_m = std::max(kLeastPosition_m, level);
-  flight.sigma_vertical_m = std::max(kLeastPosition_m, deviations.z());
+// Of errors about zero.
+void SetSigmas(const std::vector<PositionError>& errors, FlightErrors& flight) {
+  std::vector<Eigen::Vector3d> over_stated;
+  std::vector<Eigen::Vector3d> stated;
+  for (const PositionError& error : errors) {
+    over_stated.emplace_back(error.recorded_minus_posed.cwiseQuotient(error.stated).cwiseAbs());
+    stated.push_back(error.stated);
+  }
+  // A model that bends shows as noise of positions: they are not worse than they state.
+  const Eigen::Vector3d ratio =
+      (MedianVector(over_stated) / kNormalMedian).cwiseMin(Eigen::Vector3d::Ones());
+  const Eigen::Vector3d usual = MedianVector(stated);
+  flight.horizontal_over_stated = std::hypot(ratio.x(), ratio.y()) / std::sqrt(2.0);
+  flight.vertical_over_stated = ratio.z();
+  flight.sigma_horizontal_m =
+      std::max(kLeastPosition_m, flight.horizontal_over_stated * usual.x());
+  flight.sigma_vertical_m = std::max(kLeastPosition_m, flight.vertical_over_stated * usual.z());
+}
+
+// Takes the flight's shift off its errors and measures what is left.
+void MeasureFlight(const Eigen::Vector3d& common, std::vector<PositionError>& errors,
+                   FlightErrors& flight) {
+  const Eigen::Vector3d shift = MedianShift(errors);
+  for (PositionError& error : errors) error.recorded_minus_posed -= shift;
+  SetSigmas(errors, flight);
+  // The standard deviation of a median of normal variables is 1.25 times that of the mean.
+  const double own =
+      1.25 * flight.sigma_horizontal_m / std::sqrt(static_cast<double>(errors.size()));
+  if ((shift - common).norm() > kSignificant * own) flight.shift_m = shift - common;
 }
 
 void MeasurePositions(const std::vector<PoseRecord>& records, const Scene& scene,
                       std::vector<FlightErrors>& flights) {
-  const std::vector<PositionError> errors = PositionErrors(records, scene);
-  if (errors.size() < kEnoughAtAll) return;
-  std::vector<std::vector<Eigen::Vector3d>> by_flight(flights.size());
-  std::vector<Eigen::Vector3d> all;
-  for (const PositionError& error : errors) {
-    by_flight[error.flight].push_back(error.recorded_minus_posed);
-    all.push_back(error.recorded_minus_posed);
-  }
+  const std::vector<PositionError> all = PositionErrors(records, scene);
+  if (all.size() < kEnoughForOneFlight) return;
+  std::vector<std::vector<PositionError>> by_flight(flights.size());
+  for (const PositionError& error : all) by_flight[error.flight].push_back(error);
   Eigen::Vector3d common = Eigen::Vector3d::Zero();
   for (const auto& of_flight : by_flight) {
     if (of_flight.empty()) continue;
     common += static_cast<double>(of_flight.size()) / static_cast<double>(all.size()) *
-              MedianVector(of_flight);
+              MedianShift(of_flight);
   }
-  std::vector<Eigen::Vector3d> rest;
+  std::vector<PositionError> together;
   for (size_t f = 0; f < flights.size(); ++f) {
-    if (by_flight[f].size() < kEnoughForOneFlight) continue;
-    const Eigen::Vector3d shift = MedianVector(by_flight[f]);
-    for (Eigen::Vector3d& error : by_flight[f]) error -= shift;
-    SetSigmas(Deviations(by_flight[f]), flights[f]);
-    // The standard deviation of a median of normal variables is 1.25 times that of the mean.
-    const double own = 1.25 * flights[f].sigma_horizontal_m /
-                       std::sqrt(static_cast<double>(by_flight[f].size()));
-    if ((shift - common).norm() > kSignificant * own) flights[f].shift_m = shift - common;
-    rest.insert(rest.end(), by_flight[f].begin(), by_flight[f].end());
+    if (by_flight[f].size() < kEnoughForOneFlight) {
+      for (PositionError& error : by_flight[f]) error.recorded_minus_posed -= common;
+    } else {
+      MeasureFlight(common, by_flight[f], flights[f]);
+    }
+    together.insert(together.end(), by_flight[f].begin(), by_flight[f].end());
   }
-  if (rest.size() < kEnoughAtAll) {
-    for (const Eigen::Vector3d& error : all) rest.emplace_back(error - common);
-  }
-  FlightErrors together;
-  SetSigmas(Deviations(rest), together);
   for (size_t f = 0; f < flights.size(); ++f) {
-    if (by_flight[f].size() >= kEnoughForOneFlight) continue;
-    flights[f].sigma_horizontal_m = together.sigma_horizontal_m;
-    flights[f].sigma_vertical_m = together.sigma_vertical_m;
+    if (by_flight[f].size() < kEnoughForOneFlight) SetSigmas(together, flights[f]);
   }
 }
 
@@ -231,6 +249,15 @@ struct AttitudeUnknowns {
     return (mount ? 3 : 0) + 2 +
            static_cast<int>(std::count(yaw.begin(), yaw.begin() + flight, true));
   }
+  // What is expected beforehand, all about zero, as a weight against observations of this standard
+  // deviation: where all photos look down, nothing else tells a turned mount from a compass.
+  Eigen::MatrixXd Expected(double sigma_rad) const {
+    Eigen::VectorXd sigmas(size());
+    sigmas.setConstant(kExpectedYaw_rad);
+    if (mount) sigmas.head<3>().setConstant(kExpectedMount_rad);
+    sigmas.segment<2>(mount ? 3 : 0).setConstant(kExpectedTilt_rad);
+    return (sigma_rad / sigmas.array()).square().matrix().asDiagonal();
+  }
 };
 
 struct AttitudeFit {
@@ -259,7 +286,7 @@ AttitudeFit FitAttitudes(const std::vector<AttitudePair>& pairs, const AttitudeU
   }
   double scale = 0.05;
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Identity(size, size) * 1e-9;
+    Eigen::MatrixXd normal = unknowns.Expected(scale);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(size);
     for (size_t i = 0; i < rows.size(); ++i) {
       const double r = (right[i] - rows[i] * fit.values).norm() / (2 * scale);
@@ -302,40 +329,58 @@ double HeadingSigma(const std::vector<PoseRecord>& records, const std::vector<Fl
   return squares > 0 ? std::sqrt(variance / squares) : M_PI;
 }
 
+// With the compass's error of each flight taken off.
+AttitudeFit FitTurned(std::vector<AttitudePair> pairs, const std::vector<FlightErrors>& flights,
+                      const AttitudeUnknowns& unknowns) {
+  for (AttitudePair& pair : pairs) {
+    pair.recorded = pair.recorded * AboutUp(flights[pair.flight].yaw_rad);
+  }
+  return FitAttitudes(pairs, unknowns);
+}
+
+// Any angle that a compass may be off by: what is linear in the fit is the rest.
+AttitudeUnknowns GuessYaws(const std::vector<AttitudePair>& pairs,
+                           std::vector<FlightErrors>& flights) {
+  std::vector<std::vector<double>> yaws(flights.size());
+  for (const AttitudePair& pair : pairs) yaws[pair.flight].push_back(YawOf(pair));
+  AttitudeUnknowns unknowns{true, std::vector<bool>(flights.size(), false)};
+  for (size_t f = 0; f < yaws.size(); ++f) {
+    if (yaws[f].empty()) continue;
+    flights[f].yaw_rad = MedianAngle(yaws[f]);
+    unknowns.yaw[f] = yaws[f].size() >= kEnoughAtAll;
+  }
+  return unknowns;
+}
+
 void MeasureAttitudes(const std::vector<PoseRecord>& records, const Scene& scene,
                       RecordErrors& errors) {
-  std::vector<AttitudePair> pairs = AttitudePairs(records, scene);
+  const std::vector<AttitudePair> pairs = AttitudePairs(records, scene);
   if (pairs.size() < kEnoughAtAll) return;
-  // A compass may be off by any angle: what is linear below is the rest.
-  std::vector<std::vector<double>> yaws(errors.flights.size());
-  for (const AttitudePair& pair : pairs) yaws[pair.flight].push_back(YawOf(pair));
-  for (size_t f = 0; f < yaws.size(); ++f) {
-    if (!yaws[f].empty()) errors.flights[f].yaw_rad = MedianAngle(yaws[f]);
+  std::vector<FlightErrors>& flights = errors.flights;
+  AttitudeUnknowns unknowns = GuessYaws(pairs, flights);
+  AttitudeFit fit = FitTurned(pairs, flights, unknowns);
+  const double heading = HeadingSigma(records, flights, scene);
+  const AttitudeUnknowns before = unknowns;
+  for (size_t f = 0; f < flights.size(); ++f) {
+    const int index = before.yaw[f] ? before.yaw_index(static_cast<int>(f)) : -1;
+    const double yaw = flights[f].yaw_rad + (index < 0 ? 0 : fit.values[index]);
+    const double sigma = index < 0 ? M_PI : std::hypot(heading, fit.sigmas[index]);
+    if (std::abs(yaw) >= kSignificant * sigma) continue;
+    flights[f].yaw_rad = 0;
+    unknowns.yaw[f] = false;
   }
-  for (AttitudePair& pair : pairs) {
-    pair.recorded = pair.recorded * AboutUp(errors.flights[pair.flight].yaw_rad);
-  }
-  AttitudeUnknowns unknowns{true, std::vector<bool>(errors.flights.size(), true)};
-  for (size_t f = 0; f < yaws.size(); ++f) unknowns.yaw[f] = yaws[f].size() >= kEnoughAtAll;
-  AttitudeFit fit = FitAttitudes(pairs, unknowns);
-  const Eigen::Array3d mount_in_sigmas = fit.values.head<3>().array() / fit.sigmas.head<3>().array();
-  if ((mount_in_sigmas.abs() < kSignificant).all()) {
+  fit = FitTurned(pairs, flights, unknowns);
+  const Eigen::Array3d mount = fit.values.head<3>().array() / fit.sigmas.head<3>().array();
+  if ((mount.abs() < kSignificant).all()) {
     unknowns.mount = false;
-    fit = FitAttitudes(pairs, unknowns);
+    fit = FitTurned(pairs, flights, unknowns);
   }
   if (unknowns.mount) errors.mount_rad = fit.values.head<3>();
   errors.tilt_rad.head<2>() = fit.values.segment<2>(unknowns.mount ? 3 : 0);
   errors.sigma_attitude_rad = fit.sigma_rad;
-  const double heading = HeadingSigma(records, errors.flights, scene);
-  for (size_t f = 0; f < yaws.size(); ++f) {
-    FlightErrors& flight = errors.flights[f];
-    double own = M_PI;
-    if (unknowns.yaw[f]) {
-      const int index = unknowns.yaw_index(static_cast<int>(f));
-      flight.yaw_rad += fit.values[index];
-      own = std::hypot(heading, fit.sigmas[index]);
-    }
-    if (std::abs(flight.yaw_rad) < kSignificant * own) flight.yaw_rad = 0;
+  for (size_t f = 0; f < flights.size(); ++f) {
+    if (!unknowns.yaw[f]) continue;
+    flights[f].yaw_rad += fit.values[unknowns.yaw_index(static_cast<int>(f))];
   }
 }
 
@@ -380,8 +425,11 @@ void ApplyRecords(const std::vector<PoseRecord>& records, const RecordErrors& er
     const FlightErrors& flight = errors.flights[records[i].flight];
     if (photo.prior) {
       photo.prior->position -= flight.shift_m;
-      photo.prior->sigma_horizontal_m = flight.sigma_horizontal_m;
-      photo.prior->sigma_vertical_m = flight.sigma_vertical_m;
+      for (const auto& [sigma, over_stated] :
+           {std::pair(&photo.prior->sigma_horizontal_m, flight.horizontal_over_stated),
+            std::pair(&photo.prior->sigma_vertical_m, flight.vertical_over_stated)}) {
+        *sigma = std::max(kLeastPosition_m, over_stated * *sigma);
+      }
     }
     if (!records[i].gimbal) continue;
     photo.attitude = AttitudePrior{

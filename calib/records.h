@@ -32,8 +32,12 @@ struct FlightErrors {
   int num_photos = 0;  // with a pose and a record of either kind
   // Recorded minus true, beyond what is common to all flights, which nothing can tell.
   Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();
-  double sigma_horizontal_m = 5;  // per axis, about the shift
+  double sigma_horizontal_m = 5;  // per axis, about the shift, of the middle photo
   double sigma_vertical_m = 10;
+  // Standard deviations over those that the photos state: some photos of a flight may have been
+  // taken without the corrections that the others had.
+  double horizontal_over_stated = 1;
+  double vertical_over_stated = 1;
   double yaw_rad = 0;  // of the compass, counter-clockwise about up: true minus recorded
 };
 

@@ -17,9 +17,9 @@ namespace {
 
 // The square of three normal variables that one in ten thousand exceeds (chi squared).
 constexpr double kUnlikely = 21.1;
-// What the adjustment itself may be off by.
-constexpr double kPoseSigma_m = 0.03;
-constexpr double kPoseSigma_rad = 0.05 * M_PI / 180;
+// What single records may be off by that are usually better, and the adjustment itself.
+constexpr double kPoseSigma_m = 0.1;
+constexpr double kPoseSigma_rad = 0.3 * M_PI / 180;
 constexpr int kPlaneRounds = 100;
 constexpr double kOnPlane = 0.02;       // of the distance
 constexpr double kLeastOffPlane = 0.15;  // of the points
@@ -29,6 +29,8 @@ constexpr int kEnoughPartners = 4;
 constexpr double kGateSigmas = 3.5;
 constexpr double kNarrower = 3;
 constexpr int kMostRounds = 8;
+// When more of the poses contradict their records, it is the records that are wrong.
+constexpr double kMostWrong = 0.5;
 
 double AttitudeSquare(const ScenePhoto& photo) {
   if (!photo.attitude) return 0;
@@ -173,16 +175,6 @@ class Mending {
   std::vector<int> tracks_;
 };
 
-std::vector<int> Contradicting(const Scene& scene) {
-  std::vector<int> photos;
-  for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
-    if (scene.photos[i].pose && JudgePose(scene, i) == RecordVerdict::kContradicts) {
-      photos.push_back(i);
-    }
-  }
-  return photos;
-}
-
 }  // namespace
 
 bool SeesSeveralPlanes(const Scene& scene, int photo) {
@@ -214,8 +206,19 @@ RecordVerdict JudgePose(const Scene& scene, int photo) {
   return holds ? RecordVerdict::kPositionOff : RecordVerdict::kContradicts;
 }
 
+std::vector<int> ContradictingPoses(const Scene& scene) {
+  std::vector<int> photos;
+  for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
+    if (scene.photos[i].pose && JudgePose(scene, i) == RecordVerdict::kContradicts) {
+      photos.push_back(i);
+    }
+  }
+  if (static_cast<double>(photos.size()) > kMostWrong * NumRegistered(scene)) photos.clear();
+  return photos;
+}
+
 WrongPoses MendWrongPoses(const MapperOptions& options, const StageContext& context, Scene& scene) {
-  const std::vector<int> wrong = Contradicting(scene);
+  const std::vector<int> wrong = ContradictingPoses(scene);
   WrongPoses result;
   if (wrong.empty()) return result;
   Mending(options, wrong, scene).Run(context);

@@ -28,12 +28,16 @@ RecordVerdict JudgePose(const Scene& scene, int photo);
 // Whether a good part of the points that a photo sees lies off the plane that fits most of them.
 bool SeesSeveralPlanes(const Scene& scene, int photo);
 
+// Photos whose poses contradict their records, ascending; none where more than half of the
+// poses do: then it is the records that are wrong.
+std::vector<int> ContradictingPoses(const Scene& scene);
+
 struct WrongPoses {
   std::vector<int> corrected;  // posed anew from their records
   std::vector<int> taken;      // without a pose now
 };
 
-// Judges every pose. Those that contradict their records lose it, and begin again where the record
+// Poses that contradict their records (ContradictingPoses) begin again where the record
 // says: matches that cannot be, as far as the record is good, are taken out for good, the others
 // correct the record. What then still contradicts stays without a pose.
 WrongPoses MendWrongPoses(const MapperOptions& options, const StageContext& context, Scene& scene);

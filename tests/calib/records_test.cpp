@@ -60,6 +60,40 @@ TEST(MeasureRecordErrors, TellsMountAndCompassApart) {
   EXPECT_LT(errors.tilt_rad.norm(), 0.2 * kDegree);
 }
 
+// Where all photos look down, a mount turned about the viewing direction and a compass are the same.
+TEST(MeasureRecordErrors, IsNotLostWhereAllPhotosLookDown) {
+  Scene scene = MakeFlight(32);
+  for (int i = 0; i < 32; ++i) {
+    const Eigen::Vector3d place = scene.photos[i].pose->Center();
+    const Eigen::Quaterniond rotation = CamFromEnu({i < 16 ? 107.0 : -73.0, -90, 0});
+    scene.photos[i].pose = Pose{rotation, -(rotation * place)};
+  }
+  auto records = MakeRecords(scene, {.position_sigma_m = 0.01, .yaw_rad = {1.5 * kDegree}});
+  const RecordErrors errors = MeasureRecordErrors(records, scene);
+  EXPECT_LT(std::abs(errors.flights[0].yaw_rad), 3 * kDegree);
+  EXPECT_LT(errors.mount_rad.norm(), 3 * kDegree);
+  EXPECT_LT(errors.sigma_attitude_rad, 0.006);
+  ApplyRecords(records, errors, scene);
+  for (const ScenePhoto& photo : scene.photos) {
+    EXPECT_LT(photo.attitude->cam_from_world.angularDistance(photo.pose->rotation), 0.02);
+  }
+}
+
+TEST(MeasureRecordErrors, KeepsWhatPhotosStateApart) {
+  Scene scene = MakeFlight(96);
+  Random random(3);
+  auto records = MakeRecords(scene, {.position_sigma_m = 0.01});
+  for (size_t i = 0; i < records.size(); ++i) {
+    const bool fixed = i % 3 != 0;
+    records[i].position->sigma_horizontal_m = fixed ? 0.02 : 2;
+    records[i].position->sigma_vertical_m = fixed ? 0.02 : 2;
+    if (!fixed) records[i].position->position += random.Vector(1.7);
+  }
+  ApplyRecords(records, MeasureRecordErrors(records, scene), scene);
+  EXPECT_LT(scene.photos[1].prior->sigma_horizontal_m, 0.03);
+  EXPECT_GT(scene.photos[0].prior->sigma_horizontal_m, 0.5);
+}
+
 TEST(MeasureRecordErrors, SeesTheTiltOfTheScene) {
   Scene scene = MakeFlight(96);
   const auto records = MakeRecords(scene, {});

@@ -81,6 +81,17 @@ TEST_F(WrongPosesTest, APositionIsDistrustedWhereThePoseIsSure) {
   EXPECT_TRUE(wrong.taken.empty());
 }
 
+TEST_F(WrongPosesTest, RecordsThatContradictMostPosesAreWrongThemselves) {
+  for (size_t i = 0; i < 18; ++i) {
+    scene_.photos[i].attitude->cam_from_world =
+        Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ())) *
+        scene_.photos[i].attitude->cam_from_world;
+    ASSERT_EQ(JudgePose(scene_, static_cast<int>(i)), RecordVerdict::kContradicts);
+  }
+  EXPECT_TRUE(ContradictingPoses(scene_).empty());
+  EXPECT_TRUE(MendWrongPoses({}, context_, scene_).taken.empty());
+}
+
 TEST_F(WrongPosesTest, WithoutRecordsNothingIsJudged) {
   scene_.photos[5].prior.reset();
   scene_.photos[5].attitude.reset();
