@@ -32,9 +32,9 @@ constexpr double kRadialSigma = 0.5;
 constexpr double kTangentialSigma = 0.01;
 constexpr double kRationalSigma = 0.2;
 
-// Records beyond this many standard deviations lose weight. Not sooner: photos on one line turn about
-// it freely but for their records and few ties, of which wrong ones must not outweigh all records
-// together.
+// Records beyond this many standard deviations lose weight. Not sooner: photos on one line turn
+// about it freely but for their records and few ties, of which wrong ones must not outweigh all
+// records together.
 constexpr double kPriorLossScale = 10;
 
 constexpr double kLeastNoise = 0.05;
@@ -334,7 +334,7 @@ class Adjustment {
   std::vector<std::unique_ptr<ceres::SubsetManifold>> subsets_;
   ceres::CauchyLoss loss_{options_.loss_scale};
   ceres::CauchyLoss prior_outliers_{kPriorLossScale};
-  ceres::ScaledLoss prior_loss_{&prior_outliers_, options_.noise * options_.noise,
+  ceres::ScaledLoss prior_loss_{&prior_outliers_, options_.noise* options_.noise,
                                 ceres::DO_NOT_TAKE_OWNERSHIP};
   ceres::Problem problem_;  // last: refers to the members above
 };

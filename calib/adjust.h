@@ -25,7 +25,7 @@ struct AdjustOptions {
   double noise = 1;
   // Tracks that take part, by index; empty: all that have a point.
   std::vector<int> tracks;
-  int threads = 1;          // more than one is faster but not reproducible
+  int threads = 1;  // more than one is faster but not reproducible
   int max_iterations = 50;
   double tolerance = 1e-4;  // relative change of the cost that ends the iteration
 };

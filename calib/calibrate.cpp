@@ -198,7 +198,8 @@ Reconstructed PlacePhotos(const CalibOptions& options, const Photos& photos,
     const RecordsStart start = StartFromRecords(mapper, pairs, result.records, context, scene);
     result.is_in_frame = start.usable;
     if (!start.why_not.empty()) {
-      context.progress->Note(fmt::format("photos are placed one after the other: {}", start.why_not));
+      context.progress->Note(
+          fmt::format("photos are placed one after the other: {}", start.why_not));
     }
   }
   if (result.is_in_frame) {
@@ -231,8 +232,9 @@ GeoreferenceResult RefineWithRecords(const MapperOptions& mapper,
   apply();
   const WrongPoses wrong = MendWrongPoses(mapper, context, scene);
   for (const int photo : wrong.corrected) {
-    context.progress->Note(fmt::format("{}: posed anew from its record, which its first pose contradicted",
-                                       scene.photos[photo].name));
+    context.progress->Note(
+        fmt::format("{}: posed anew from its record, which its first pose contradicted",
+                    scene.photos[photo].name));
   }
   Settle(mapper, true, context, scene);
   apply();
@@ -251,8 +253,9 @@ GeoreferenceResult RefineWithRecords(const MapperOptions& mapper,
     if (!scene.photos[photo].pose) result.taken[photo] = {};
   }
   for (auto& [photo, why] : result.taken) {
-    why = "its matches give a pose that contradicts its recorded position and angles by more than "
-          "these are good to; something that repeats itself looks like that, or a wrong record";
+    why =
+        "its matches give a pose that contradicts its recorded position and angles by more than "
+        "these are good to; something that repeats itself looks like that, or a wrong record";
   }
   FilterScene(mapper, scene);
   for (size_t i = 0; i < records.size(); ++i) scene.photos[i].prior = records[i].position;
@@ -389,9 +392,13 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   for (const auto& [photo, why] : unregistered) {
     context.progress->Warn(fmt::format("{}: not placed: {}", scene.photos[photo].name, why));
   }
-  const SummaryInput summary{
-      photos.captures, photos.capture_of_photo, scene, unregistered, georeference.residuals,
-      georeference.prior_outliers, georeference.records ? &*georeference.records : nullptr};
+  const SummaryInput summary{photos.captures,
+                             photos.capture_of_photo,
+                             scene,
+                             unregistered,
+                             georeference.residuals,
+                             georeference.prior_outliers,
+                             georeference.records ? &*georeference.records : nullptr};
   Write(summary, georeference.georef, findings, context);
   const auto keypoints = CountKeypoints(features, PlacesOfAll(options, set, features));
   WriteFile(context.out / "photos.csv", PhotosCsv(summary, {keypoints, matched.tried, pairs}));

@@ -15,13 +15,11 @@ class Wants {
   Wants(const Scene& scene, int per_photo)
       : scene_(scene),
         wanted_(scene.photos.size(),
-                std::vector<int>(kCells * kCells,
-                                 std::max(1, per_photo / (kCells * kCells)))) {}
+                std::vector<int>(kCells * kCells, std::max(1, per_photo / (kCells * kCells)))) {}
 
   bool Wanted(const SceneTrack& track) {
-    return std::any_of(track.elements.begin(), track.elements.end(), [&](const SceneElement& e) {
-      return e.used && Cell(e) > 0;
-    });
+    return std::any_of(track.elements.begin(), track.elements.end(),
+                       [&](const SceneElement& e) { return e.used && Cell(e) > 0; });
   }
   void Take(const SceneTrack& track) {
     for (const SceneElement& e : track.elements) {
@@ -36,8 +34,8 @@ class Wants {
     const auto cell = [](double share) {
       return std::clamp(static_cast<int>(share * kCells), 0, kCells - 1);
     };
-    return wanted_[element.photo][cell(pixel.y() / camera.height_px) * kCells +
-                                  cell(pixel.x() / camera.width_px)];
+    return wanted_[element.photo]
+                  [cell(pixel.y() / camera.height_px) * kCells + cell(pixel.x() / camera.width_px)];
   }
 
   const Scene& scene_;

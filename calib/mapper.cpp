@@ -27,6 +27,9 @@ constexpr size_t kSureMatches = 30;  // tie two photos into one component
 // More observations than these take no part in an adjustment of everything: poses are as good
 // without, as each photo has its share of those that do.
 constexpr int kAllObservations = 150000;
+// Against records keypoints are not better than this, whatever their residuals show: what the lens
+// model lacks makes them err together.
+constexpr double kLeastNoiseAgainstRecords = 0.5;
 
 TriangulateOptions ForTriangulation(const MapperOptions& options) {
   return {.max_error_sigmas = options.max_error_sigmas, .min_angle_rad = options.min_angle_rad};
@@ -259,7 +262,8 @@ bool DropWeakPoses(const MapperOptions& options, Scene& scene) {
 int FilterScene(const MapperOptions& options, Scene& scene) {
   int dropped = FilterPoints(ForTriangulation(options), options.threads, scene);
   // A photo that goes takes observations from points that other photos may then see too little of.
-  while (DropWeakPoses(options, scene)) dropped += FilterPoints(ForTriangulation(options), options.threads, scene);
+  while (DropWeakPoses(options, scene))
+    dropped += FilterPoints(ForTriangulation(options), options.threads, scene);
   return dropped;
 }
 
@@ -271,10 +275,9 @@ AdjustOptions ForEverything(const MapperOptions& options, bool use_priors, const
                                                  : RefineIntrinsics::kDistortion;
   adjust.use_priors = use_priors;
   adjust.threads = options.adjust_threads;
-  // Robust by the noise that there is, which records weigh against too: their own deviations are
-  // measured. The weight against lens priors stays that of the stated one: keypoints also err
-  // together, which their residuals do not show.
-  adjust.noise = std::max(0.5, MeasureNoise(scene));
+  // Robust by the noise that there is; records, whose deviations are measured too, weigh against
+  // it. The weight against lens priors stays that of the stated one.
+  adjust.noise = std::max(kLeastNoiseAgainstRecords, MeasureNoise(scene));
   adjust.loss_scale *= MeasureNoise(scene);
   return adjust;
 }

@@ -19,7 +19,7 @@ struct MapperOptions {
   int min_inliers = 15;
   int max_initial_pairs = 8;
   bool refine_principal_point = true;
-  int threads = 1;  // of what gives the same with any number of them
+  int threads = 1;         // of what gives the same with any number of them
   int adjust_threads = 1;  // of bundle adjustment
   // Of each photo, at most, while a large survey is adjusted: chosen by how they cover it.
   int observations_per_photo = 400;

@@ -47,7 +47,8 @@ std::vector<int> InTime(const std::vector<const CapturedPhoto*>& captures,
   std::vector<int> order(captures.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    if (captures[a]->camera != captures[b]->camera) return captures[a]->camera < captures[b]->camera;
+    if (captures[a]->camera != captures[b]->camera)
+      return captures[a]->camera < captures[b]->camera;
     return seconds[a].value_or(0) < seconds[b].value_or(0);
   });
   return order;
@@ -115,10 +116,10 @@ std::vector<PositionError> PositionErrors(const std::vector<PoseRecord>& records
   for (size_t i = 0; i < records.size(); ++i) {
     if (!scene.photos[i].pose || !records[i].position) continue;
     const PositionPrior& recorded = *records[i].position;
-    errors.push_back({records[i].flight,
-                      recorded.position - scene.photos[i].pose->Center(),
-                      {recorded.sigma_horizontal_m, recorded.sigma_horizontal_m,
-                       recorded.sigma_vertical_m}});
+    errors.push_back(
+        {records[i].flight,
+         recorded.position - scene.photos[i].pose->Center(),
+         {recorded.sigma_horizontal_m, recorded.sigma_horizontal_m, recorded.sigma_vertical_m}});
   }
   return errors;
 }
@@ -155,8 +156,7 @@ void SetSigmas(const std::vector<PositionError>& errors, FlightErrors& flight) {
   const Eigen::Vector3d usual = MedianVector(stated);
   flight.horizontal_over_stated = std::hypot(ratio.x(), ratio.y()) / std::sqrt(2.0);
   flight.vertical_over_stated = ratio.z();
-  flight.sigma_horizontal_m =
-      std::max(kLeastPosition_m, flight.horizontal_over_stated * usual.x());
+  flight.sigma_horizontal_m = std::max(kLeastPosition_m, flight.horizontal_over_stated * usual.x());
   flight.sigma_vertical_m = std::max(kLeastPosition_m, flight.vertical_over_stated * usual.z());
 }
 
@@ -310,8 +310,8 @@ AttitudeFit FitAttitudes(const std::vector<AttitudePair>& pairs, const AttitudeU
 }
 
 // Standard deviation of the scene's heading as its positions determine it.
-double HeadingSigma(const std::vector<PoseRecord>& records, const std::vector<FlightErrors>& flights,
-                    const Scene& scene) {
+double HeadingSigma(const std::vector<PoseRecord>& records,
+                    const std::vector<FlightErrors>& flights, const Scene& scene) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> places;
   double variance = 0;
@@ -432,9 +432,9 @@ void ApplyRecords(const std::vector<PoseRecord>& records, const RecordErrors& er
       }
     }
     if (!records[i].gimbal) continue;
-    photo.attitude = AttitudePrior{
-        (mount * *records[i].gimbal * AboutUp(flight.yaw_rad)).normalized(),
-        errors.sigma_attitude_rad};
+    photo.attitude =
+        AttitudePrior{(mount * *records[i].gimbal * AboutUp(flight.yaw_rad)).normalized(),
+                      errors.sigma_attitude_rad};
   }
 }
 

@@ -24,9 +24,9 @@ constexpr double kDegree = M_PI / 180;
 // Of the photos; the others are attached to these afterwards.
 constexpr double kLeastRecorded = 0.5;
 constexpr int kLeastPhotos = 6;
-constexpr size_t kPartners = 6;      // pairs of a photo whose relative rotation is estimated
+constexpr size_t kPartners = 6;  // pairs of a photo whose relative rotation is estimated
 constexpr size_t kMatchesOfPair = 300;
-constexpr int kLeastRelative = 25;   // matches that a relative pose must explain
+constexpr int kLeastRelative = 25;  // matches that a relative pose must explain
 // Relative rotations of gimbals farther from those of the matches are not those of the same pair.
 constexpr double kSameRotation = 12 * kDegree;
 constexpr double kLeastAgreeing = 0.3;  // of the pairs; below it the records contradict the photos
@@ -40,8 +40,8 @@ constexpr int kEnoughVotes = 10;
 // The tolerance of the first points, in medians of the epipolar errors; and its limits.
 constexpr double kStartMedians = 5;
 constexpr double kMostStart_sigmas = 120;
-constexpr double kNarrower = 3;  // by which the tolerance falls from round to round
-constexpr int kObservations = 150;  // of a photo, while the tolerance is wide
+constexpr double kNarrower = 3;       // by which the tolerance falls from round to round
+constexpr int kObservations = 150;    // of a photo, while the tolerance is wide
 constexpr double kLeastPlaced = 0.3;  // of the recorded photos
 
 struct PairMotion {
@@ -49,7 +49,9 @@ struct PairMotion {
   RelativePose relative;
 };
 
-bool HasRecord(const PoseRecord& record) { return record.position && record.gimbal; }
+bool HasRecord(const PoseRecord& record) {
+  return record.position && record.gimbal;
+}
 
 // Of each recorded photo the pairs with most matches, each once, in their order.
 std::vector<const VerifiedPair*> StrongestPairs(const std::vector<VerifiedPair>& pairs,
@@ -180,13 +182,13 @@ std::map<int, double> YawOfFlights(const std::vector<PairMotion>& motions,
     if (records[pair.first].flight != records[pair.second].flight) continue;
     const Eigen::Vector3d recorded =
         records[pair.second].position->position - records[pair.first].position->position;
-    const Eigen::Vector3d by_gimbal = records[pair.first].gimbal->conjugate() *
-                                      motion.relative.second_from_first.Center();
+    const Eigen::Vector3d by_gimbal =
+        records[pair.first].gimbal->conjugate() * motion.relative.second_from_first.Center();
     const double level = recorded.head<2>().norm();
     const double weight = level * by_gimbal.head<2>().norm();
     if (level < recorded.norm() / 2 || by_gimbal.head<2>().norm() < 0.5) continue;
-    const double angle = std::atan2(by_gimbal.y(), by_gimbal.x()) -
-                         std::atan2(recorded.y(), recorded.x());
+    const double angle =
+        std::atan2(by_gimbal.y(), by_gimbal.x()) - std::atan2(recorded.y(), recorded.x());
     votes[records[pair.first].flight].push_back({angle, weight});
   }
   std::map<int, double> yaws;
@@ -206,8 +208,8 @@ std::vector<std::optional<Eigen::Quaterniond>> Rotations(const std::vector<PairM
     if (!HasRecord(records[i])) continue;
     const auto yaw = yaws.find(records[i].flight);
     const double angle = yaw == yaws.end() ? 0 : yaw->second;
-    rotations[i] = *records[i].gimbal *
-                   Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+    rotations[i] =
+        *records[i].gimbal * Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
   }
   std::vector<RelativeRotation> relative;
   std::vector<double> off;
@@ -279,7 +281,9 @@ void Anneal(const MapperOptions& options, double start_sigmas,
   }
 }
 
-RecordsStart NotUsable(std::string why) { return {false, std::move(why), 0}; }
+RecordsStart NotUsable(std::string why) {
+  return {false, std::move(why), 0};
+}
 
 }  // namespace
 
@@ -298,18 +302,17 @@ RecordsStart StartFromRecords(const MapperOptions& options, const std::vector<Ve
     return Disagreement(motion, records) > kSameRotation;
   });
   if (motions.empty() || motions.size() < kLeastAgreeing * static_cast<double>(all)) {
-    return NotUsable(fmt::format("the gimbal's angles contradict the photos: only {} of {} pairs "
-                                 "turn as they say",
-                                 motions.size(), all));
+    return NotUsable(
+        fmt::format("the gimbal's angles contradict the photos: only {} of {} pairs "
+                    "turn as they say",
+                    motions.size(), all));
   }
   const auto rotations = Rotations(motions, records);
   const std::vector<SceneCamera> cameras = scene.cameras;
   for (size_t i = 0; i < records.size(); ++i) {
     if (!rotations[i]) continue;
-    scene.photos[i].attitude =
-        AttitudePrior{*rotations[i], kRelativeSigma};
-    scene.photos[i].pose =
-        Pose{*rotations[i], -(*rotations[i] * records[i].position->position)};
+    scene.photos[i].attitude = AttitudePrior{*rotations[i], kRelativeSigma};
+    scene.photos[i].pose = Pose{*rotations[i], -(*rotations[i] * records[i].position->position)};
   }
   const double error = EpipolarError(strongest, scene);
   Anneal(options, std::min(kMostStart_sigmas, kStartMedians * error), records, context, scene);

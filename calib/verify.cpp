@@ -36,6 +36,7 @@ constexpr double kLeastSpread_px2 = 1;
 constexpr double kWiderByFocal = 10;
 constexpr int kManyRounds = 10000;
 constexpr int kFewRounds = 2000;  // among matches most of which agree
+constexpr size_t kRays = 250;     // of such matches, enough for an essential matrix
 
 cv::UsacParams Usac(double threshold, int seed) {
   cv::UsacParams params;
@@ -130,6 +131,17 @@ Joined Subset(const Joined& joined, const std::vector<char>& in) {
   Joined some;
   for (size_t i = 0; i < in.size(); ++i) {
     if (!in[i]) continue;
+    some.first.push_back(joined.first[i]);
+    some.second.push_back(joined.second[i]);
+  }
+  return some;
+}
+
+// At most `count` of them, spread evenly.
+Joined Thinned(const Joined& joined, size_t count) {
+  const size_t step = joined.size() / count + 1;
+  Joined some;
+  for (size_t i = 0; i < joined.size(); i += step) {
     some.first.push_back(joined.first[i]);
     some.second.push_back(joined.second[i]);
   }
@@ -255,7 +267,8 @@ std::optional<std::vector<char>> ConfirmByCameras(const Joined& joined,
   const double wider = 1 + kWiderByFocal * cameras.focal_sigma_ratio;
   const double limit =
       options.max_error_px * wider * 2 / (cameras.first.FocalX() + cameras.second.FocalX());
-  const auto essential = FindEssential(rays.first, rays.second, limit, kFewRounds);
+  const Joined some = Thinned(rays, kRays);
+  const auto essential = FindEssential(some.first, some.second, limit, kFewRounds);
   if (!essential) return std::nullopt;
   std::vector<char> confirmed(known.size(), 0);
   for (size_t i = 0; i < of_match.size(); ++i) {

@@ -21,11 +21,12 @@ constexpr double kUnlikely = 21.1;
 constexpr double kPoseSigma_m = 0.1;
 constexpr double kPoseSigma_rad = 0.3 * M_PI / 180;
 constexpr int kPlaneRounds = 100;
-constexpr double kOnPlane = 0.02;       // of the distance
+constexpr double kOnPlane = 0.02;        // of the distance
 constexpr double kLeastOffPlane = 0.15;  // of the points
 constexpr int kLeastPoints = 30;
 constexpr int kEnoughPartners = 4;
-// Matches are taken out that are this many deviations of the record from where it puts their points.
+// Matches are taken out that are this many deviations of the record from where it puts their
+// points.
 constexpr double kGateSigmas = 3.5;
 constexpr double kNarrower = 3;
 constexpr int kMostRounds = 8;
@@ -35,8 +36,7 @@ constexpr double kMostWrong = 0.5;
 double AttitudeSquare(const ScenePhoto& photo) {
   if (!photo.attitude) return 0;
   const double angle = photo.pose->rotation.angularDistance(photo.attitude->cam_from_world);
-  const double variance =
-      std::pow(photo.attitude->sigma_rad, 2) + std::pow(kPoseSigma_rad, 2);
+  const double variance = std::pow(photo.attitude->sigma_rad, 2) + std::pow(kPoseSigma_rad, 2);
   return angle * angle / variance;
 }
 

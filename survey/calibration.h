@@ -29,7 +29,7 @@ struct CalibratedPhoto {
 struct CalibratedFlight {
   int photos = 0;
   std::vector<double> shift_m = {0, 0, 0};  // east, north, up, against the mean of all flights
-  double sigma_horizontal_m = 0;  // per axis
+  double sigma_horizontal_m = 0;            // per axis
   double sigma_vertical_m = 0;
   double yaw_deg = 0;  // true minus recorded, clockwise
 };

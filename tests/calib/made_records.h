@@ -14,8 +14,8 @@ struct MadeRecordErrors {
   double position_sigma_m = 0.5;
   double attitude_sigma_rad = 0.003;
   Eigen::Vector3d mount_rad = Eigen::Vector3d::Zero();
-  std::vector<double> yaw_rad = {0};                                   // by flight
-  std::vector<Eigen::Vector3d> shift_m = {Eigen::Vector3d::Zero()};    // by flight
+  std::vector<double> yaw_rad = {0};                                 // by flight
+  std::vector<Eigen::Vector3d> shift_m = {Eigen::Vector3d::Zero()};  // by flight
   uint32_t seed = 7;
 };
 

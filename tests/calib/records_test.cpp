@@ -60,7 +60,8 @@ TEST(MeasureRecordErrors, TellsMountAndCompassApart) {
   EXPECT_LT(errors.tilt_rad.norm(), 0.2 * kDegree);
 }
 
-// Where all photos look down, a mount turned about the viewing direction and a compass are the same.
+// Where all photos look down, a mount turned about the viewing direction and a compass are the
+// same.
 TEST(MeasureRecordErrors, IsNotLostWhereAllPhotosLookDown) {
   Scene scene = MakeFlight(32);
   for (int i = 0; i < 32; ++i) {
@@ -122,8 +123,8 @@ TEST(MeasureRecordErrors, IsNotMovedByWrongOnes) {
   auto records = MakeRecords(scene, {});
   for (size_t i = 0; i < records.size(); i += 5) {
     records[i].position->position += Eigen::Vector3d(30, -10, 3);
-    records[i].gimbal = Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX())) *
-                        *records[i].gimbal;
+    records[i].gimbal =
+        Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX())) * *records[i].gimbal;
   }
   const RecordErrors errors = MeasureRecordErrors(records, scene);
   EXPECT_LT(errors.flights[0].sigma_horizontal_m, 0.9);
@@ -133,9 +134,10 @@ TEST(MeasureRecordErrors, IsNotMovedByWrongOnes) {
 
 TEST(ApplyRecords, CorrectsWhatWasMeasured) {
   Scene scene = MakeFlight(96);
-  const auto records = MakeRecords(
-      scene, {.mount_rad = {0.03, 0, 0}, .yaw_rad = {0.3, 0},
-              .shift_m = {Eigen::Vector3d(0, 3, 0), Eigen::Vector3d(0, -3, 0)}});
+  const auto records =
+      MakeRecords(scene, {.mount_rad = {0.03, 0, 0},
+                          .yaw_rad = {0.3, 0},
+                          .shift_m = {Eigen::Vector3d(0, 3, 0), Eigen::Vector3d(0, -3, 0)}});
   ApplyRecords(records, MeasureRecordErrors(records, scene), scene);
   for (const ScenePhoto& photo : scene.photos) {
     EXPECT_LT((photo.prior->position - photo.pose->Center()).norm(), 3);

@@ -16,8 +16,8 @@ class FromRecords : public testing::Test {
   FromRecords() {
     context_.progress = &SilentProgress();
     context_.units = &NoUnits();
-    truth_ = MakeScene({.num_photos = 24, .num_points = 900, .num_planes = 3, .arc_rad = 2,
-                        .noise_px = 0.3});
+    truth_ = MakeScene(
+        {.num_photos = 24, .num_points = 900, .num_planes = 3, .arc_rad = 2, .noise_px = 0.3});
   }
 
   // From a guessed camera, with a tenth of the matches wrong.

@@ -16,8 +16,8 @@ class WrongPosesTest : public testing::Test {
   WrongPosesTest() {
     context_.progress = &SilentProgress();
     context_.units = &NoUnits();
-    truth_ = MakeScene({.num_photos = 30, .num_points = 600, .num_planes = 3, .arc_rad = 2,
-                        .noise_px = 0.3});
+    truth_ = MakeScene(
+        {.num_photos = 30, .num_points = 600, .num_planes = 3, .arc_rad = 2, .noise_px = 0.3});
     scene_ = truth_;
     records_ = MakeRecords(truth_, {});
     ApplyRecords(records_, MeasureRecordErrors(records_, scene_), scene_);
