@@ -39,7 +39,7 @@ double LogBinomialTail(int trials, int successes, double probability) {
   return std::min(0.0, log_first + std::log(sum));
 }
 
-double LogFalseAlarms(const Finding& finding) {
+double LogFalseAlarms(const ChanceFinding& finding) {
   const int others = finding.num_matches - finding.sample_size;
   const int agreeing = finding.num_inliers - finding.sample_size;
   if (agreeing <= 0) return std::numeric_limits<double>::infinity();

@@ -9,7 +9,7 @@ namespace stucco {
 double LogBinomialTail(int trials, int successes, double probability);
 
 // What agrees with a model that was looked for among matches.
-struct Finding {
+struct ChanceFinding {
   int num_matches = 0;
   int num_inliers = 0;
   int sample_size = 7;        // matches that determine a model
@@ -22,6 +22,6 @@ struct Finding {
 // place of all limits): the models of all samples times the chance that so many others agree with
 // one of them. All samples count, not only those drawn: local optimisation finds models that are
 // near the best of all.
-double LogFalseAlarms(const Finding& finding);
+double LogFalseAlarms(const ChanceFinding& finding);
 
 }  // namespace stucco

@@ -142,8 +142,8 @@ DisjointSets Parts(const std::vector<VerifiedPair>& pairs, const Opinion& opinio
 }
 
 // What `photo` shows, if the pair is right and the record of its other photo too.
-std::vector<Sighting> SightingsOf(const Records& records, const PhotoPair& pair, int photo) {
-  std::vector<Sighting> sightings;
+std::vector<RecordSighting> SightingsOf(const Records& records, const PhotoPair& pair, int photo) {
+  std::vector<RecordSighting> sightings;
   const size_t step = pair.matches.size() / kSampled + 1;
   for (size_t i = 0; i < pair.matches.size(); i += step) {
     const Match& match = pair.matches[i];

@@ -20,11 +20,11 @@ constexpr double kAgreeAngle = 12 * M_PI / 180;
 constexpr double kAgree_m = 7;
 
 // A scene of this photo and these points.
-Scene SceneOf(const Scene& scene, int photo, std::span<const Sighting> sightings) {
+Scene SceneOf(const Scene& scene, int photo, std::span<const RecordSighting> sightings) {
   Scene alone;
   alone.cameras = {scene.cameras[scene.photos[photo].camera]};
   ScenePhoto seeing;
-  for (const Sighting& sighting : sightings) {
+  for (const RecordSighting& sighting : sightings) {
     const int index = static_cast<int>(seeing.keypoints.size());
     seeing.keypoints.push_back(scene.photos[photo].keypoints[sighting.keypoint]);
     alone.tracks.push_back({{{0, index, false}}, sighting.point});
@@ -47,7 +47,7 @@ bool Agree(const Correction& a, const Correction& b) {
 
 std::optional<Correction> ProposeCorrection(const Scene& scene, int photo,
                                             const Pose& recorded_cam_from_plan,
-                                            std::span<const Sighting> sightings) {
+                                            std::span<const RecordSighting> sightings) {
   if (sightings.size() < kLeastSightings) return std::nullopt;
   const Scene alone = SceneOf(scene, photo, sightings);
   const double limit_px = std::tan(kPointsOff) * alone.CameraOf(0).FocalX();

@@ -13,7 +13,7 @@ namespace stucco {
 
 // A point of the site that a photo shows at one of its keypoints, if a match is right and the other
 // photo's record too.
-struct Sighting {
+struct RecordSighting {
   int keypoint = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // frame of the plan
 };
@@ -31,7 +31,7 @@ struct Correction {
 // the correction is as rough.
 std::optional<Correction> ProposeCorrection(const Scene& scene, int photo,
                                             const Pose& recorded_cam_from_plan,
-                                            std::span<const Sighting> sightings);
+                                            std::span<const RecordSighting> sightings);
 
 // Corrections that say the same, up to what records and map are off by.
 struct Agreement {

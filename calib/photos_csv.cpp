@@ -26,7 +26,7 @@ struct PairCounts {
   size_t used_matches = 0;
 };
 
-std::vector<PairCounts> CountPairs(const Evidence& evidence, size_t num_photos) {
+std::vector<PairCounts> CountPairs(const PhotoEvidence& evidence, size_t num_photos) {
   std::vector<PairCounts> counts(num_photos);
   for (const TriedPair& pair : evidence.tried) {
     for (const int photo : {pair.first, pair.second}) {
@@ -70,7 +70,7 @@ std::vector<KeypointCounts> CountKeypoints(const DetectedFeatures& detected,
   return counts;
 }
 
-std::string PhotosCsv(const SummaryInput& summary, const Evidence& evidence) {
+std::string PhotosCsv(const SummaryInput& summary, const PhotoEvidence& evidence) {
   const Scene& scene = summary.scene;
   assert(evidence.keypoints.size() == scene.photos.size());
   const std::vector<PairCounts> pairs = CountPairs(evidence, scene.photos.size());

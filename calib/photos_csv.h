@@ -24,7 +24,7 @@ std::vector<KeypointCounts> CountKeypoints(const DetectedFeatures& detected,
                                            std::span<const std::vector<int32_t>> places);
 
 // What was there to place the photos by.
-struct Evidence {
+struct PhotoEvidence {
   std::span<const KeypointCounts> keypoints;  // by photo of the scene
   std::span<const TriedPair> tried;
   std::span<const VerifiedPair> used;  // those left when pairs that contradict the plan are gone
@@ -32,6 +32,6 @@ struct Evidence {
 
 // calib/photos.csv (docs/formats.md): where each photo lost what would have given it a pose. In the
 // order of the captures; those that could not be used have no figures.
-std::string PhotosCsv(const SummaryInput& summary, const Evidence& evidence);
+std::string PhotosCsv(const SummaryInput& summary, const PhotoEvidence& evidence);
 
 }  // namespace stucco

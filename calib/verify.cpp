@@ -206,8 +206,8 @@ Explained Explain(const Joined& joined, const Model& model) {
   const double chance =
       std::max({std::min(1.0, model.chance_anywhere), ShareOfMisjoined(joined, model),
                 ShareOfMisjoined(Subset(joined, explained.which), model)});
-  const Finding finding{static_cast<int>(joined.size()), explained.count, model.sample_size,
-                        model.models_per_sample, chance};
+  const ChanceFinding finding{static_cast<int>(joined.size()), explained.count, model.sample_size,
+                              model.models_per_sample, chance};
   explained.above_chance = LogFalseAlarms(finding) < kLogFalseAlarms;
   return explained;
 }

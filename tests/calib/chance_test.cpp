@@ -24,7 +24,7 @@ TEST(LogBinomialTail, IsOneWhereNothingIsAskedAndNoneWhereTooMuchIs) {
 }
 
 TEST(LogFalseAlarms, AreFewWhenMoreAgreeThanChanceLets) {
-  Finding finding{100, 40, 7, 3, 0.02};
+  ChanceFinding finding{100, 40, 7, 3, 0.02};
   EXPECT_LT(LogFalseAlarms(finding), std::log(1e-3));
   finding.num_inliers = 16;
   EXPECT_GT(LogFalseAlarms(finding), 0);

@@ -32,7 +32,7 @@ class Corrections : public testing::Test {
 
   Scene scene_;
   Pose truth_ = SitePose({1, 2, 30}, 20, -80);
-  std::vector<Sighting> sightings_;
+  std::vector<RecordSighting> sightings_;
 };
 
 TEST_F(Corrections, FindsTheMotionFromTheRecordToTheTruth) {
@@ -47,7 +47,7 @@ TEST_F(Corrections, FindsTheMotionFromTheRecordToTheTruth) {
 
 TEST_F(Corrections, ToleratesPointsThatAreOffByAMetre) {
   Random random(2);
-  for (Sighting& sighting : sightings_) sighting.point += random.Vector(1);
+  for (RecordSighting& sighting : sightings_) sighting.point += random.Vector(1);
   const auto found = ProposeCorrection(scene_, 0, truth_, sightings_);
   ASSERT_TRUE(found);
   EXPECT_LT((found->Moved() - Vector3d(1, 2, 30)).norm(), 2);
@@ -55,7 +55,7 @@ TEST_F(Corrections, ToleratesPointsThatAreOffByAMetre) {
 
 TEST_F(Corrections, NothingWherePointsAgreeOnNoPose) {
   Random random(3);
-  for (Sighting& sighting : sightings_) sighting.point = random.Vector(20);
+  for (RecordSighting& sighting : sightings_) sighting.point = random.Vector(20);
   EXPECT_FALSE(ProposeCorrection(scene_, 0, truth_, sightings_));
   sightings_.resize(5);
   EXPECT_FALSE(ProposeCorrection(scene_, 0, truth_, sightings_));
