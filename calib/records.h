@@ -38,7 +38,7 @@ struct FlightErrors {
   // taken without the corrections that the others had.
   double horizontal_over_stated = 1;
   double vertical_over_stated = 1;
-  double yaw_rad = 0;  // of the compass, counter-clockwise about up: true minus recorded
+  double yaw_rad = 0;  // of the compass, clockwise from above: true minus recorded
 };
 
 // Recorded positions are p + shift + noise, recorded attitudes G with

@@ -100,7 +100,7 @@ CalibratedRecords SummarizeRecords(const RecordErrors& errors) {
                               {flight.shift_m.x(), flight.shift_m.y(), flight.shift_m.z()},
                               flight.sigma_horizontal_m,
                               flight.sigma_vertical_m,
-                              -flight.yaw_rad / kDegree});
+                              flight.yaw_rad / kDegree});
   }
   return result;
 }

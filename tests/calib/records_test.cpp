@@ -60,6 +60,18 @@ TEST(MeasureRecordErrors, TellsMountAndCompassApart) {
   EXPECT_LT(errors.tilt_rad.norm(), 0.2 * kDegree);
 }
 
+TEST(MeasureRecordErrors, CountsYawAsCompassesDo) {
+  const Scene scene = MakeFlight(96);
+  auto records = MakeRecords(scene, {});
+  for (int i = 0; i < 96; ++i) {
+    // As MakeFlight, read off a compass that is 10 degrees short.
+    records[i].gimbal =
+        CamFromEnu({90.0 * (i % 4) - 10, i % 3 == 0 ? -90.0 : -40.0 * (i % 3 - 1), 0});
+  }
+  const RecordErrors errors = MeasureRecordErrors(records, scene);
+  EXPECT_NEAR(errors.flights[0].yaw_rad, 10 * kDegree, 0.3 * kDegree);
+}
+
 // Where all photos look down, a mount turned about the viewing direction and a compass are the
 // same.
 TEST(MeasureRecordErrors, IsNotLostWhereAllPhotosLookDown) {
