@@ -9,6 +9,8 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "calib/adjust.h"
 #include "calib/contradictions.h"
@@ -185,30 +187,33 @@ struct Reconstructed {
   bool is_in_frame = false;  // it began at the records
 };
 
-// Photos at their records first, corrected by their matches; what has no record, or where records
-// are of no use, one photo after the other.
-Reconstructed PlacePhotos(const CalibOptions& options, const Photos& photos,
-                          const std::vector<VerifiedPair>& pairs, MapperOptions mapper,
-                          const StageContext& context, Scene& scene) {
+Reconstructed ReadRecordsOf(const CalibOptions& options, const Photos& photos,
+                            const StageContext& context, Scene& scene) {
   Reconstructed result;
   if (options.use_positions) result.frame = FrameFromPositions(photos.usable, scene);
   const std::optional<Plan> plan = PlanOfSurvey(context);
   result.records = ReadRecords(photos.usable, plan ? &*plan : nullptr, scene);
-  if (result.frame) {
-    const RecordsStart start = StartFromRecords(mapper, pairs, result.records, context, scene);
-    result.is_in_frame = start.usable;
+  return result;
+}
+
+// Photos at their records first, corrected by their matches; what has no record, or where records
+// are of no use, one photo after the other.
+void PlacePhotos(MapperOptions mapper, const std::vector<VerifiedPair>& pairs,
+                 const StageContext& context, Reconstructed& from, Scene& scene) {
+  if (from.frame) {
+    const RecordsStart start = StartFromRecords(mapper, pairs, from.records, context, scene);
+    from.is_in_frame = start.usable;
     if (!start.why_not.empty()) {
       context.progress->Note(
           fmt::format("photos are placed one after the other: {}", start.why_not));
     }
   }
-  if (result.is_in_frame) {
+  if (from.is_in_frame) {
     mapper.use_priors = true;
     GrowOn(mapper, context, scene);
   } else {
     Reconstruct(mapper, pairs, context, scene);
   }
-  return result;
 }
 
 struct GeoreferenceResult {
@@ -271,10 +276,11 @@ GeoreferenceResult WithoutPositions(const Photos& photos, Scene& scene) {
   return result;
 }
 
-// Fits a scene that did not begin at the records to the positions. Nothing where these do not hold
-// its frame, which then is what `result` says.
-bool BringIntoFrame(const Reconstructed& from, const MapperOptions& mapper, const Photos& photos,
-                    const StageContext& context, Scene& scene, GeoreferenceResult& result) {
+// Fits a scene that did not begin at the records to the positions. Nothing where these hold its
+// frame, else what holds it.
+std::optional<GeoreferenceResult> BringIntoFrame(const Reconstructed& from,
+                                                 const MapperOptions& mapper, const Photos& photos,
+                                                 const StageContext& context, Scene& scene) {
   const auto fit_to_priors = [&] {
     return from.frame ? FitToPriors(scene, UpFromGimbal(photos.usable, scene))
                       : std::optional<PriorFit>();
@@ -282,7 +288,7 @@ bool BringIntoFrame(const Reconstructed& from, const MapperOptions& mapper, cons
   auto fit = fit_to_priors();
   if (fit && fit->holds == FitHolds::kEverything) {
     Transform(fit->enu_from_scene, scene);
-    return true;
+    return std::nullopt;
   }
   // The positions take no part in the adjustment.
   RefineAll(mapper, false, context, scene);
@@ -293,33 +299,33 @@ bool BringIntoFrame(const Reconstructed& from, const MapperOptions& mapper, cons
           "the photos' positions are too close together or contradict each other: the model keeps "
           "an arbitrary scale and direction");
     }
-    result = WithoutPositions(photos, scene);
-    return false;
+    return WithoutPositions(photos, scene);
   }
   Transform(fit->enu_from_scene, scene);
-  if (fit->holds == FitHolds::kEverything) return true;
+  if (fit->holds == FitHolds::kEverything) return std::nullopt;
   if (fit->holds == FitHolds::kScale) {
     context.progress->Warn(
         "the photos were taken along one line: their positions give the scale, but not which way "
         "is up; photograph from two heights or distances to mend that");
-    result = WithoutPositions(photos, scene);
+    GeoreferenceResult result = WithoutPositions(photos, scene);
     result.georef.metric = true;
-    return false;
+    return result;
   }
   context.progress->Note(
       "the photos were taken along one line: the gimbal's angles say which way is up");
+  GeoreferenceResult result;
   result.georef = *from.frame;
   result.prior_outliers = fit->outliers;
-  return false;
+  return result;
 }
 
 GeoreferenceResult Georeference(const Reconstructed& from, const MapperOptions& mapper,
                                 const Photos& photos, const StageContext& context, Scene& scene) {
-  GeoreferenceResult result;
-  if (from.is_in_frame || BringIntoFrame(from, mapper, photos, context, scene, result)) {
-    result = RefineWithRecords(mapper, from.records, context, scene);
-    result.georef = *from.frame;
-  }
+  std::optional<GeoreferenceResult> without;
+  if (!from.is_in_frame) without = BringIntoFrame(from, mapper, photos, context, scene);
+  GeoreferenceResult result =
+      without ? std::move(*without) : RefineWithRecords(mapper, from.records, context, scene);
+  if (!without) result.georef = *from.frame;
   for (const int photo : result.prior_outliers) {
     context.progress->Warn(
         fmt::format("{}: its recorded position contradicts the other photos and is not used",
@@ -382,7 +388,8 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   mapper.adjust_threads = options.fast_adjustment ? context.threads : 1;
 
   for (VerifiedPair& pair : pairs) ClassifyMotion(scene, mapper.max_error_sigmas, pair);
-  const Reconstructed placed = PlacePhotos(options, photos, pairs, mapper, context, scene);
+  Reconstructed placed = ReadRecordsOf(options, photos, context, scene);
+  PlacePhotos(mapper, pairs, context, placed, scene);
   const std::vector<std::string> findings = DescribePanoramas(scene, pairs, photos.usable);
   for (const std::string& finding : findings) context.progress->Warn(finding);
   if (NumRegistered(scene) < 2) ThrowNothingRegistered(pairs, findings);

@@ -60,6 +60,7 @@ std::vector<int> FlightsOf(const std::vector<const CapturedPhoto*>& captures, co
     for (const PlannedView& view : plan->views) flight_of_view[view.id] = view.flight;
   }
   std::vector<std::optional<double>> seconds;
+  seconds.reserve(captures.size());
   for (const CapturedPhoto* photo : captures) seconds.push_back(SecondsOf(photo->capture_time));
   // A flight is a planned one on a day without a long pause, by one camera.
   std::vector<int> flights(captures.size(), 0);

@@ -75,6 +75,7 @@ std::vector<const VerifiedPair*> StrongestPairs(const std::vector<VerifiedPair>&
     }
   }
   std::vector<const VerifiedPair*> strongest;
+  strongest.reserve(chosen.size());
   for (const size_t i : chosen) strongest.push_back(&pairs[i]);
   return strongest;
 }

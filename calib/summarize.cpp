@@ -78,6 +78,7 @@ CalibratedCamera SummarizeCamera(const CapturedCamera& captured, const SceneCame
 void AddSigmas(const Scene& scene, const std::vector<int>& photos, Calibration& result) {
   const std::vector<PoseSigma> sigmas = PoseSigmas(scene);
   std::vector<double> positions;
+  positions.reserve(photos.size());
   for (const int photo : photos) positions.push_back(sigmas[photo].position);
   const double usual = Median(std::move(positions)).value_or(0);
   for (size_t i = 0; i < photos.size(); ++i) {
