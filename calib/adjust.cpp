@@ -37,6 +37,9 @@ constexpr double kRationalSigma = 0.2;
 // records together.
 constexpr double kPriorLossScale = 10;
 
+// Positions that can hold what a lens model bends, centimetres.
+constexpr double kHoldsBends_m = 0.1;
+
 constexpr double kLeastNoise = 0.05;
 // Median of the length of a two-dimensional normal vector with unit variances: sqrt(2 ln 2).
 constexpr double kRayleighMedian = 1.17741;
@@ -278,8 +281,9 @@ class Adjustment {
     if (!prior) return false;
     const Eigen::Vector3d sigma(prior->sigma_horizontal_m, prior->sigma_horizontal_m,
                                 prior->sigma_vertical_m);
-    problem_.AddResidualBlock(PositionCost::Create(prior->position, sigma), &prior_loss_,
-                              pose.values);
+    problem_.AddResidualBlock(
+        PositionCost::Create(prior->position, sigma),
+        sigma.maxCoeff() < kHoldsBends_m ? &sure_position_loss_ : &prior_loss_, pose.values);
     return true;
   }
 
@@ -334,6 +338,9 @@ class Adjustment {
   std::vector<std::unique_ptr<ceres::SubsetManifold>> subsets_;
   ceres::CauchyLoss loss_{options_.loss_scale};
   ceres::CauchyLoss prior_outliers_{kPriorLossScale};
+  double position_noise_ = std::max(options_.noise, options_.least_noise_against_positions);
+  ceres::ScaledLoss sure_position_loss_{&prior_outliers_, position_noise_* position_noise_,
+                                        ceres::DO_NOT_TAKE_OWNERSHIP};
   ceres::ScaledLoss prior_loss_{&prior_outliers_, options_.noise* options_.noise,
                                 ceres::DO_NOT_TAKE_OWNERSHIP};
   ceres::Problem problem_;  // last: refers to the members above

@@ -23,6 +23,9 @@ struct AdjustOptions {
   // Standard deviation of keypoints in units of the one they came with, against which the priors
   // weigh: 1 lets them weigh as much as it says, less lets them weigh less.
   double noise = 1;
+  // The same against positions good to a decimetre, at least: lenses that are not quite as modelled
+  // bend a model by centimetres, which these can hold.
+  double least_noise_against_positions = 0;
   // Tracks that take part, by index; empty: all that have a point.
   std::vector<int> tracks;
   int threads = 1;  // more than one is faster but not reproducible

@@ -27,9 +27,9 @@ constexpr size_t kSureMatches = 30;  // tie two photos into one component
 // More observations than these take no part in an adjustment of everything: poses are as good
 // without, as each photo has its share of those that do.
 constexpr int kAllObservations = 150000;
-// Against records keypoints are not better than this, whatever their residuals show: what the lens
-// model lacks makes them err together.
-constexpr double kLeastNoiseAgainstRecords = 0.5;
+// Against positions keypoints are not better than this, whatever their residuals show: what the
+// lens model lacks makes them err together.
+constexpr double kLeastNoiseAgainstPositions = 0.5;
 
 TriangulateOptions ForTriangulation(const MapperOptions& options) {
   return {.max_error_sigmas = options.max_error_sigmas, .min_angle_rad = options.min_angle_rad};
@@ -277,8 +277,9 @@ AdjustOptions ForEverything(const MapperOptions& options, bool use_priors, const
   adjust.threads = options.adjust_threads;
   // Robust by the noise that there is; records, whose deviations are measured too, weigh against
   // it. The weight against lens priors stays that of the stated one.
-  adjust.noise = std::max(kLeastNoiseAgainstRecords, MeasureNoise(scene));
-  adjust.loss_scale *= MeasureNoise(scene);
+  adjust.noise = MeasureNoise(scene);
+  adjust.least_noise_against_positions = kLeastNoiseAgainstPositions;
+  adjust.loss_scale *= adjust.noise;
   return adjust;
 }
 
