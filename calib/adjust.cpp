@@ -160,14 +160,7 @@ class Adjustment {
       std::iota(tracks.begin(), tracks.end(), 0);
       return tracks;
     }
-    for (const int photo : options_.variable_photos) {
-      for (const int track : scene_.tracks_of_photo[photo]) {
-        if (track >= 0) tracks.push_back(track);
-      }
-    }
-    std::sort(tracks.begin(), tracks.end());
-    tracks.erase(std::unique(tracks.begin(), tracks.end()), tracks.end());
-    return tracks;
+    return TracksOf(scene_, options_.variable_photos);
   }
 
   void AddTrack(SceneTrack& track, AdjustReport& report) {
@@ -289,8 +282,9 @@ class Adjustment {
 
   void AddAttitude(const std::optional<AttitudePrior>& prior, PoseBlock& pose) {
     if (!prior) return;
-    problem_.AddResidualBlock(AttitudeCost::Create(prior->cam_from_world, prior->sigma_rad),
-                              &prior_loss_, pose.values);
+    problem_.AddResidualBlock(
+        AttitudeCost::Create<kPoseSize>(prior->cam_from_world, prior->sigma_rad), &prior_loss_,
+        pose.values);
   }
 
   // Two photos that do not move hold the frame. Without any, the first one is held; with one, the
@@ -367,6 +361,11 @@ double PriorSigma(const SceneCamera& camera, int i) {
 
 AdjustReport Adjust(const AdjustOptions& options, Scene& scene) {
   return Adjustment(options, scene).Solve();
+}
+
+void WeighByTolerance(double tolerance_sigmas, AdjustOptions& options) {
+  options.loss_scale = tolerance_sigmas / 4;
+  options.noise = tolerance_sigmas / 8;
 }
 
 double MeasureNoise(const Scene& scene) {

@@ -48,9 +48,10 @@ struct AdjustReport {
 // consistent scene. Throws Error (kStageFailed) for camera models without a cost function.
 AdjustReport Adjust(const AdjustOptions& options, Scene& scene);
 
-// What may be as far from its point as a tolerance errs by this part of it: observations weigh
-// little against records as long as their points and poses are rough.
-inline constexpr double kToleranceInNoise = 8;
+// Robust weights for poses and points that are as rough as the tolerance that observations were
+// chosen with (standard deviations of the keypoints): these weigh little against records then. Sets
+// `loss_scale` and `noise`.
+void WeighByTolerance(double tolerance_sigmas, AdjustOptions& options);
 
 // Standard deviation of the keypoints per axis as their residuals show it, in units of the one they
 // came with: from the median, so that wrong matches do not count. At least 0.05; 1 without points.

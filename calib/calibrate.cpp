@@ -14,6 +14,7 @@
 
 #include "calib/adjust.h"
 #include "calib/contradictions.h"
+#include "calib/covariance.h"
 #include "calib/detect_photos.h"
 #include "calib/focal.h"
 #include "calib/georeference.h"
@@ -222,7 +223,16 @@ struct GeoreferenceResult {
   PriorResiduals residuals;
   std::map<int, std::string> taken;     // photos whose poses contradict their records
   std::optional<RecordErrors> records;  // where they hold the frame
+  SceneSigmas sigmas;
 };
+
+SceneSigmas SigmasOf(const MapperOptions& mapper, bool use_priors, const Scene& scene) {
+  SigmaOptions options;
+  options.use_priors = use_priors;
+  options.tracks = TracksToAdjust(mapper, scene);
+  options.threads = mapper.threads;
+  return EstimateSigmas(options, scene);
+}
 
 // Judges every pose by what the records turned out to be good to, and adjusts once more with those
 // that agree. Requires a scene in the frame of the records.
@@ -245,24 +255,23 @@ GeoreferenceResult RefineWithRecords(const MapperOptions& mapper,
   apply();
   Converge(mapper, true, context, scene);
   apply();
+  std::vector<int> taken = wrong.taken;
   for (const int photo : ContradictingPoses(scene)) {
     scene.photos[photo].pose.reset();
-    result.taken[photo] = {};
+    taken.push_back(photo);
   }
   for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
     if (scene.photos[i].pose && JudgePose(scene, i) != RecordVerdict::kAgrees) {
       result.prior_outliers.push_back(i);
     }
   }
-  for (const int photo : wrong.taken) {
-    if (!scene.photos[photo].pose) result.taken[photo] = {};
-  }
-  for (auto& [photo, why] : result.taken) {
-    why =
+  for (const int photo : taken) {
+    result.taken[photo] =
         "its matches give a pose that contradicts its recorded position and angles by more than "
         "these are good to; something that repeats itself looks like that, or a wrong record";
   }
   FilterScene(mapper, scene);
+  result.sigmas = SigmasOf(mapper, true, scene);
   for (size_t i = 0; i < records.size(); ++i) scene.photos[i].prior = records[i].position;
   return result;
 }
@@ -325,7 +334,11 @@ GeoreferenceResult Georeference(const Reconstructed& from, const MapperOptions& 
   if (!from.is_in_frame) without = BringIntoFrame(from, mapper, photos, context, scene);
   GeoreferenceResult result =
       without ? std::move(*without) : RefineWithRecords(mapper, from.records, context, scene);
-  if (!without) result.georef = *from.frame;
+  if (without) {
+    result.sigmas = SigmasOf(mapper, false, scene);
+  } else {
+    result.georef = *from.frame;
+  }
   for (const int photo : result.prior_outliers) {
     context.progress->Warn(
         fmt::format("{}: its recorded position contradicts the other photos and is not used",
@@ -405,7 +418,8 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
                              unregistered,
                              georeference.residuals,
                              georeference.prior_outliers,
-                             georeference.records ? &*georeference.records : nullptr};
+                             georeference.records ? &*georeference.records : nullptr,
+                             georeference.sigmas};
   Write(summary, georeference.georef, findings, context);
   const auto keypoints = CountKeypoints(features, PlacesOfAll(options, set, features));
   WriteFile(context.out / "photos.csv", PhotosCsv(summary, {keypoints, matched.tried, pairs}));

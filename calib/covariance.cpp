@@ -6,17 +6,21 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <map>
 #include <memory>
+#include <optional>
 
 #include "calib/adjust.h"
 #include "calib/internal/costs.h"
+#include "survey/parallel.h"
 
 namespace stucco {
 namespace {
 
+using Matrix36 = Eigen::Matrix<double, 3, 6>;
 using Matrix2X = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor>;
 
 struct Linearised {
@@ -58,100 +62,183 @@ bool Linearise(const Scene& scene, const SceneElement& element, const Eigen::Vec
   return true;
 }
 
-// Derivatives of the centre by the rotation as Ceres' manifold turns it (q' = exp(d) q, a rotation
-// by twice the vector d), with the translation held.
-Eigen::Matrix3d CenterByRotation(const Pose& pose) {
+// Derivatives of the centre by a pose as Ceres' manifold changes it: the rotation by twice the
+// vector d (q' = exp(d) q), and the translation.
+Matrix36 CenterByPose(const Pose& pose) {
   const Eigen::Vector3d& t = pose.translation;
   Eigen::Matrix3d cross;
   cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
-  return -2 * pose.rotation.conjugate().toRotationMatrix() * cross;
+  const Eigen::Matrix3d world_from_cam = pose.rotation.conjugate().toRotationMatrix();
+  Matrix36 by_pose;
+  by_pose << -2 * world_from_cam * cross, -world_from_cam;
+  return by_pose;
 }
 
+// The similarity that fits small motions of all centres best (least squares): translation, turn
+// about the middle and scale.
+class Datum {
+ public:
+  using Matrix37 = Eigen::Matrix<double, 3, 7>;
+  using Matrix73 = Eigen::Matrix<double, 7, 3>;
+
+  explicit Datum(const Scene& scene) : offsets_(scene.photos.size(), Eigen::Vector3d::Zero()) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const ScenePhoto& photo : scene.photos) {
+      if (photo.pose) middle += photo.pose->Center() / NumRegistered(scene);
+    }
+    Eigen::Matrix<double, 7, 7> normal = Eigen::Matrix<double, 7, 7>::Zero();
+    for (size_t i = 0; i < offsets_.size(); ++i) {
+      if (!scene.photos[i].pose) continue;
+      offsets_[i] = scene.photos[i].pose->Center() - middle;
+      normal += CenterBySimilarity(i).transpose() * CenterBySimilarity(i);
+    }
+    // Places on a line do not say how they turn about it.
+    inverse_ = normal.completeOrthogonalDecomposition().pseudoInverse();
+  }
+
+  // Of photo `i`, which must have a pose.
+  Matrix73 ByCenter(size_t i) const { return inverse_ * CenterBySimilarity(i).transpose(); }
+  Matrix37 CenterBySimilarity(size_t i) const {
+    const Eigen::Vector3d& x = offsets_[i];
+    Matrix37 by_similarity;
+    by_similarity << Eigen::Matrix3d::Identity(),
+        (Eigen::Matrix3d() << 0, x.z(), -x.y(), -x.z(), 0, x.x(), x.y(), -x.x(), 0).finished(), x;
+    return by_similarity;
+  }
+  // Of the rotation vector in the camera's frame: the camera turns against the world.
+  static Matrix37 RotationBySimilarity(const Pose& pose) {
+    Matrix37 by_similarity = Matrix37::Zero();
+    by_similarity.middleCols<3>(3) = -pose.rotation.toRotationMatrix();
+    return by_similarity;
+  }
+
+ private:
+  std::vector<Eigen::Vector3d> offsets_;  // from the middle
+  Eigen::Matrix<double, 7, 7> inverse_;
+};
+
+// How robust residuals scatter: the variance of least squares that would leave poses as uncertain
+// as the robust estimator does, with Cauchy loss at `scale` standard deviations.
+class RobustVariance {
+ public:
+  explicit RobustVariance(double scale) : scale_(scale) {}
+
+  // The squared length of a residual of two components.
+  void Add(double square) {
+    const double weight = 1 / (1 + square / (scale_ * scale_));
+    influence_ += square * weight * weight / 2;
+    slope_ += weight * weight;
+    ++count_;
+  }
+  int num_residuals() const { return 2 * count_; }
+  // With the degrees of freedom that are left.
+  double Get(double num_unknowns) const {
+    const double n = count_;
+    const double redundancy = std::max(1.0, 2 * n - num_unknowns) / (2 * n);
+    return influence_ / n / std::pow(slope_ / n, 2) / redundancy;
+  }
+
+ private:
+  double scale_;
+  double influence_ = 0;
+  double slope_ = 0;
+  int count_ = 0;
+};
+
+// Robust residuals lose weight beyond this many deviations of their noise (AdjustOptions).
+constexpr double kLossScale = 2;
+
+// The normal equations of poses and intrinsics, points eliminated.
 class ReducedSystem {
  public:
-  explicit ReducedSystem(const Scene& scene) : scene_(scene) {
+  explicit ReducedSystem(const Scene& scene)
+      : scene_(scene), scatter_(kLossScale * MeasureNoise(scene)) {
     for (const SceneCamera& camera : scene.cameras) {
       camera_offset_.push_back(size_);
       if (camera.focal_sigma_ratio > 0) size_ += static_cast<int>(camera.intrinsics.params.size());
     }
+    pose_offset_.assign(scene.photos.size(), -1);
     for (size_t i = 0; i < scene.photos.size(); ++i) {
       if (!scene.photos[i].pose) continue;
-      pose_offset_[static_cast<int>(i)] = size_;
+      pose_offset_[i] = size_;
       size_ += 6;
     }
     normal_ = Eigen::MatrixXd::Zero(size_, size_);
   }
 
   void AddTrack(const SceneTrack& track) {
-    if (!track.position) return;
-    std::map<int, Eigen::MatrixXd> cross;  // offset -> block (rows of the block) x 3
+    const auto used = std::ranges::count_if(track.elements, &SceneElement::used);
+    if (!track.position || used < 2) return;
+    cross_.clear();
     Eigen::Matrix3d point_block = Eigen::Matrix3d::Zero();
     for (const SceneElement& element : track.elements) {
-      if (!element.used) continue;
       Linearised l;
-      if (!Linearise(scene_, element, *track.position, l)) continue;
-      squares_ += l.residual.squaredNorm();
-      num_residuals_ += 2;
+      if (!element.used || !Linearise(scene_, element, *track.position, l)) continue;
+      scatter_.Add(l.residual.squaredNorm());
       const int camera = scene_.photos[element.photo].camera;
-      const bool free = scene_.cameras[camera].focal_sigma_ratio > 0;
-      const int pose = pose_offset_.at(element.photo);
+      const int pose = pose_offset_[element.photo];
       point_block += l.point.transpose() * l.point;
       AddBlock(pose, pose, l.pose.transpose() * l.pose);
-      AddCross(cross, pose, l.pose.transpose() * l.point);
-      if (!free) continue;
+      AddCross(pose, l.pose.transpose() * l.point);
+      if (scene_.cameras[camera].focal_sigma_ratio == 0) continue;
       const int intrinsics = camera_offset_[camera];
       AddBlock(intrinsics, intrinsics, l.intrinsics.transpose() * l.intrinsics);
-      AddBlock(intrinsics, pose, l.intrinsics.transpose() * l.pose);
       AddBlock(pose, intrinsics, l.pose.transpose() * l.intrinsics);
-      AddCross(cross, intrinsics, l.intrinsics.transpose() * l.point);
+      AddCross(intrinsics, l.intrinsics.transpose() * l.point);
     }
     const Eigen::Matrix3d inverse = point_block.inverse();
     if (!inverse.allFinite()) return;
     ++num_points_;
-    for (const auto& [row, a] : cross) {
-      for (const auto& [col, b] : cross) AddBlock(row, col, -a * inverse * b.transpose());
+    for (const Cross& row : cross_) {
+      const Eigen::MatrixX3d eliminated = row.block * inverse;
+      for (const Cross& col : cross_) {
+        if (col.offset <= row.offset) {
+          AddBlock(row.offset, col.offset, -eliminated * col.block.transpose());
+        }
+      }
     }
   }
 
-  std::vector<Eigen::VectorXd> Solve() {
-    const double redundancy = num_residuals_ - 3.0 * num_points_ - size_;
-    const double variance = squares_ / std::max(1.0, redundancy);
+  SceneSigmas Solve(const SigmaOptions& options) {
+    SceneSigmas sigmas;
+    sigmas.poses.resize(scene_.photos.size());
+    if (scatter_.num_residuals() == 0) return sigmas;
+    const double variance = scatter_.Get(3.0 * num_points_ + size_);
     for (size_t c = 0; c < scene_.cameras.size(); ++c) {
-      if (scene_.cameras[c].focal_sigma_ratio > 0) AddPrior(c, variance);
+      if (scene_.cameras[c].focal_sigma_ratio > 0) AddLens(c, variance);
     }
-    HoldFrame();
-    const Eigen::LDLT<Eigen::MatrixXd> factors(normal_);
-    if (factors.info() != Eigen::Success || !factors.isPositive()) return {};
-    std::vector<Eigen::VectorXd> sigmas;
-    for (size_t c = 0; c < scene_.cameras.size(); ++c) {
-      const int count = static_cast<int>(scene_.cameras[c].intrinsics.params.size());
-      Eigen::VectorXd sigma = Eigen::VectorXd::Zero(count);
-      for (int i = 0; scene_.cameras[c].focal_sigma_ratio > 0 && i < count; ++i) {
-        const int index = camera_offset_[c] + i;
-        const double covariance = factors.solve(Eigen::VectorXd::Unit(size_, index))[index];
-        if (!std::isfinite(covariance) || covariance <= 0) return {};
-        sigma[i] = std::sqrt(covariance * variance);
-      }
-      sigmas.push_back(sigma);
-    }
+    if (!options.use_priors || !AddPriors(variance)) HoldFrame();
+    const auto halves = HalfInverse(options.threads);
+    if (!halves) return sigmas;
+    SetIntrinsics(*halves, variance, sigmas);
+    SetPoses(*halves, variance, sigmas);
     return sigmas;
   }
 
  private:
+  struct Cross {
+    int offset = 0;
+    Eigen::MatrixX3d block;
+  };
+
+  // Of the lower triangle; what lies above it is not looked at.
   template <typename Block>
   void AddBlock(int row, int col, const Block& block) {
     normal_.block(row, col, block.rows(), block.cols()) += block;
   }
 
-  static void AddCross(std::map<int, Eigen::MatrixXd>& cross, int offset,
-                       const Eigen::MatrixXd& block) {
-    const auto [it, is_new] = cross.try_emplace(offset, block);
-    if (!is_new) it->second += block;
+  void AddCross(int offset, const Eigen::MatrixX3d& block) {
+    const auto same = std::ranges::find(cross_, offset, &Cross::offset);
+    if (same == cross_.end()) {
+      cross_.push_back({offset, block});
+    } else {
+      same->block += block;
+    }
   }
 
   // What the adjustment assumes about the lens. The whole system is scaled by `variance` in the
   // end, which must not make these assumptions any firmer.
-  void AddPrior(size_t index, double variance) {
+  void AddLens(size_t index, double variance) {
     const SceneCamera& camera = scene_.cameras[index];
     const int offset = camera_offset_[index];
     for (int i = 0; i < static_cast<int>(camera.intrinsics.params.size()); ++i) {
@@ -165,73 +252,154 @@ class ReducedSystem {
     AddBlock(offset, offset, variance * by_focal.transpose() * by_focal);
   }
 
+  // Returns whether they hold the frame.
+  bool AddPriors(double variance) {
+    int positions = 0;
+    for (size_t i = 0; i < scene_.photos.size(); ++i) {
+      const ScenePhoto& photo = scene_.photos[i];
+      if (!photo.pose) continue;
+      const int offset = pose_offset_[i];
+      if (photo.attitude) {
+        // The unknowns are half angles.
+        normal_.diagonal().segment<3>(offset).array() +=
+            4 * variance / std::pow(photo.attitude->sigma_rad, 2);
+      }
+      if (!photo.prior) continue;
+      const Eigen::Vector3d sigma(photo.prior->sigma_horizontal_m, photo.prior->sigma_horizontal_m,
+                                  photo.prior->sigma_vertical_m);
+      const Matrix36 by_pose = sigma.cwiseInverse().asDiagonal() * CenterByPose(*photo.pose);
+      AddBlock(offset, offset, variance * by_pose.transpose() * by_pose);
+      ++positions;
+    }
+    return positions >= 3;
+  }
+
   // First pose, and the scale by that coordinate of the farthest pose that changes most with it.
   void HoldFrame() {
-    const auto& [first, first_offset] = *pose_offset_.begin();
+    const auto first = std::ranges::find_if(pose_offset_, [](int offset) { return offset >= 0; });
     const double strong = normal_.diagonal().maxCoeff();
-    normal_.block<6, 6>(first_offset, first_offset).diagonal().array() += strong;
-    const Eigen::Vector3d origin = scene_.photos[first].pose->Center();
+    normal_.diagonal().segment<6>(*first).array() += strong;
+    const Eigen::Vector3d origin = scene_.photos[first - pose_offset_.begin()].pose->Center();
     double farthest = -1;
     int index = 0;
-    for (const auto& [photo, offset] : pose_offset_) {
-      const Eigen::Vector3d to_origin = *scene_.photos[photo].pose * origin;
+    for (size_t i = 0; i < pose_offset_.size(); ++i) {
+      if (pose_offset_[i] < 0) continue;
+      const Eigen::Vector3d to_origin = *scene_.photos[i].pose * origin;
       if (to_origin.norm() <= farthest) continue;
       farthest = to_origin.norm();
       int axis = 0;
       to_origin.cwiseAbs().maxCoeff(&axis);
-      index = offset + 3 + axis;
+      index = pose_offset_[i] + 3 + axis;
     }
     normal_(index, index) += strong;
   }
 
+  // A matrix whose product with its own transpose from the left is the inverse: M' M. Lower
+  // triangular; nothing where the system is singular. Takes the system.
+  std::optional<Eigen::MatrixXd> HalfInverse(int threads) {
+    const Eigen::VectorXd scale = normal_.diagonal().cwiseSqrt().cwiseInverse();
+    if (!scale.allFinite()) return std::nullopt;
+    normal_ = scale.asDiagonal() * normal_ * scale.asDiagonal();
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(normal_);
+    if (factors.info() != Eigen::Success) return std::nullopt;
+    constexpr int kColumns = 96;
+    Eigen::MatrixXd half = Eigen::MatrixXd::Zero(size_, size_);
+    ParallelFor((size_ + kColumns - 1) / kColumns, threads, [&](size_t block) {
+      const int begin = static_cast<int>(block) * kColumns;
+      const int count = std::min(kColumns, size_ - begin);
+      const int below = size_ - begin;
+      auto columns = half.block(begin, begin, below, count);
+      columns.topRows(count).setIdentity();
+      normal_.bottomRightCorner(below, below).triangularView<Eigen::Lower>().solveInPlace(columns);
+    });
+    half = half * scale.asDiagonal();
+    if (!half.allFinite()) return std::nullopt;
+    return half;
+  }
+
+  void SetIntrinsics(const Eigen::MatrixXd& half, double variance, SceneSigmas& sigmas) const {
+    for (size_t c = 0; c < scene_.cameras.size(); ++c) {
+      const SceneCamera& camera = scene_.cameras[c];
+      const int count = static_cast<int>(camera.intrinsics.params.size());
+      Eigen::VectorXd& sigma = sigmas.intrinsics.emplace_back(Eigen::VectorXd::Zero(count));
+      if (camera.focal_sigma_ratio == 0) continue;
+      sigma = std::sqrt(variance) *
+              half.middleCols(camera_offset_[c], count).colwise().norm().transpose();
+    }
+  }
+
+  void SetPoses(const Eigen::MatrixXd& half, double variance, SceneSigmas& sigmas) const {
+    const Datum datum(scene_);
+    // What the unknowns do to the similarity of all: 7 x size.
+    Eigen::MatrixXd similarity = Eigen::MatrixXd::Zero(7, size_);
+    for (size_t i = 0; i < pose_offset_.size(); ++i) {
+      if (pose_offset_[i] < 0) continue;
+      similarity.middleCols<6>(pose_offset_[i]) =
+          datum.ByCenter(i) * CenterByPose(*scene_.photos[i].pose);
+    }
+    const Eigen::MatrixXd of_similarity = half * similarity.transpose();
+    for (size_t i = 0; i < pose_offset_.size(); ++i) {
+      if (pose_offset_[i] < 0) continue;
+      const Pose& pose = *scene_.photos[i].pose;
+      const auto own = half.middleCols<6>(pose_offset_[i]);
+      const Eigen::MatrixX3d center = own * CenterByPose(pose).transpose() -
+                                      of_similarity * datum.CenterBySimilarity(i).transpose();
+      const Eigen::MatrixX3d rotation =
+          2 * own.leftCols<3>() - of_similarity * Datum::RotationBySimilarity(pose).transpose();
+      sigmas.poses[i] = {std::sqrt(variance) * center.norm(),
+                         std::sqrt(variance) * rotation.norm()};
+    }
+  }
+
   const Scene& scene_;
+  RobustVariance scatter_;
   int size_ = 0;
   std::vector<int> camera_offset_;
-  std::map<int, int> pose_offset_;
-  Eigen::MatrixXd normal_;
-  double squares_ = 0;
-  int num_residuals_ = 0;
+  std::vector<int> pose_offset_;  // by photo; -1 without a pose
+  Eigen::MatrixXd normal_;        // lower triangle
+  std::vector<Cross> cross_;      // of one track
   int num_points_ = 0;
 };
 
-}  // namespace
-
-std::vector<Eigen::VectorXd> IntrinsicsSigma(const Scene& scene, int max_photos) {
-  assert(IsConsistent(scene));
-  const int registered = NumRegistered(scene);
-  if (registered < 2 || registered > max_photos) return {};
-  ReducedSystem system(scene);
-  for (const SceneTrack& track : scene.tracks) system.AddTrack(track);
-  return system.Solve();
-}
-
-std::vector<PoseSigma> PoseSigmas(const Scene& scene) {
-  assert(IsConsistent(scene));
+// Each pose with the points held.
+std::vector<PoseSigma> OwnSigmas(const Scene& scene) {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   std::vector<Matrix6> normals(scene.photos.size(), Matrix6::Zero());
+  RobustVariance scatter(kLossScale * MeasureNoise(scene));
   for (const SceneTrack& track : scene.tracks) {
     if (!track.position) continue;
     for (const SceneElement& element : track.elements) {
       Linearised l;
       if (!element.used || !Linearise(scene, element, *track.position, l)) continue;
       normals[element.photo] += l.pose.transpose() * l.pose;
+      scatter.Add(l.residual.squaredNorm());
     }
   }
-  const double noise = MeasureNoise(scene);
   std::vector<PoseSigma> sigmas(scene.photos.size());
   for (size_t i = 0; i < sigmas.size(); ++i) {
     if (!scene.photos[i].pose) continue;
-    const Matrix6 covariance = noise * noise * normals[i].inverse();
+    const Matrix6 covariance = scatter.Get(0) * normals[i].inverse();
     if (!covariance.allFinite()) continue;
-    // The rotation block is of half angles (the manifold of quaternions); the centre is -R^T t.
-    const Pose& pose = *scene.photos[i].pose;
-    Eigen::Matrix<double, 3, 6> by_pose;
-    by_pose.leftCols<3>() = CenterByRotation(pose);
-    by_pose.rightCols<3>() = -pose.rotation.conjugate().toRotationMatrix();
+    const Matrix36 by_pose = CenterByPose(*scene.photos[i].pose);
     sigmas[i].position = std::sqrt((by_pose * covariance * by_pose.transpose()).trace());
     sigmas[i].rotation_rad = 2 * std::sqrt(covariance.topLeftCorner<3, 3>().trace());
   }
   return sigmas;
+}
+
+}  // namespace
+
+SceneSigmas EstimateSigmas(const SigmaOptions& options, const Scene& scene) {
+  assert(IsConsistent(scene));
+  const int registered = NumRegistered(scene);
+  if (registered < 2) return {{}, std::vector<PoseSigma>(scene.photos.size())};
+  if (registered > options.max_photos) return {{}, OwnSigmas(scene)};
+  ReducedSystem system(scene);
+  if (options.tracks.empty()) {
+    for (const SceneTrack& track : scene.tracks) system.AddTrack(track);
+  }
+  for (const int track : options.tracks) system.AddTrack(scene.tracks[track]);
+  return system.Solve(options);
 }
 
 }  // namespace stucco

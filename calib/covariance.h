@@ -9,20 +9,31 @@
 
 namespace stucco {
 
-// Standard deviations of every camera's intrinsics after an adjustment of everything, from the
-// inverse of the normal equations with points eliminated (Schur complement; Triggs et al. 2000,
-// section 6.3), scaled by the residuals' own variance. Empty when the system is singular or has
-// more than `max_photos` photos; 0 for cameras that were held fixed. The frame is held by the first
-// pose and the scale.
-std::vector<Eigen::VectorXd> IntrinsicsSigma(const Scene& scene, int max_photos = 400);
-
 struct PoseSigma {
-  double position = -1;      // unit of the scene, root of the sum over the axes; -1 without a pose
+  double position = -1;      // unit of the scene, root of the sum over the axes; -1: not computed
   double rotation_rad = -1;  // likewise
 };
 
-// Standard deviation of every pose with the points and intrinsics held: its own part of the error,
-// without what it shares with its neighbours. Scaled by the noise that the residuals show.
-std::vector<PoseSigma> PoseSigmas(const Scene& scene);
+struct SceneSigmas {
+  std::vector<Eigen::VectorXd> intrinsics;  // by camera, 0 where held; empty: not computed
+  std::vector<PoseSigma> poses;             // by photo
+};
+
+struct SigmaOptions {
+  // With more registered photos intrinsics are not computed, and poses with all points held: each
+  // photo's own part of the error.
+  int max_photos = 800;
+  bool use_priors = false;       // took part in the adjustment
+  std::vector<int> tracks = {};  // that did, by index; empty: all that have a point
+  int threads = 1;
+};
+
+// One standard deviation of what an adjustment of everything found, from the inverse of its normal
+// equations with points eliminated (Schur complement; Triggs et al. 2000, section 6.3) and the
+// scatter of the residuals as a robust estimator sees it (Huber, "Robust Statistics", 1981, section
+// 7.6). Poses are those of the model in itself: what a similarity of all photos' places takes away
+// is left out (S-transformation: Baarda 1973), so that the frame that the system was solved in does
+// not matter. Nothing is computed where the system is singular.
+SceneSigmas EstimateSigmas(const SigmaOptions& options, const Scene& scene);
 
 }  // namespace stucco

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "calib/expect/expected_poses.h"
+#include "calib/photo_set.h"
 #include "survey/files.h"
 #include "survey/plan_of_survey.h"
 
@@ -40,14 +41,14 @@ WallView ViewOfWall(const Plan& plan, const ExpectedViews& views, int photo, int
   return view;
 }
 
-std::string KeyOf(const WallView& view, const Camera& camera) {
+std::string KeyOfView(const WallView& view, const Camera& camera) {
   const Eigen::Vector4d q = view.cam_from_plan.rotation.coeffs();
   const Eigen::Vector3d& t = view.cam_from_plan.translation;
-  return fmt::format("{} {} {} {} | {} {} {} {} | {} | {} {} {} | {} {} {}", view.wall.a_m.x(),
+  return fmt::format("{} {} {} {} | {} {} {} {} | {} | {} {} {} | {}", view.wall.a_m.x(),
                      view.wall.a_m.y(), view.wall.b_m.x(), view.wall.b_m.y(), view.along_m.from_m,
                      view.along_m.to_m, view.z_m.from_m, view.z_m.to_m,
                      fmt::join(std::array{q[0], q[1], q[2], q[3]}, " "), t.x(), t.y(), t.z(),
-                     Name(camera.model), camera.width_px, fmt::join(camera.params, " "));
+                     KeyOf(camera));
 }
 
 }  // namespace
@@ -70,7 +71,7 @@ Guidance GuideByPlan(const CalibOptions& options, const Captures& captures,
       if (!is_new) continue;
       place->second.view = ViewOfWall(*plan, views, photo, pair.wall);
       place->second.key =
-          KeyOf(place->second.view, captures.cameras[photos[photo]->camera].intrinsics);
+          KeyOfView(place->second.view, captures.cameras[photos[photo]->camera].intrinsics);
     }
   }
   return guidance;

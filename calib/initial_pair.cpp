@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/pair_rays.h"
 #include "survey/disjoint_sets.h"
 #include "survey/median.h"
 
@@ -22,29 +23,6 @@ constexpr int kLeastInliers = 30;
 // ones.
 constexpr size_t kBestPairs = 40;
 constexpr size_t kOtherPairs = 200;
-
-struct RayPairs {
-  std::vector<Eigen::Vector2d> first;
-  std::vector<Eigen::Vector2d> second;
-  double max_error = 0;  // in units of the rays
-};
-
-RayPairs RaysOf(const Scene& scene, const PhotoPair& pair, double max_error_sigmas) {
-  RayPairs rays;
-  const Camera& camera_a = scene.CameraOf(pair.first);
-  const Camera& camera_b = scene.CameraOf(pair.second);
-  for (const Match& match : pair.matches) {
-    const auto a = camera_a.Unproject(scene.photos[pair.first].keypoints[match.first]);
-    const auto b = camera_b.Unproject(scene.photos[pair.second].keypoints[match.second]);
-    if (!a || !b) continue;
-    rays.first.push_back(*a);
-    rays.second.push_back(*b);
-  }
-  const double sigma_a = scene.photos[pair.first].keypoint_sigma_px / camera_a.FocalX();
-  const double sigma_b = scene.photos[pair.second].keypoint_sigma_px / camera_b.FocalX();
-  rays.max_error = max_error_sigmas * (sigma_a + sigma_b) / 2;
-  return rays;
-}
 
 // True when both photos have poses and the rays of their common points meet at a clear angle.
 bool HasParallax(const Scene& scene, const PhotoPair& pair) {
@@ -69,7 +47,7 @@ struct ScoredPair {
 
 std::optional<ScoredPair> Score(const Scene& scene, const VerifiedPair& candidate,
                                 double max_error_sigmas) {
-  const RayPairs rays = RaysOf(scene, candidate.pair, max_error_sigmas);
+  const PairRays rays = RaysOf(scene, candidate.pair, max_error_sigmas);
   const auto relative = EstimateRelativePose(rays.first, rays.second, rays.max_error);
   if (!relative || relative->num_inliers < kLeastInliers) return std::nullopt;
   if (relative->median_angle_rad < kLeastAngle) return std::nullopt;
@@ -103,7 +81,7 @@ void ClassifyMotion(const Scene& scene, double max_error_sigmas, VerifiedPair& p
   // for.
   const int count = static_cast<int>(pair.pair.matches.size());
   if (pair.geometry.num_homography < 0.6 * count) return;
-  const RayPairs rays = RaysOf(scene, pair.pair, max_error_sigmas);
+  const PairRays rays = RaysOf(scene, pair.pair, max_error_sigmas);
   // Twice the tolerance: the focal length may still be a guess, which bends a rotation by some
   // pixels.
   const int by_rotation = CountRotationInliers(rays.first, rays.second, 2 * rays.max_error,

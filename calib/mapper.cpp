@@ -102,9 +102,9 @@ int NumObservations(const Scene& scene) {
 
 // Adjusts everything; of a large scene with chosen tracks, the points of the others follow.
 AdjustReport AdjustChosen(const MapperOptions& options, AdjustOptions adjust, Scene& scene) {
-  if (NumObservations(scene) <= kAllObservations) return Adjust(adjust, scene);
-  adjust.tracks = ChooseTracks(scene, options.observations_per_photo);
+  adjust.tracks = TracksToAdjust(options, scene);
   const AdjustReport report = Adjust(adjust, scene);
+  if (adjust.tracks.empty()) return report;
   std::vector<bool> is_chosen(scene.tracks.size(), false);
   for (const int track : adjust.tracks) is_chosen[track] = true;
   for (size_t t = 0; t < scene.tracks.size(); ++t) {
@@ -114,9 +114,22 @@ AdjustReport AdjustChosen(const MapperOptions& options, AdjustOptions adjust, Sc
   return report;
 }
 
-void AdjustEverything(const MapperOptions& options, Scene& scene) {
+AdjustOptions ForEverything(const MapperOptions& options, bool use_priors, const Scene& scene) {
   AdjustOptions adjust;
-  adjust.use_priors = options.use_priors;
+  adjust.refine = options.refine_principal_point ? RefineIntrinsics::kPrincipalPoint
+                                                 : RefineIntrinsics::kDistortion;
+  adjust.use_priors = use_priors;
+  adjust.threads = options.adjust_threads;
+  // Robust by the noise that there is; records, whose deviations are measured too, weigh against
+  // it. The weight against lens priors stays that of the stated one.
+  adjust.noise = MeasureNoise(scene);
+  adjust.least_noise_against_positions = kLeastNoiseAgainstPositions;
+  adjust.loss_scale *= adjust.noise;
+  return adjust;
+}
+
+void AdjustEverything(const MapperOptions& options, Scene& scene) {
+  AdjustOptions adjust = options.use_priors ? ForEverything(options, true, scene) : AdjustOptions{};
   adjust.refine = RefineIntrinsics::kDistortion;
   adjust.threads = options.adjust_threads;
   adjust.max_iterations = 30;
@@ -259,6 +272,11 @@ bool DropWeakPoses(const MapperOptions& options, Scene& scene) {
 
 }  // namespace
 
+std::vector<int> TracksToAdjust(const MapperOptions& options, const Scene& scene) {
+  if (NumObservations(scene) <= kAllObservations) return {};
+  return ChooseTracks(scene, options.observations_per_photo);
+}
+
 int FilterScene(const MapperOptions& options, Scene& scene) {
   int dropped = FilterPoints(ForTriangulation(options), options.threads, scene);
   // A photo that goes takes observations from points that other photos may then see too little of.
@@ -266,24 +284,6 @@ int FilterScene(const MapperOptions& options, Scene& scene) {
     dropped += FilterPoints(ForTriangulation(options), options.threads, scene);
   return dropped;
 }
-
-namespace {
-
-AdjustOptions ForEverything(const MapperOptions& options, bool use_priors, const Scene& scene) {
-  AdjustOptions adjust;
-  adjust.refine = options.refine_principal_point ? RefineIntrinsics::kPrincipalPoint
-                                                 : RefineIntrinsics::kDistortion;
-  adjust.use_priors = use_priors;
-  adjust.threads = options.adjust_threads;
-  // Robust by the noise that there is; records, whose deviations are measured too, weigh against
-  // it. The weight against lens priors stays that of the stated one.
-  adjust.noise = MeasureNoise(scene);
-  adjust.least_noise_against_positions = kLeastNoiseAgainstPositions;
-  adjust.loss_scale *= adjust.noise;
-  return adjust;
-}
-
-}  // namespace
 
 void Settle(const MapperOptions& options, bool use_priors, const StageContext& context,
             Scene& scene) {

@@ -48,6 +48,9 @@ std::map<int, std::string> ExplainUnregistered(const MapperOptions& options,
                                                const std::vector<VerifiedPair>& pairs,
                                                const Scene& scene);
 
+// Tracks that take part in an adjustment of everything: chosen ones of a large scene; empty: all.
+std::vector<int> TracksToAdjust(const MapperOptions& options, const Scene& scene);
+
 // Rounds of bundle adjustment of everything, filtering and triangulating anew, until nothing
 // changes. With `use_priors` the scene must be in the frame of its priors.
 void Settle(const MapperOptions& options, bool use_priors, const StageContext& context,

@@ -3,7 +3,6 @@
 #include "calib/match_photos.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstring>
@@ -52,11 +51,6 @@ std::vector<Candidate> Candidates(const std::vector<std::pair<int, int>>& pairs,
     candidates.push_back(std::move(candidate));
   }
   return candidates;
-}
-
-std::string KeyOf(const Camera& camera) {
-  return fmt::format("{} {} {}", Name(camera.model), camera.width_px,
-                     fmt::join(camera.params, " "));
 }
 
 std::string PairKey(const CalibOptions& options, const PhotoSet& set, const Candidate& pair,

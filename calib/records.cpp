@@ -30,8 +30,6 @@ constexpr int kRounds = 10;  // of reweighting
 constexpr double kExpectedMount_rad = 2 * M_PI / 180;
 constexpr double kExpectedTilt_rad = 5 * M_PI / 180;
 constexpr double kExpectedYaw_rad = 10 * M_PI / 180;  // that is left
-// From the median of absolute values to the standard deviation of a normal variable.
-constexpr double kNormalMedian = 0.6745;
 
 std::optional<double> SecondsOf(const std::string& capture_time) {
   std::tm time = {};
@@ -99,10 +97,6 @@ Eigen::Quaterniond FromRotationVector(const Eigen::Vector3d& vector) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle));
 }
 
-Eigen::Quaterniond AboutUp(double angle_rad) {
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()));
-}
-
 // Positions
 
 struct PositionError {
@@ -153,7 +147,7 @@ void SetSigmas(const std::vector<PositionError>& errors, FlightErrors& flight) {
   }
   // A model that bends shows as noise of positions: they are not worse than they state.
   const Eigen::Vector3d ratio =
-      (MedianVector(over_stated) / kNormalMedian).cwiseMin(Eigen::Vector3d::Ones());
+      (MedianVector(over_stated) / kMedianOfNormal).cwiseMin(Eigen::Vector3d::Ones());
   const Eigen::Vector3d usual = MedianVector(stated);
   flight.horizontal_over_stated = std::hypot(ratio.x(), ratio.y()) / std::sqrt(2.0);
   flight.vertical_over_stated = ratio.z();
@@ -302,7 +296,7 @@ AttitudeFit FitAttitudes(const std::vector<AttitudePair>& pairs, const AttitudeU
       const Eigen::Vector3d rest = right[i] - rows[i] * fit.values;
       for (int axis = 0; axis < 3; ++axis) absolute.push_back(std::abs(rest[axis]));
     }
-    scale = std::max(kLeastAttitude_rad, MedianOf(std::move(absolute)) / kNormalMedian);
+    scale = std::max(kLeastAttitude_rad, MedianOf(std::move(absolute)) / kMedianOfNormal);
     fit.sigmas =
         scale * factors.solve(Eigen::MatrixXd::Identity(size, size)).diagonal().cwiseSqrt();
   }

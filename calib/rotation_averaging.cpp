@@ -10,41 +10,22 @@
 
 #include <cassert>
 
+#include "calib/internal/costs.h"
+
 namespace stucco {
 namespace {
 
 constexpr double kLossScale = 3;
 
-// Rotation vector between two rotations over sigma, to the third order.
-template <typename T>
-void Between(const Eigen::Quaternion<T>& from, const Eigen::Quaternion<T>& to, double sigma,
-             T* residual) {
-  const Eigen::Quaternion<T> between = to * from.conjugate();
-  const T twice = between.w() < T(0) ? T(-2 / sigma) : T(2 / sigma);
-  for (int i = 0; i < 3; ++i) residual[i] = twice * between.vec()[i];
-}
-
 struct RelativeCost {
   Eigen::Quaterniond second_from_first;
-  double sigma;
+  double inverse_sigma;
 
   template <typename T>
   bool operator()(const T* first, const T* second, T* residual) const {
     const Eigen::Map<const Eigen::Quaternion<T>> a(first);
     const Eigen::Map<const Eigen::Quaternion<T>> b(second);
-    Between<T>(second_from_first.cast<T>() * a, b, sigma, residual);
-    return true;
-  }
-};
-
-struct OwnCost {
-  Eigen::Quaterniond expected;
-  double sigma;
-
-  template <typename T>
-  bool operator()(const T* rotation, T* residual) const {
-    const Eigen::Map<const Eigen::Quaternion<T>> q(rotation);
-    Between<T>(expected.cast<T>(), q, sigma, residual);
+    WeighRotation<T>(b * (second_from_first.cast<T>() * a).conjugate(), inverse_sigma, residual);
     return true;
   }
 };
@@ -61,15 +42,14 @@ void AverageRotations(const std::vector<RelativeRotation>& pairs, const Rotation
   ceres::Problem problem(problem_options);
   for (auto& rotation : rotations) {
     if (!rotation) continue;
-    problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<OwnCost, 3, 4>(new OwnCost{*rotation, sigmas.prior_rad}),
-        &loss, rotation->coeffs().data());
+    problem.AddResidualBlock(AttitudeCost::Create<4>(*rotation, sigmas.prior_rad), &loss,
+                             rotation->coeffs().data());
     problem.SetManifold(rotation->coeffs().data(), &manifold);
   }
   for (const RelativeRotation& pair : pairs) {
     assert(rotations[pair.first] && rotations[pair.second]);
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<RelativeCost, 3, 4, 4>(
-                                 new RelativeCost{pair.second_from_first, sigmas.relative_rad}),
+                                 new RelativeCost{pair.second_from_first, 1 / sigmas.relative_rad}),
                              &loss, rotations[pair.first]->coeffs().data(),
                              rotations[pair.second]->coeffs().data());
   }

@@ -69,17 +69,33 @@ int NumRegistered(const Scene& scene) {
                                         [](const ScenePhoto& p) { return p.pose.has_value(); }));
 }
 
-int NumUsedObservations(const Scene& scene, int photo) {
-  int count = 0;
-  for (const int track_index : scene.tracks_of_photo[photo]) {
-    if (track_index < 0) continue;
-    const SceneTrack& track = scene.tracks[track_index];
-    if (!track.position) continue;
-    for (const SceneElement& element : track.elements) {
-      if (element.photo == photo && element.used) ++count;
+std::vector<int> TracksOf(const Scene& scene, const std::vector<int>& photos) {
+  std::vector<int> tracks;
+  for (const int photo : photos) {
+    for (const int track : scene.tracks_of_photo[photo]) {
+      if (track >= 0) tracks.push_back(track);
     }
   }
-  return count;
+  std::ranges::sort(tracks);
+  const auto repeated = std::ranges::unique(tracks);
+  tracks.erase(repeated.begin(), repeated.end());
+  return tracks;
+}
+
+std::vector<int> TracksSeenBy(const Scene& scene, int photo) {
+  std::vector<int> seen;
+  for (const int index : scene.tracks_of_photo[photo]) {
+    if (index < 0 || !scene.tracks[index].position) continue;
+    const bool agrees =
+        std::ranges::any_of(scene.tracks[index].elements,
+                            [&](const SceneElement& e) { return e.photo == photo && e.used; });
+    if (agrees) seen.push_back(index);
+  }
+  return seen;
+}
+
+int NumUsedObservations(const Scene& scene, int photo) {
+  return static_cast<int>(TracksSeenBy(scene, photo).size());
 }
 
 double LargestRayAngle(const Scene& scene, const SceneTrack& track) {

@@ -86,6 +86,12 @@ bool IsConsistent(const Scene& scene);
 
 int NumRegistered(const Scene& scene);
 
+// Tracks that keypoints of these photos belong to, ascending.
+std::vector<int> TracksOf(const Scene& scene, const std::vector<int>& photos);
+
+// Tracks whose points agree with the photo's keypoints, once each; in the keypoints' order.
+std::vector<int> TracksSeenBy(const Scene& scene, int photo);
+
 // Elements in registered photos that agree with their track's point.
 int NumUsedObservations(const Scene& scene, int photo);
 

@@ -12,8 +12,10 @@
 
 #include "calib/adjust.h"
 #include "calib/choose_tracks.h"
+#include "calib/pair_rays.h"
 #include "calib/points.h"
 #include "calib/rotation_averaging.h"
+#include "survey/attitude.h"
 #include "survey/median.h"
 #include "survey/parallel.h"
 
@@ -33,7 +35,6 @@ constexpr double kLeastAgreeing = 0.3;  // of the pairs; below it the records co
 constexpr double kRelativeSigma = 0.5 * kDegree;  // with lenses that are not calibrated yet
 constexpr double kLeastGimbalSigma = 0.2 * kDegree;
 constexpr double kMostGimbalSigma = 5 * kDegree;
-constexpr double kNormalMedian = 0.6745;
 // A compass is corrected when the vote is this many of its standard deviations off.
 constexpr double kSureYaw = 4;
 constexpr int kEnoughVotes = 10;
@@ -82,24 +83,11 @@ std::vector<const VerifiedPair*> StrongestPairs(const std::vector<VerifiedPair>&
 
 std::optional<RelativePose> MotionOf(const Scene& scene, double max_error_sigmas,
                                      const PhotoPair& pair) {
-  const Camera& camera_a = scene.CameraOf(pair.first);
-  const Camera& camera_b = scene.CameraOf(pair.second);
-  std::vector<Eigen::Vector2d> first;
-  std::vector<Eigen::Vector2d> second;
-  const size_t step = pair.matches.size() / kMatchesOfPair + 1;
-  for (size_t i = 0; i < pair.matches.size(); i += step) {
-    const Match& match = pair.matches[i];
-    const auto a = camera_a.Unproject(scene.photos[pair.first].keypoints[match.first]);
-    const auto b = camera_b.Unproject(scene.photos[pair.second].keypoints[match.second]);
-    if (!a || !b) continue;
-    first.push_back(*a);
-    second.push_back(*b);
-  }
-  const double sigma = (scene.photos[pair.first].keypoint_sigma_px / camera_a.FocalX() +
-                        scene.photos[pair.second].keypoint_sigma_px / camera_b.FocalX()) /
-                       2;
-  auto motion = EstimateRelativePose(first, second, max_error_sigmas * sigma);
-  if (motion && motion->num_inliers * step < static_cast<size_t>(kLeastRelative)) motion.reset();
+  const PairRays rays = RaysOf(scene, pair, max_error_sigmas, kMatchesOfPair);
+  auto motion = EstimateRelativePose(rays.first, rays.second, rays.max_error);
+  const double share =
+      static_cast<double>(rays.first.size()) / static_cast<double>(pair.matches.size());
+  if (motion && motion->num_inliers < share * kLeastRelative) motion.reset();
   return motion;
 }
 
@@ -168,7 +156,7 @@ Winner Count(const std::vector<Vote>& votes) {
   for (double& d : near) d = std::abs(d - median);
   winner.angle_rad = std::remainder(middle + median, 2 * M_PI);
   winner.sigma_rad =
-      1.25 * *Median(near) / kNormalMedian / std::sqrt(static_cast<double>(near.size()));
+      1.25 * *Median(near) / kMedianOfNormal / std::sqrt(static_cast<double>(near.size()));
   return winner;
 }
 
@@ -209,8 +197,7 @@ std::vector<std::optional<Eigen::Quaterniond>> Rotations(const std::vector<PairM
     if (!HasRecord(records[i])) continue;
     const auto yaw = yaws.find(records[i].flight);
     const double angle = yaw == yaws.end() ? 0 : yaw->second;
-    rotations[i] =
-        *records[i].gimbal * Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+    rotations[i] = *records[i].gimbal * AboutUp(angle);
   }
   std::vector<RelativeRotation> relative;
   std::vector<double> off;
@@ -252,14 +239,22 @@ double EpipolarError(const std::vector<const VerifiedPair*>& pairs, const Scene&
   return Median(std::move(errors)).value_or(0);
 }
 
-// Points and poses by turns, with a tolerance that falls to that of the keypoints, and with records
-// as good as they turn out to be.
-void Anneal(const MapperOptions& options, double start_sigmas,
+// Falling to that of the keypoints, standard deviations of these.
+std::vector<double> Tolerances(double start, double end) {
+  std::vector<double> tolerances;
+  for (double tolerance = start; tolerance > end; tolerance /= kNarrower) {
+    tolerances.push_back(tolerance);
+  }
+  tolerances.push_back(end);
+  return tolerances;
+}
+
+// Points and poses by turns, with falling tolerances and with records as good as they turn out to
+// be.
+void Anneal(const MapperOptions& options, const std::vector<double>& tolerances,
             const std::vector<PoseRecord>& records, const StageContext& context, Scene& scene) {
-  double tolerance = std::max(options.max_error_sigmas, start_sigmas);
-  while (true) {
+  for (const double tolerance : tolerances) {
     context.ThrowIfCancelled();
-    const bool is_last = tolerance <= options.max_error_sigmas;
     MapperOptions wide = options;
     wide.max_error_sigmas = tolerance;
     TriangulateAll({tolerance, options.min_angle_rad}, options.threads, scene);
@@ -268,8 +263,7 @@ void Anneal(const MapperOptions& options, double start_sigmas,
     adjust.threads = options.adjust_threads;
     adjust.refine = options.refine_principal_point ? RefineIntrinsics::kPrincipalPoint
                                                    : RefineIntrinsics::kDistortion;
-    adjust.loss_scale = tolerance / 4;
-    adjust.noise = tolerance / kToleranceInNoise;
+    WeighByTolerance(tolerance, adjust);
     adjust.max_iterations = 20;
     adjust.tolerance = 1e-3;
     adjust.tracks = ChooseTracks(scene, kObservations);
@@ -277,13 +271,24 @@ void Anneal(const MapperOptions& options, double start_sigmas,
     TriangulateAll({tolerance, options.min_angle_rad}, options.threads, scene);
     FilterScene(wide, scene);
     ApplyRecords(records, MeasureRecordErrors(records, scene), scene);
-    if (is_last) return;
-    tolerance = std::max(options.max_error_sigmas, tolerance / kNarrower);
+    context.progress->Advance();
   }
 }
 
 RecordsStart NotUsable(std::string why) {
   return {false, std::move(why), 0};
+}
+
+// Nothing of it is placed, and its priors are the records as they are.
+void TakeBack(const std::vector<PoseRecord>& records, const std::vector<SceneCamera>& cameras,
+              Scene& scene) {
+  for (size_t i = 0; i < records.size(); ++i) {
+    scene.photos[i].pose.reset();
+    scene.photos[i].attitude.reset();
+    scene.photos[i].prior = records[i].position;
+  }
+  for (SceneTrack& track : scene.tracks) ClearPoint(track);
+  scene.cameras = cameras;
 }
 
 }  // namespace
@@ -316,16 +321,17 @@ RecordsStart StartFromRecords(const MapperOptions& options, const std::vector<Ve
     scene.photos[i].pose = Pose{*rotations[i], -(*rotations[i] * records[i].position->position)};
   }
   const double error = EpipolarError(strongest, scene);
-  Anneal(options, std::min(kMostStart_sigmas, kStartMedians * error), records, context, scene);
+  const std::vector<double> tolerances =
+      Tolerances(std::min(kMostStart_sigmas, kStartMedians * error), options.max_error_sigmas);
+  context.progress->Begin("correcting records", tolerances.size());
+  Anneal(options, tolerances, records, context, scene);
   RecordsStart start{true, "", NumRegistered(scene)};
   context.progress->Note(
       fmt::format("{} of {} photos placed by their records ({} pairs turn as the gimbals say, "
                   "median epipolar error {:.1f} px before)",
                   start.num_registered, recorded, motions.size(), error));
   if (start.num_registered >= kLeastPlaced * static_cast<double>(recorded)) return start;
-  for (ScenePhoto& photo : scene.photos) photo.pose.reset();
-  for (SceneTrack& track : scene.tracks) ClearPoint(track);
-  scene.cameras = cameras;
+  TakeBack(records, cameras, scene);
   return NotUsable(fmt::format("only {} of {} photos stand where their records say",
                                start.num_registered, recorded));
 }

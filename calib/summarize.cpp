@@ -10,7 +10,6 @@
 #include <set>
 
 #include "calib/adjust.h"
-#include "calib/covariance.h"
 #include "survey/median.h"
 
 namespace stucco {
@@ -75,8 +74,8 @@ CalibratedCamera SummarizeCamera(const CapturedCamera& captured, const SceneCame
 }
 
 // Photos of the scene in the order of `result.photos`.
-void AddSigmas(const Scene& scene, const std::vector<int>& photos, Calibration& result) {
-  const std::vector<PoseSigma> sigmas = PoseSigmas(scene);
+void AddSigmas(const std::vector<PoseSigma>& sigmas, const std::vector<int>& photos,
+               Calibration& result) {
   std::vector<double> positions;
   positions.reserve(photos.size());
   for (const int photo : photos) positions.push_back(sigmas[photo].position);
@@ -188,6 +187,7 @@ Calibration Summarize(const SummaryInput& input) {
   assert(input.capture_of_photo.size() == input.scene.photos.size());
   assert(input.captures.cameras.size() == input.scene.cameras.size());
   assert(input.priors.distance_m.size() == input.scene.photos.size());
+  assert(input.sigmas.poses.size() == input.scene.photos.size());
   const std::vector<uint32_t> ids = PhotoIds(input);
   const Reconstruction reconstruction = ToReconstruction(input.scene, ids);
   Calibration result;
@@ -206,7 +206,7 @@ Calibration Summarize(const SummaryInput& input) {
     result.photos.push_back(
         SummarizePhoto(input, reconstruction, registered->second, static_cast<int>(i)));
   }
-  AddSigmas(input.scene, posed, result);
+  AddSigmas(input.sigmas.poses, posed, result);
   if (input.records != nullptr) {
     result.records = SummarizeRecords(*input.records);
     AddFindings(result.records, result);
@@ -219,7 +219,7 @@ Calibration Summarize(const SummaryInput& input) {
   }
   std::sort(result.unposed.begin(), result.unposed.end(),
             [](const UnposedPhoto& a, const UnposedPhoto& b) { return a.path < b.path; });
-  const auto sigmas = IntrinsicsSigma(input.scene);
+  const std::vector<Eigen::VectorXd>& sigmas = input.sigmas.intrinsics;
   for (size_t c = 0; c < input.scene.cameras.size(); ++c) {
     if (!reconstruction.cameras.contains(input.scene.cameras[c].intrinsics.id)) continue;
     result.cameras.push_back(SummarizeCamera(input.captures.cameras[c], input.scene.cameras[c],

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/covariance.h"
 #include "calib/georeference.h"
 #include "calib/records.h"
 #include "calib/scene.h"
@@ -28,13 +29,14 @@ struct SummaryInput {
   const PriorResiduals& priors;
   const std::vector<int>& prior_outliers;
   const RecordErrors* records = nullptr;  // where they hold the frame
+  SceneSigmas sigmas = {};                // of the scene
 };
 
 // Photo ids of the result by photo of the scene: the place in captures.json, counted from 1.
 std::vector<uint32_t> PhotoIds(const SummaryInput& input);
 
 // Requires cameras and photos of the scene that are those of the captures, and positions' residuals
-// by photo.
+// and standard deviations of poses by photo.
 Calibration Summarize(const SummaryInput& input);
 
 }  // namespace stucco

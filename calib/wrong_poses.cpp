@@ -50,12 +50,8 @@ double PositionSquare(const ScenePhoto& photo) {
 
 std::vector<Eigen::Vector3d> PointsOf(const Scene& scene, int photo) {
   std::vector<Eigen::Vector3d> points;
-  for (size_t k = 0; k < scene.tracks_of_photo[photo].size(); ++k) {
-    const int index = scene.tracks_of_photo[photo][k];
-    if (index < 0 || !scene.tracks[index].position) continue;
-    for (const SceneElement& e : scene.tracks[index].elements) {
-      if (e.photo == photo && e.used) points.push_back(*scene.tracks[index].position);
-    }
+  for (const int track : TracksSeenBy(scene, photo)) {
+    points.push_back(*scene.tracks[track].position);
   }
   return points;
 }
@@ -63,13 +59,10 @@ std::vector<Eigen::Vector3d> PointsOf(const Scene& scene, int photo) {
 // Photos that agree with their own records and share points with this one.
 int NumTrustedPartners(const Scene& scene, int photo) {
   std::vector<int> shared(scene.photos.size(), 0);
-  for (const int index : scene.tracks_of_photo[photo]) {
-    if (index < 0 || !scene.tracks[index].position) continue;
-    const std::vector<SceneElement>& elements = scene.tracks[index].elements;
-    const bool sees = std::ranges::any_of(
-        elements, [&](const SceneElement& e) { return e.photo == photo && e.used; });
-    for (const SceneElement& e : elements) shared[e.photo] += sees && e.used && e.photo != photo;
+  for (const int track : TracksSeenBy(scene, photo)) {
+    for (const SceneElement& e : scene.tracks[track].elements) shared[e.photo] += e.used;
   }
+  shared[photo] = 0;
   int count = 0;
   for (size_t i = 0; i < shared.size(); ++i) {
     if (shared[i] < kLeastPoints) continue;
@@ -98,15 +91,7 @@ double PredictedSigma(const Scene& scene, int photo, const Eigen::Vector3d& poin
 class Mending {
  public:
   Mending(const MapperOptions& options, const std::vector<int>& photos, Scene& scene)
-      : options_(options), photos_(photos), scene_(scene) {
-    for (const int photo : photos) {
-      for (const int track : scene.tracks_of_photo[photo]) {
-        if (track >= 0) tracks_.push_back(track);
-      }
-    }
-    std::sort(tracks_.begin(), tracks_.end());
-    tracks_.erase(std::unique(tracks_.begin(), tracks_.end()), tracks_.end());
-  }
+      : options_(options), photos_(photos), scene_(scene), tracks_(TracksOf(scene, photos)) {}
 
   void Run(const StageContext& context) {
     for (const int photo : photos_) scene_.photos[photo].pose.reset();
@@ -163,8 +148,7 @@ class Mending {
     adjust.refine = RefineIntrinsics::kNone;
     adjust.use_priors = true;
     adjust.threads = options_.adjust_threads;
-    adjust.loss_scale = tolerance / 4;
-    adjust.noise = tolerance / kToleranceInNoise;
+    WeighByTolerance(tolerance, adjust);
     adjust.max_iterations = 20;
     stucco::Adjust(adjust, scene_);
   }

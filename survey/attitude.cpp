@@ -22,4 +22,8 @@ Eigen::Quaterniond CamFromEnu(const GimbalAngles& angles) {
   return Eigen::Quaterniond(cam_from_enu).normalized();
 }
 
+Eigen::Quaterniond AboutUp(double angle_rad) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()));
+}
+
 }  // namespace stucco

@@ -12,4 +12,7 @@ namespace stucco {
 // y down, z forward). Roll is clockwise as seen from behind the camera.
 Eigen::Quaterniond CamFromEnu(const GimbalAngles& angles);
 
+// Turn about the up axis, counter-clockwise as seen from above.
+Eigen::Quaterniond AboutUp(double angle_rad);
+
 }  // namespace stucco

@@ -19,8 +19,8 @@ struct CalibratedPhoto {
   double coverage = 0;  // share of a 10 x 10 grid over the image with observations
   // "tied", or "weak" where little holds the pose: do not trust it alone.
   std::string state = "tied";
-  // One standard deviation of the pose among the points as they are (its own part of the error);
-  // position in the unit of the model; -1: not computed.
+  // One standard deviation of the pose within the model, root of the sum over the axes; position in
+  // the unit of the model; -1: not computed.
   double position_sigma = -1;
   double rotation_sigma_deg = -1;
 };

@@ -9,6 +9,9 @@
 
 namespace stucco {
 
+// Median of the absolute value of a normal variable, in its standard deviations.
+inline constexpr double kMedianOfNormal = 0.6745;
+
 // The middle value, of an even number the upper of the two; nothing of none.
 inline std::optional<double> Median(std::vector<double> values) {
   if (values.empty()) return std::nullopt;

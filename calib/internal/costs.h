@@ -158,8 +158,15 @@ struct PositionCost {
   }
 };
 
-// Rotation vector from the recorded to the estimated rotation, in the camera's frame, over sigma
-// (twice the vector part of the quaternion between them, which is short of it by the third order).
+// Twice the vector part of the quaternion: the rotation vector, short of it by the third order.
+template <typename T>
+void WeighRotation(const Eigen::Quaternion<T>& rotation, double inverse_sigma, T* residual) {
+  const T twice = rotation.w() < T(0) ? T(-2) : T(2);
+  for (int i = 0; i < 3; ++i) residual[i] = twice * rotation.vec()[i] * T(inverse_sigma);
+}
+
+// Rotation from the recorded to the estimated rotation, in the camera's frame, over sigma. The
+// parameters begin with the rotation; what follows it takes no part.
 struct AttitudeCost {
   Eigen::Quaterniond world_from_recorded;
   double inverse_sigma;
@@ -167,14 +174,14 @@ struct AttitudeCost {
   template <typename T>
   bool operator()(const T* pose, T* residual) const {
     const Eigen::Map<const Eigen::Quaternion<T>> q(pose);
-    const Eigen::Quaternion<T> between = q * world_from_recorded.cast<T>();
-    const T twice = between.w() < T(0) ? T(-2) : T(2);
-    for (int i = 0; i < 3; ++i) residual[i] = twice * between.vec()[i] * T(inverse_sigma);
+    WeighRotation<T>(q * world_from_recorded.cast<T>(), inverse_sigma, residual);
     return true;
   }
 
+  // Of a block of this many parameters.
+  template <int kSize>
   static ceres::CostFunction* Create(const Eigen::Quaterniond& cam_from_world, double sigma_rad) {
-    return new ceres::AutoDiffCostFunction<AttitudeCost, 3, kPoseSize>(
+    return new ceres::AutoDiffCostFunction<AttitudeCost, 3, kSize>(
         new AttitudeCost{cam_from_world.conjugate(), 1 / sigma_rad});
   }
 };

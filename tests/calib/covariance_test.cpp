@@ -56,7 +56,7 @@ TEST(IntrinsicsSigma, AgreesWithRepeatedMeasurements) {
     Scene scene = truth;
     DrawPrior(500 + run, scene);
     scene = Adjusted(scene, 100 + run);
-    const auto sigmas = IntrinsicsSigma(scene);
+    const auto sigmas = EstimateSigmas({}, scene).intrinsics;
     ASSERT_EQ(sigmas.size(), 1u);
     for (size_t i = 0; i < count; ++i) {
       const double error =
@@ -75,13 +75,13 @@ TEST(IntrinsicsSigma, AgreesWithRepeatedMeasurements) {
 
 TEST(IntrinsicsSigma, DoesNotDependOnTheFrame) {
   Scene scene = Adjusted(MakeScene({.num_photos = 6, .num_points = 120, .num_planes = 3}), 1);
-  const auto before = IntrinsicsSigma(scene);
+  const auto before = EstimateSigmas({}, scene).intrinsics;
   Similarity motion;
   motion.scale = 30;
   motion.rotation = Eigen::AngleAxisd(1.0, Eigen::Vector3d(1, 2, 3).normalized());
   motion.translation = {500, -300, 20000};
   Transform(motion, scene);
-  const auto after = IntrinsicsSigma(scene);
+  const auto after = EstimateSigmas({}, scene).intrinsics;
   ASSERT_EQ(before.size(), 1u);
   ASSERT_EQ(after.size(), 1u);
   for (int i = 0; i < before[0].size(); ++i) EXPECT_NEAR(after[0][i] / before[0][i], 1, 0.02) << i;
@@ -93,7 +93,7 @@ TEST(IntrinsicsSigma, GrowsToTheAssumptionWhereThePhotosSayNothing) {
       MakeScene(
           {.num_photos = 2, .num_points = 60, .num_planes = 1, .clutter_share = 0, .arc_rad = 0.1}),
       1);
-  const auto sigmas = IntrinsicsSigma(scene);
+  const auto sigmas = EstimateSigmas({}, scene).intrinsics;
   ASSERT_EQ(sigmas.size(), 1u);
   EXPECT_GT(sigmas[0][0], 0.7 * PriorSigma(scene.cameras[0], 0));
   EXPECT_LT(sigmas[0][0], 1.01 * PriorSigma(scene.cameras[0], 0));
@@ -104,7 +104,7 @@ TEST(IntrinsicsSigma, ZeroForGivenCameras) {
   scene.cameras.push_back(scene.cameras[0]);
   scene.cameras[1].focal_sigma_ratio = 0;
   scene.photos[2].camera = scene.photos[3].camera = 1;
-  const auto sigmas = IntrinsicsSigma(scene);
+  const auto sigmas = EstimateSigmas({}, scene).intrinsics;
   ASSERT_EQ(sigmas.size(), 2u);
   EXPECT_GT(sigmas[0].minCoeff(), 0);
   EXPECT_EQ(sigmas[1].maxCoeff(), 0);
@@ -112,9 +112,111 @@ TEST(IntrinsicsSigma, ZeroForGivenCameras) {
 
 TEST(IntrinsicsSigma, NothingForTooFewOrTooManyPhotos) {
   Scene scene = MakeScene({.num_photos = 4, .num_points = 80, .noise_px = 0.5});
-  EXPECT_TRUE(IntrinsicsSigma(scene, 3).empty());
-  EXPECT_FALSE(IntrinsicsSigma(scene, 4).empty());
-  EXPECT_TRUE(IntrinsicsSigma(Blank(scene)).empty());
+  EXPECT_TRUE(EstimateSigmas({.max_photos = 3}, scene).intrinsics.empty());
+  EXPECT_FALSE(EstimateSigmas({.max_photos = 4}, scene).intrinsics.empty());
+  EXPECT_TRUE(EstimateSigmas({}, Blank(scene)).intrinsics.empty());
+}
+
+// Distances of the centres after the best similarity, and angles of the rotations.
+struct PoseError {
+  double position = 0;
+  double rotation_rad = 0;
+};
+
+std::vector<PoseError> ErrorsAfterAlignment(const Scene& truth, Scene scene) {
+  const auto count = static_cast<Eigen::Index>(scene.photos.size());
+  Eigen::Matrix3Xd found(3, count), real(3, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    found.col(i) = scene.photos[i].pose->Center();
+    real.col(i) = truth.photos[i].pose->Center();
+  }
+  Transform(AlignPoints(found, real), scene);
+  std::vector<PoseError> errors;
+  for (size_t i = 0; i < scene.photos.size(); ++i) {
+    const Pose& pose = *scene.photos[i].pose;
+    errors.push_back({(pose.Center() - truth.photos[i].pose->Center()).norm(),
+                      pose.rotation.angularDistance(truth.photos[i].pose->rotation)});
+  }
+  return errors;
+}
+
+TEST(PoseSigmas, AgreeWithRepeatedMeasurements) {
+  constexpr int kRuns = 30;
+  const Scene truth = MakeScene({.num_photos = 8, .num_points = 150, .num_planes = 3});
+  const size_t count = truth.photos.size();
+  std::vector<PoseError> squares(count), predicted(count);
+  for (int run = 0; run < kRuns; ++run) {
+    Scene scene = truth;
+    DrawPrior(900 + run, scene);
+    scene = Adjusted(scene, 300 + run);
+    const SceneSigmas sigmas = EstimateSigmas({}, scene);
+    const std::vector<PoseError> errors = ErrorsAfterAlignment(truth, scene);
+    for (size_t i = 0; i < count; ++i) {
+      squares[i].position += errors[i].position * errors[i].position / kRuns;
+      squares[i].rotation_rad += errors[i].rotation_rad * errors[i].rotation_rad / kRuns;
+      predicted[i].position += sigmas.poses[i].position / kRuns;
+      predicted[i].rotation_rad += sigmas.poses[i].rotation_rad / kRuns;
+    }
+  }
+  for (size_t i = 0; i < count; ++i) {
+    EXPECT_NEAR(std::log(predicted[i].position / std::sqrt(squares[i].position)), 0, 0.4) << i;
+    EXPECT_NEAR(std::log(predicted[i].rotation_rad / std::sqrt(squares[i].rotation_rad)), 0, 0.4)
+        << i;
+  }
+}
+
+TEST(PoseSigmas, ScaleWithTheModelAndDoNotDependOnTheFrame) {
+  Scene scene = Adjusted(MakeScene({.num_photos = 6, .num_points = 120, .num_planes = 3}), 1);
+  const auto before = EstimateSigmas({}, scene).poses;
+  Similarity motion;
+  motion.scale = 30;
+  motion.rotation = Eigen::AngleAxisd(1.0, Eigen::Vector3d(1, 2, 3).normalized());
+  motion.translation = {500, -300, 2000};
+  Transform(motion, scene);
+  const auto after = EstimateSigmas({.threads = 2}, scene).poses;
+  for (size_t i = 0; i < before.size(); ++i) {
+    EXPECT_NEAR(after[i].position / before[i].position, 30, 0.6) << i;
+    EXPECT_NEAR(after[i].rotation_rad / before[i].rotation_rad, 1, 0.02) << i;
+  }
+}
+
+// Records that are much better than what the photos tell among themselves make poses more certain.
+TEST(PoseSigmas, GetSmallerByRecords) {
+  Scene scene = Adjusted(MakeScene({.num_photos = 6, .num_points = 120, .num_planes = 3}), 1);
+  const auto without = EstimateSigmas({}, scene).poses;
+  for (size_t i = 0; i < scene.photos.size(); ++i) {
+    const double sigma = without[i].position / 20;
+    scene.photos[i].prior = PositionPrior{scene.photos[i].pose->Center(), sigma, sigma};
+  }
+  const auto with = EstimateSigmas({.use_priors = true}, scene).poses;
+  for (size_t i = 0; i < without.size(); ++i) EXPECT_LT(with[i].position, without[i].position / 5);
+  EXPECT_DOUBLE_EQ(EstimateSigmas({}, scene).poses[0].position, without[0].position);
+}
+
+TEST(PoseSigmas, APhotoWithFewObservationsIsLessCertain) {
+  Scene scene = MakeScene({.num_photos = 6, .num_points = 200, .num_planes = 3, .noise_px = 0.5});
+  int left = 25;
+  for (SceneTrack& track : scene.tracks) {
+    for (SceneElement& element : track.elements) {
+      if (element.photo == 3 && element.used && left-- <= 0) element.used = false;
+    }
+  }
+  const auto sigmas = EstimateSigmas({}, scene).poses;
+  for (const int other : {1, 2, 4}) EXPECT_GT(sigmas[3].position, 1.5 * sigmas[other].position);
+}
+
+TEST(PoseSigmas, NoneWithoutAPose) {
+  Scene scene = MakeScene({.num_photos = 5, .num_points = 120, .noise_px = 0.5});
+  scene.photos[2].pose.reset();
+  for (SceneTrack& track : scene.tracks) {
+    for (SceneElement& element : track.elements) element.used &= element.photo != 2;
+  }
+  for (const int max_photos : {3, 10}) {
+    const auto sigmas = EstimateSigmas({.max_photos = max_photos}, scene).poses;
+    ASSERT_EQ(sigmas.size(), 5u);
+    EXPECT_EQ(sigmas[2].position, -1);
+    EXPECT_GT(sigmas[1].position, 0);
+  }
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ struct Case {
   std::vector<int> outliers;
 
   Calibration Summary() const {
-    return Summarize({captures, capture_of_photo, scene, unregistered, priors, outliers});
+    return Summarize({captures, capture_of_photo, scene, unregistered, priors, outliers, nullptr,
+                      EstimateSigmas({}, scene)});
   }
 };
 
