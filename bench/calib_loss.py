@@ -7,8 +7,9 @@
 
 SURVEY was calibrated. By the kind of photo that the plan has are printed how many have a pose and
 the medians of what calib/photos.csv counts, then every photo without a pose. Where truth/ has true
-poses (stucco simulate), every photo whose pose is farther off than the limits is printed too. True
-and found frames are aligned by medians, which wrong poses do not move.
+poses (stucco simulate), every photo whose pose is farther off than the limits is printed too, and
+how the errors compare with the standard deviations in calibration.json. True and found frames are
+aligned by medians, which wrong poses do not move.
 """
 import argparse
 import csv
@@ -101,11 +102,49 @@ def kinds_of(survey):
     return {view["id"]: view["kind"] for view in json.loads(path.read_text(encoding="utf-8"))["views"]}
 
 
-def wrong_poses(survey, limits):
+def true_and_found(survey):
+    """Poses; nothing without true ones."""
     truth = survey / "truth/sparse"
     if not (truth / "images.txt").exists():
         return None
-    errors = pose_errors(read_poses(truth), read_poses(survey / "calib/sparse/0"))
+    return read_poses(truth), read_poses(survey / "calib/sparse/0")
+
+
+def errors_of(survey):
+    """As pose_errors; nothing without true poses."""
+    poses = true_and_found(survey)
+    return None if poses is None else pose_errors(*poses)
+
+
+def normalised(survey):
+    """Name -> (error of the place, of the rotation) over their standard deviations, where
+    calibration.json states these. Requires true poses."""
+    poses = true_and_found(survey)
+    errors, scale = pose_errors(*poses), true_from_found(*poses)[1]
+    calibration = json.loads((survey / "calib/calibration.json").read_text(encoding="utf-8"))
+    return {photo["path"]: (errors[photo["path"]][0] / scale / photo["position_sigma"],
+                            errors[photo["path"]][1] / photo["rotation_sigma_deg"])
+            for photo in calibration["photos"]
+            if photo["path"] in errors and photo["position_sigma"] > 0}
+
+
+def root_mean_square(values):
+    return math.sqrt(statistics.fmean(value * value for value in values))
+
+
+def print_normalised(ratios):
+    rows = []
+    for label, which in (("place", 0), ("rotation", 1)):
+        values = [ratio[which] for ratio in ratios.values()]
+        rows.append([label, *(surveys.number(figure(values)) for figure in
+                              (root_mean_square, statistics.median, max)),
+                     sum(value > 4 for value in values)])
+    print("\nerrors over their standard deviations")
+    print(surveys.markdown_table(["of the", "root mean square", "median", "largest", "above 4"],
+                                 rows))
+
+
+def wrong_poses(errors, limits):
     return {name: error for name, error in errors.items()
             if error[0] > limits.position or error[1] > limits.rotation}
 
@@ -144,13 +183,17 @@ def main():
         rows = list(csv.DictReader(file))
     for row in rows:
         row["kind"] = kinds.get(match_graph.view_of(row["path"]), "other")
-    wrong = wrong_poses(limits.survey, limits)
+    errors = errors_of(limits.survey)
+    wrong = None if errors is None else wrong_poses(errors, limits)
     print_kinds(rows, wrong)
     print_list("without a pose", [row for row in rows if row["posed"] == "no"],
                lambda row: row["why"])
     if wrong is not None:
         print_list("posed wrongly", [row for row in rows if row["path"] in wrong],
                    lambda row: "{:.2f} m, {:.1f} degrees".format(*wrong[row["path"]]))
+        ratios = normalised(limits.survey)
+        if ratios:
+            print_normalised(ratios)
 
 
 if __name__ == "__main__":

@@ -183,10 +183,8 @@ def findings(survey):
 
 def row(fault, survey, limits):
     poses = json.loads((survey / "evaluation/evaluation.json").read_text())["poses"]
-    errors = calib_loss.pose_errors(calib_loss.read_poses(survey / "truth/sparse"),
-                                    calib_loss.read_poses(survey / "calib/sparse/0"))
-    wrong = [name for name, error in errors.items()
-             if error[0] > limits.position or error[1] > limits.rotation]
+    errors = calib_loss.errors_of(survey)
+    wrong = calib_loss.wrong_poses(errors, limits)
     return [fault, f"{poses['posed']} / {poses['total']}", len(wrong),
             *(surveys.number(1000 * figure(error[0] for error in errors.values()), 1)
               for figure in (statistics.median, max)),

@@ -117,16 +117,20 @@ class Datum {
   Eigen::Matrix<double, 7, 7> inverse_;
 };
 
-// How robust residuals scatter: the variance of least squares that would leave poses as uncertain
-// as the robust estimator does, with Cauchy loss at `scale` standard deviations.
+// How robust residuals scatter: the variance of independent ones that would leave poses as
+// uncertain as these do, with Cauchy loss at `scale` standard deviations. Neighbours in a picture
+// err alike, by what the lens model lacks and by textures, and count as what their sums show (Liang
+// and Zeger, "Longitudinal data analysis using generalized linear models", 1986).
 class RobustVariance {
  public:
-  explicit RobustVariance(double scale) : scale_(scale) {}
+  RobustVariance(const Scene& scene, double scale)
+      : scene_(scene),
+        scale_(scale),
+        sums_(scene.photos.size() * kCells * kCells, Eigen::Vector2d::Zero()) {}
 
-  // The squared length of a residual of two components.
-  void Add(double square) {
-    const double weight = 1 / (1 + square / (scale_ * scale_));
-    influence_ += square * weight * weight / 2;
+  void Add(const SceneElement& element, const Eigen::Vector2d& residual) {
+    const double weight = 1 / (1 + residual.squaredNorm() / (scale_ * scale_));
+    sums_[CellOf(element)] += weight * residual;
     slope_ += weight * weight;
     ++count_;
   }
@@ -134,13 +138,29 @@ class RobustVariance {
   // With the degrees of freedom that are left.
   double Get(double num_unknowns) const {
     const double n = count_;
+    double influence = 0;
+    for (const Eigen::Vector2d& sum : sums_) influence += sum.squaredNorm() / 2;
     const double redundancy = std::max(1.0, 2 * n - num_unknowns) / (2 * n);
-    return influence_ / n / std::pow(slope_ / n, 2) / redundancy;
+    return influence / n / std::pow(slope_ / n, 2) / redundancy;
   }
 
  private:
+  static constexpr int kCells = 8;  // of a picture in each direction
+
+  size_t CellOf(const SceneElement& element) const {
+    const Camera& camera = scene_.CameraOf(element.photo);
+    const Eigen::Vector2d& pixel = scene_.photos[element.photo].keypoints[element.keypoint];
+    const auto cell = [](double place, int size) {
+      return static_cast<size_t>(
+          std::clamp(static_cast<int>(place / size * kCells), 0, kCells - 1));
+    };
+    return (element.photo * kCells + cell(pixel.y(), camera.height_px)) * kCells +
+           cell(pixel.x(), camera.width_px);
+  }
+
+  const Scene& scene_;
   double scale_;
-  double influence_ = 0;
+  std::vector<Eigen::Vector2d> sums_;  // by photo and cell
   double slope_ = 0;
   int count_ = 0;
 };
@@ -152,7 +172,7 @@ constexpr double kLossScale = 2;
 class ReducedSystem {
  public:
   explicit ReducedSystem(const Scene& scene)
-      : scene_(scene), scatter_(kLossScale * MeasureNoise(scene)) {
+      : scene_(scene), scatter_(scene, kLossScale * MeasureNoise(scene)) {
     for (const SceneCamera& camera : scene.cameras) {
       camera_offset_.push_back(size_);
       if (camera.focal_sigma_ratio > 0) size_ += static_cast<int>(camera.intrinsics.params.size());
@@ -174,7 +194,7 @@ class ReducedSystem {
     for (const SceneElement& element : track.elements) {
       Linearised l;
       if (!element.used || !Linearise(scene_, element, *track.position, l)) continue;
-      scatter_.Add(l.residual.squaredNorm());
+      scatter_.Add(element, l.residual);
       const int camera = scene_.photos[element.photo].camera;
       const int pose = pose_offset_[element.photo];
       point_block += l.point.transpose() * l.point;
@@ -365,14 +385,14 @@ class ReducedSystem {
 std::vector<PoseSigma> OwnSigmas(const Scene& scene) {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   std::vector<Matrix6> normals(scene.photos.size(), Matrix6::Zero());
-  RobustVariance scatter(kLossScale * MeasureNoise(scene));
+  RobustVariance scatter(scene, kLossScale * MeasureNoise(scene));
   for (const SceneTrack& track : scene.tracks) {
     if (!track.position) continue;
     for (const SceneElement& element : track.elements) {
       Linearised l;
       if (!element.used || !Linearise(scene, element, *track.position, l)) continue;
       normals[element.photo] += l.pose.transpose() * l.pose;
-      scatter.Add(l.residual.squaredNorm());
+      scatter.Add(element, l.residual);
     }
   }
   std::vector<PoseSigma> sigmas(scene.photos.size());

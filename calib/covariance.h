@@ -31,9 +31,10 @@ struct SigmaOptions {
 // One standard deviation of what an adjustment of everything found, from the inverse of its normal
 // equations with points eliminated (Schur complement; Triggs et al. 2000, section 6.3) and the
 // scatter of the residuals as a robust estimator sees it (Huber, "Robust Statistics", 1981, section
-// 7.6). Poses are those of the model in itself: what a similarity of all photos' places takes away
-// is left out (S-transformation: Baarda 1973), so that the frame that the system was solved in does
-// not matter. Nothing is computed where the system is singular.
+// 7.6), of which neighbours in a picture may share a part. Poses are those of the model in itself:
+// what a similarity of all photos' places takes away is left out (S-transformation: Baarda 1973),
+// so that the frame that the system was solved in does not matter. Nothing is computed where the
+// system is singular.
 SceneSigmas EstimateSigmas(const SigmaOptions& options, const Scene& scene);
 
 }  // namespace stucco

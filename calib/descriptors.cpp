@@ -38,10 +38,9 @@ std::vector<int16_t> UnitDescriptors(const Features& features) {
 }
 
 // Compiled for 256-bit vectors too. The compiler turns the inner sums into 16-bit multiply-adds.
-__attribute__((target_clones("arch=haswell", "default"))) void DotProducts(const int16_t* row,
-                                                                           const int16_t* rows,
-                                                                           int count,
-                                                                           int32_t* products) {
+__attribute__((target_clones("avx2", "default"))) void DotProducts(const int16_t* row,
+                                                                   const int16_t* rows, int count,
+                                                                   int32_t* products) {
   int i = 0;
   for (; i + 4 <= count; i += 4) {
     const int16_t* b = rows + static_cast<size_t>(i) * kDescriptorSize;

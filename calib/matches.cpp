@@ -7,6 +7,7 @@
 
 #include "calib/best_two.h"
 #include "calib/descriptors.h"
+#include "calib/packed_rows.h"
 
 namespace stucco {
 namespace {
@@ -16,8 +17,8 @@ namespace {
 constexpr int kBlock = 512;
 
 // Largest value of a block, so that most rows need no further look.
-__attribute__((target_clones("arch=haswell", "default"))) int32_t Largest(const int32_t* values,
-                                                                          int count) {
+__attribute__((target_clones("avx2", "default"))) int32_t Largest(const int32_t* values,
+                                                                  int count) {
   int32_t largest = -1;
   for (int i = 0; i < count; ++i) largest = std::max(largest, values[i]);
   return largest;
@@ -33,8 +34,8 @@ struct Columns {
 };
 
 // Offers one row of products to all columns.
-__attribute__((target_clones("arch=haswell", "default"))) void OfferToColumns(
-    const int32_t* products, int row, Columns& columns) {
+__attribute__((target_clones("avx2", "default"))) void OfferToColumns(const int32_t* products,
+                                                                      int row, Columns& columns) {
   const int count = static_cast<int>(columns.best.size());
   int32_t* best = columns.best.data();
   int32_t* second = columns.second.data();
@@ -58,18 +59,23 @@ std::vector<Match> MatchDescriptors(const std::vector<int16_t>& first,
   const int num_second = static_cast<int>(second.size() / kDescriptorSize);
   std::vector<BestTwo> of_first(num_first);
   std::vector<BestTwo> of_second(num_second);
-  std::vector<int32_t> products(kBlock);
+  std::vector<int32_t> products;
   for (int begin = 0; begin < num_second; begin += kBlock) {
     const int width = std::min(kBlock, num_second - begin);
-    const int16_t* block = second.data() + static_cast<size_t>(begin) * kDescriptorSize;
+    const PackedRows block(second.data() + static_cast<size_t>(begin) * kDescriptorSize, width);
+    products.resize(static_cast<size_t>(PackedRows::kRows) * block.stride());
     Columns columns(width);
     for (int row = 0; row < num_first; ++row) {
-      DotProducts(first.data() + static_cast<size_t>(row) * kDescriptorSize, block, width,
-                  products.data());
-      OfferToColumns(products.data(), row, columns);
+      const int in_products = row % PackedRows::kRows;
+      if (in_products == 0) {
+        block.Multiply(first.data() + static_cast<size_t>(row) * kDescriptorSize,
+                       std::min(PackedRows::kRows, num_first - row), products.data());
+      }
+      const int32_t* of_row = products.data() + static_cast<size_t>(in_products) * block.stride();
+      OfferToColumns(of_row, row, columns);
       BestTwo& mine = of_first[row];
-      if (Largest(products.data(), width) <= mine.second) continue;
-      for (int c = 0; c < width; ++c) mine.Offer(products[c], begin + c);
+      if (Largest(of_row, width) <= mine.second) continue;
+      for (int c = 0; c < width; ++c) mine.Offer(of_row[c], begin + c);
     }
     for (int c = 0; c < width; ++c) {
       of_second[begin + c] = {columns.best[c], columns.second[c], columns.index[c]};

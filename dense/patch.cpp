@@ -72,9 +72,10 @@ ReferencePatch MakeReferencePatch(const PackedImage& image, int x, int y) {
 
 // Compiled twice, for processors with 256-bit vectors and for all others; both give the same bits,
 // as no operation is fused or reordered.
-__attribute__((target_clones("arch=haswell", "default"))) float PatchCost(
-    const ReferencePatch& patch, const PackedImage& source, const float homography[9], float x,
-    float y) {
+__attribute__((target_clones("avx2", "default"))) float PatchCost(const ReferencePatch& patch,
+                                                                  const PackedImage& source,
+                                                                  const float homography[9],
+                                                                  float x, float y) {
   if (patch.variance < kLeastVariance) return kNoMatch;
   constexpr float kR = kPatchRadius;
   if (!IsInside(source, homography, x - kR, y - kR) ||

@@ -45,6 +45,9 @@ class Survey(unittest.TestCase):
         rows = [f"{name(i)},9,500,4,200,3,150,900,40,30,60,50,yes," for i in range(1, 8)]
         rows.append(name(8) + ',9,80,0,0,0,0,900,40,30,0,0,no,"it overlaps, but not enough"')
         (self.survey / "calib/photos.csv").write_text("\r\n".join([HEAD, *rows, ""]))
+        photos = [{"path": name(i), "position_sigma": 0.5 if i < 7 else -1,
+                   "rotation_sigma_deg": 10} for i in range(1, 8)]
+        (self.survey / "calib/calibration.json").write_text(json.dumps({"photos": photos}))
 
     def run_with(self, found):
         (self.survey / "calib/sparse/0/images.txt").write_text(images(found))
@@ -75,6 +78,9 @@ class Survey(unittest.TestCase):
         self.assertIn("2.00 m, 0.0 degrees", printed)
         self.assertIn("0.00 m, 30.0 degrees", printed)
         self.assertIn("| nadir | 4 | 4 | 1 |", printed)
+        # The frame is half as large: a metre is two of its deviations' metres.
+        self.assertIn("| place | 0.82 | 0.00 | 2.00 | 0 |", printed)
+        self.assertIn("| rotation | 1.22 | 0.00 | 3.00 | 0 |", printed)
 
 
 if __name__ == "__main__":
