@@ -119,8 +119,10 @@ class Datum {
 
 // How robust residuals scatter: the variance of independent ones that would leave poses as
 // uncertain as these do, with Cauchy loss at `scale` standard deviations. Neighbours in a picture
-// err alike, by what the lens model lacks and by textures, and count as what their sums show (Liang
-// and Zeger, "Longitudinal data analysis using generalized linear models", 1986).
+// err alike, by what the lens model lacks and by textures; and where only chosen tracks were
+// adjusted all residuals of a photo do. They count as what their sums over cells show, of the size
+// that shows most (Liang and Zeger, "Longitudinal data analysis using generalized linear models",
+// 1986).
 class RobustVariance {
  public:
   RobustVariance(const Scene& scene, double scale)
@@ -138,14 +140,31 @@ class RobustVariance {
   // With the degrees of freedom that are left.
   double Get(double num_unknowns) const {
     const double n = count_;
-    double influence = 0;
-    for (const Eigen::Vector2d& sum : sums_) influence += sum.squaredNorm() / 2;
+    const double influence = std::max({Influence(1), Influence(kCells / 2), Influence(kCells)});
     const double redundancy = std::max(1.0, 2 * n - num_unknowns) / (2 * n);
     return influence / n / std::pow(slope_ / n, 2) / redundancy;
   }
 
  private:
   static constexpr int kCells = 8;  // of a picture in each direction
+
+  // Of sums over so many cells in each direction.
+  double Influence(int cells) const {
+    double influence = 0;
+    const int blocks = kCells / cells;
+    for (size_t photo = 0; photo < scene_.photos.size(); ++photo) {
+      for (int block = 0; block < blocks * blocks; ++block) {
+        Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+        for (int i = 0; i < cells * cells; ++i) {
+          const int row = block / blocks * cells + i / cells;
+          const int column = block % blocks * cells + i % cells;
+          sum += sums_[(photo * kCells + row) * kCells + column];
+        }
+        influence += sum.squaredNorm() / 2;
+      }
+    }
+    return influence;
+  }
 
   size_t CellOf(const SceneElement& element) const {
     const Camera& camera = scene_.CameraOf(element.photo);
@@ -168,11 +187,27 @@ class RobustVariance {
 // Robust residuals lose weight beyond this many deviations of their noise (AdjustOptions).
 constexpr double kLossScale = 2;
 
+// Of all observations; `num_points` gets the number of points that they determine.
+RobustVariance ScatterOf(const Scene& scene, int& num_points) {
+  RobustVariance scatter(scene, kLossScale * MeasureNoise(scene));
+  num_points = 0;
+  for (const SceneTrack& track : scene.tracks) {
+    if (!track.position) continue;
+    ++num_points;
+    for (const SceneElement& element : track.elements) {
+      Linearised l;
+      if (element.used && Linearise(scene, element, *track.position, l)) {
+        scatter.Add(element, l.residual);
+      }
+    }
+  }
+  return scatter;
+}
+
 // The normal equations of poses and intrinsics, points eliminated.
 class ReducedSystem {
  public:
-  explicit ReducedSystem(const Scene& scene)
-      : scene_(scene), scatter_(scene, kLossScale * MeasureNoise(scene)) {
+  explicit ReducedSystem(const Scene& scene) : scene_(scene) {
     for (const SceneCamera& camera : scene.cameras) {
       camera_offset_.push_back(size_);
       if (camera.focal_sigma_ratio > 0) size_ += static_cast<int>(camera.intrinsics.params.size());
@@ -187,17 +222,22 @@ class ReducedSystem {
   }
 
   void AddTrack(const SceneTrack& track) {
-    const auto used = std::ranges::count_if(track.elements, &SceneElement::used);
-    if (!track.position || used < 2) return;
-    cross_.clear();
+    if (!track.position) return;
+    sights_.clear();
     Eigen::Matrix3d point_block = Eigen::Matrix3d::Zero();
     for (const SceneElement& element : track.elements) {
-      Linearised l;
-      if (!element.used || !Linearise(scene_, element, *track.position, l)) continue;
-      scatter_.Add(element, l.residual);
-      const int camera = scene_.photos[element.photo].camera;
-      const int pose = pose_offset_[element.photo];
-      point_block += l.point.transpose() * l.point;
+      Sight sight{&element, {}};
+      if (!element.used || !Linearise(scene_, element, *track.position, sight.linear)) continue;
+      point_block += sight.linear.point.transpose() * sight.linear.point;
+      sights_.push_back(sight);
+    }
+    // A point that hardly anything determines, as one just before a lens, says nothing of poses.
+    const Eigen::LLT<Eigen::Matrix3d> factors(point_block);
+    if (factors.info() != Eigen::Success || factors.rcond() < kLeastCondition) return;
+    cross_.clear();
+    for (const auto& [element, l] : sights_) {
+      const int camera = scene_.photos[element->photo].camera;
+      const int pose = pose_offset_[element->photo];
       AddBlock(pose, pose, l.pose.transpose() * l.pose);
       AddCross(pose, l.pose.transpose() * l.point);
       if (scene_.cameras[camera].focal_sigma_ratio == 0) continue;
@@ -206,14 +246,11 @@ class ReducedSystem {
       AddBlock(pose, intrinsics, l.pose.transpose() * l.intrinsics);
       AddCross(intrinsics, l.intrinsics.transpose() * l.point);
     }
-    const Eigen::Matrix3d inverse = point_block.inverse();
-    if (!inverse.allFinite()) return;
-    ++num_points_;
     for (const Cross& row : cross_) {
-      const Eigen::MatrixX3d eliminated = row.block * inverse;
+      const Eigen::Matrix3Xd solved = factors.solve(row.block.transpose());
       for (const Cross& col : cross_) {
         if (col.offset <= row.offset) {
-          AddBlock(row.offset, col.offset, -eliminated * col.block.transpose());
+          AddBlock(row.offset, col.offset, -(col.block * solved).transpose());
         }
       }
     }
@@ -222,8 +259,10 @@ class ReducedSystem {
   SceneSigmas Solve(const SigmaOptions& options) {
     SceneSigmas sigmas;
     sigmas.poses.resize(scene_.photos.size());
-    if (scatter_.num_residuals() == 0) return sigmas;
-    const double variance = scatter_.Get(3.0 * num_points_ + size_);
+    int num_points = 0;
+    const RobustVariance scatter = ScatterOf(scene_, num_points);
+    if (scatter.num_residuals() == 0) return sigmas;
+    const double variance = scatter.Get(3.0 * num_points + size_);
     for (size_t c = 0; c < scene_.cameras.size(); ++c) {
       if (scene_.cameras[c].focal_sigma_ratio > 0) AddLens(c, variance);
     }
@@ -236,6 +275,12 @@ class ReducedSystem {
   }
 
  private:
+  static constexpr double kLeastCondition = 1e-10;
+
+  struct Sight {
+    const SceneElement* element = nullptr;
+    Linearised linear;
+  };
   struct Cross {
     int offset = 0;
     Eigen::MatrixX3d block;
@@ -372,33 +417,32 @@ class ReducedSystem {
   }
 
   const Scene& scene_;
-  RobustVariance scatter_;
   int size_ = 0;
   std::vector<int> camera_offset_;
   std::vector<int> pose_offset_;  // by photo; -1 without a pose
   Eigen::MatrixXd normal_;        // lower triangle
-  std::vector<Cross> cross_;      // of one track
-  int num_points_ = 0;
+  std::vector<Sight> sights_;     // of one track
+  std::vector<Cross> cross_;      // likewise
 };
 
 // Each pose with the points held.
 std::vector<PoseSigma> OwnSigmas(const Scene& scene) {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   std::vector<Matrix6> normals(scene.photos.size(), Matrix6::Zero());
-  RobustVariance scatter(scene, kLossScale * MeasureNoise(scene));
   for (const SceneTrack& track : scene.tracks) {
     if (!track.position) continue;
     for (const SceneElement& element : track.elements) {
       Linearised l;
       if (!element.used || !Linearise(scene, element, *track.position, l)) continue;
       normals[element.photo] += l.pose.transpose() * l.pose;
-      scatter.Add(element, l.residual);
     }
   }
+  int num_points = 0;
+  const double variance = ScatterOf(scene, num_points).Get(3.0 * num_points);
   std::vector<PoseSigma> sigmas(scene.photos.size());
   for (size_t i = 0; i < sigmas.size(); ++i) {
     if (!scene.photos[i].pose) continue;
-    const Matrix6 covariance = scatter.Get(0) * normals[i].inverse();
+    const Matrix6 covariance = variance * normals[i].inverse();
     if (!covariance.allFinite()) continue;
     const Matrix36 by_pose = CenterByPose(*scene.photos[i].pose);
     sigmas[i].position = std::sqrt((by_pose * covariance * by_pose.transpose()).trace());

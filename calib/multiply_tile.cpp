@@ -48,7 +48,8 @@ __attribute__((target("avx2"))) void MultiplyTileAvx2(const RowPointers& rows, c
     __m256i left[kAtOnce] = {};
     __m256i right[kAtOnce] = {};
     for (int pair = 0; pair < kPairs; ++pair) {
-      const auto* values = reinterpret_cast<const __m256i*>(tile) + static_cast<ptrdiff_t>(2) * pair;
+      const auto* values =
+          reinterpret_cast<const __m256i*>(tile) + static_cast<ptrdiff_t>(2) * pair;
       const __m256i a = _mm256_loadu_si256(values);
       const __m256i b = _mm256_loadu_si256(values + 1);
       for (int k = 0; k < kAtOnce; ++k) {

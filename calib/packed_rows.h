@@ -7,9 +7,9 @@
 
 namespace stucco {
 
-// Descriptors (rows of kDescriptorSize values, UnitDescriptors) laid out so that sixteen of them are
-// multiplied with others at once. Products are exact sums of integers, so that they are the same on
-// every processor, however wide its vectors are.
+// Descriptors (rows of kDescriptorSize values, UnitDescriptors) laid out so that sixteen of them
+// are multiplied with others at once. Products are exact sums of integers, so that they are the
+// same on every processor, however wide its vectors are.
 class PackedRows {
  public:
   static constexpr int kTile = 16;  // packed rows that are multiplied at once ...

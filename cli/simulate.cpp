@@ -73,6 +73,9 @@ void AddCityOptions(CLI::App& verb, simulate::CityOptions& city) {
       ->type_name("NUMBER")
       ->capture_default_str()
       ->group(kGroup);
+  verb.add_flag("--repeat", city.repeat,
+                "Every bay of every storey of a wall looks the same, to the texel")
+      ->group(kGroup);
   verb.add_option(
           "--texel", city.metres_per_texel,
           "Size of a texel of walls and roofs, in metres; those of the ground are no smaller")

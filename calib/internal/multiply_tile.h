@@ -12,8 +12,8 @@ namespace stucco {
 
 using RowPointers = std::array<const int16_t*, PackedRows::kRows>;
 
-// Products of the rows with one tile of PackedRows: `products` has the first row's, `stride` further
-// on the next one's.
+// Products of the rows with one tile of PackedRows: `products` has the first row's, `stride`
+// further on the next one's.
 using MultiplyTile = void (*)(const RowPointers& rows, const int16_t* tile, int32_t* products,
                               int stride);
 

@@ -72,6 +72,11 @@ Manner MannerOf(const House& house) {
       break;
   }
   m.ledge_m = random.Uniform(0.08, 0.3);
+  if (house.repeats) {
+    m.balcony_m = 0;
+    m.loggia_m = 0;
+    m.shops = false;
+  }
   return m;
 }
 
@@ -99,6 +104,7 @@ class Designer {
     const double usable = place_.width_m - 2 * kMargin_m;
     bays_ = static_cast<int>((usable - manner_.window_width_m) / manner_.bay_m) + 1;
     if (usable < manner_.window_width_m) bays_ = 0;
+    if (house_.repeats && bays_ > 0) design_.repeated_bay_m = place_.width_m / bays_;
     for (int storey = 0; storey < house_.storeys; ++storey) {
       if (storey == 0 && bays_ > 0) {
         AddGroundFloor();
@@ -130,7 +136,8 @@ class Designer {
                              .top_left = {place.x - place.width / 2, Y(place.top_z)},
                              .bottom_right = {place.x + place.width / 2, Y(place.bottom_z)},
                              .relief_m = relief_m,
-                             .variant = static_cast<uint32_t>(random_.Next())});
+                             .variant = house_.repeats ? static_cast<uint32_t>(house_.seed)
+                                                       : static_cast<uint32_t>(random_.Next())});
   }
 
   // The plinth is painted flush with the wall; a cornice stands out.
@@ -205,7 +212,7 @@ class Designer {
 
   // A house has its door in a wall to the street; tenements and towers one to the courtyard too.
   void AddGroundFloor() {
-    const bool has_door = IsFront() || house_.use != HouseUse::kHome;
+    const bool has_door = !house_.repeats && (IsFront() || house_.use != HouseUse::kHome);
     const int door = has_door ? random_.Index(bays_) : -1;
     const double floor = FloorOf(0);
     const double bay = place_.width_m / bays_;

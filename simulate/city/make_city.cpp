@@ -162,7 +162,8 @@ std::vector<internal::EncodedImage> PaintAll(const CityModel& model, int threads
 
 CitySummary MakeCity(const CityOptions& options, const fs::path& scene_folder) {
   Check(options);
-  const Town town = LayOutTown(options.style, options.seed);
+  Town town = LayOutTown(options.style, options.seed);
+  for (House& house : town.houses) house.repeats = options.repeat;
   const bool sloping = !town.relief.IsFlat();
   PrepareFolder(scene_folder);
   const Georef georef = GeorefOf(options);

@@ -11,6 +11,7 @@ namespace stucco::simulate {
 struct CityOptions {
   std::string style = "hamlet";  // one of CityStyles()
   uint64_t seed = 1;
+  bool repeat = false;             // every bay of a wall looks the same, to the texel
   double metres_per_texel = 0.01;  // of walls and roofs
   double latitude_deg = 50.0875;   // of the origin
   double longitude_deg = 14.4213;

@@ -33,6 +33,8 @@ struct House {
   Cladding cladding = Cladding::kPlaster;
   Covering covering = Covering::kTiles;
   int palette = 0;
+  // Every bay of every storey looks the same, to the texel: no balconies, shops or doors.
+  bool repeats = false;
   uint64_t seed = 0;
 
   double eaves_m() const { return floor_m + storeys * storey_m; }

@@ -110,6 +110,29 @@ int Layer(PartKind kind) {
   }
 }
 
+// Copies the middle bay of the upmost storey to all others of all storeys.
+void RepeatBay(const WallDesign& design, double metres_per_texel, Image& wall) {
+  const double bay = design.repeated_bay_m / metres_per_texel;
+  const double top = design.floors_m[0] / metres_per_texel;
+  const double storey = (design.floors_m[1] - design.floors_m[0]) / metres_per_texel;
+  const double bottom = design.floors_m.back() / metres_per_texel;
+  const double middle = std::floor(design.width_m / design.repeated_bay_m / 2) * bay;
+  const Image from = wall;
+  // The texel of the bay that is copied to one so far from the first bay's edge.
+  const auto texel = [](double begin, double offset, double period, int size) {
+    const int at = static_cast<int>(begin + std::fmod(offset, period));
+    return std::clamp(at, 0, size - 1);
+  };
+  for (int y = std::max(0, static_cast<int>(std::ceil(top)));
+       y < std::min(wall.height_px, static_cast<int>(bottom)); ++y) {
+    const int from_y = texel(top, y - top, storey, wall.height_px);
+    for (int x = 0; x < wall.width_px; ++x) {
+      const int from_x = texel(middle, x, bay, wall.width_px);
+      std::copy_n(from.Pixel(from_x, from_y), wall.channels, wall.Pixel(x, y));
+    }
+  }
+}
+
 }  // namespace
 
 int Texels(double side_m, double metres_per_texel) {
@@ -130,7 +153,7 @@ Image PaintWall(const WallDesign& design, double metres_per_texel) {
   const int width = Texels(design.width_m, metres_per_texel);
   const int height = Texels(design.height_m, metres_per_texel);
   const WallLook look = internal::LookOf(design);
-  return InTiles(width, height, metres_per_texel, [&](Tile& tile) {
+  Image wall = InTiles(width, height, metres_per_texel, [&](Tile& tile) {
     PaintGround(tile, look);
     if (design.cladding != Cladding::kGlass) internal::Weather(tile, look);
     for (int layer = kFlush; layer <= kOnTop; ++layer) {
@@ -143,6 +166,10 @@ Image PaintWall(const WallDesign& design, double metres_per_texel) {
       }
     }
   });
+  if (design.repeated_bay_m > 0 && design.floors_m.size() > 1) {
+    RepeatBay(design, metres_per_texel, wall);
+  }
+  return wall;
 }
 
 Image PaintCovering(const CoveringDesign& design, double metres_per_texel) {

@@ -42,6 +42,9 @@ struct WallDesign {
   int palette = 0;               // which picture of the library gives colours and grain; modulo
   std::vector<double> floors_m;  // y of the floor lines, downwards
   std::vector<WallPart> parts;
+  // Width of a bay that looks like all others, in every storey, from the left edge on; 0: none
+  // does.
+  double repeated_bay_m = 0;
   uint64_t seed = 0;  // the same for the walls of one building: its material; stains differ
   int wall = 0;       // number of the wall in its building
 };

@@ -300,6 +300,16 @@ TEST(MakeCity, GivesTheSameBytesAtAnyNumberOfThreads) {
   }
 }
 
+TEST(MakeCity, WallsMayRepeatWithoutAnotherMap) {
+  const test::TemporaryFolder folder;
+  CityOptions options = Coarse("hamlet", 11);
+  MakeCity(options, folder / "usual");
+  options.repeat = true;
+  MakeCity(options, folder / "repeating");
+  EXPECT_EQ(HashFile(folder / "usual" / kSceneMap), HashFile(folder / "repeating" / kSceneMap));
+  EXPECT_NE(HashFile(folder / "usual" / kSceneModel), HashFile(folder / "repeating" / kSceneModel));
+}
+
 TEST(MakeCity, ReplacesAnOlderSceneAndLeavesOtherFilesAlone) {
   const test::TemporaryFolder folder;
   const fs::path scene = folder / "scene";

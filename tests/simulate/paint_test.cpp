@@ -230,6 +230,33 @@ TEST(Paint, NothingRepeats) {
   }
 }
 
+TEST(Paint, BaysOfARepeatingWallAreTheSameToTheTexel) {
+  WallDesign design = Wall(Cladding::kBrick, 9, 7);
+  design.floors_m = {0.5, 3.5, 6.5};
+  for (const double x : {1.0, 4.0, 7.0}) {
+    for (const double y : {1.2, 4.2}) {
+      design.parts.push_back(Part(PartKind::kWindow, x, y, x + 1.2, y + 1.5));
+    }
+  }
+  const Image without = PaintWall(design, 0.02);
+  design.repeated_bay_m = 3;
+  const Image wall = PaintWall(design, 0.02);
+  ASSERT_EQ(wall.width_px, without.width_px);
+  ASSERT_EQ(wall.height_px, without.height_px);
+  int differing = 0;
+  for (int y = 25; y < 325; ++y) {
+    for (int x = 0; x < 450; ++x) {
+      const auto* reference = wall.Pixel(150 + x % 150, 25 + (y - 25) % 150);
+      ASSERT_TRUE(std::equal(reference, reference + 3, wall.Pixel(x, y))) << x << " " << y;
+      differing += !std::equal(reference, reference + 3, without.Pixel(x, y));
+    }
+  }
+  EXPECT_GT(differing, 300 * 450 / 2);  // which they are not by themselves
+  // Above and below the storeys nothing is copied.
+  EXPECT_TRUE(
+      std::equal(wall.data.begin(), wall.data.begin() + 25 * 450 * 3, without.data.begin()));
+}
+
 TEST(Paint, PartsArePaintedWhereTheyAre) {
   for (const PartKind kind : kParts) {
     WallDesign design = Wall(Cladding::kPlaster, 5, 5);
