@@ -186,14 +186,45 @@ struct Reconstructed {
   std::optional<Georef> frame;  // of the positions; nothing where there are none
   std::vector<PoseRecord> records;
   bool is_in_frame = false;  // it began at the records
+  std::string finding;       // of the records, for people; may be empty
 };
 
+// Why the photos' own positions do not hold the frame; empty where nobody needs to know.
+std::string WhyNoFrame(const Photos& photos, bool plan_holds_it) {
+  int positions = 0;
+  int heights = 0;
+  for (const CapturedPhoto* photo : photos.usable) {
+    positions += photo->position.has_value();
+    heights += photo->position && photo->position->has_height;
+  }
+  if (heights > 0) return "";
+  if (positions == 0) {
+    return plan_holds_it
+               ? "the photos do not say where they were taken: they begin where the plan wanted "
+                 "them, and the model lies where the plan's map does, to some metres"
+               : "";
+  }
+  return plan_holds_it
+             ? "the photos' positions have no heights: those of the plan took their place"
+             : "the photos' positions have no heights and are not used; switch heights on in the "
+               "camera, or run with the plan";
+}
+
 Reconstructed ReadRecordsOf(const CalibOptions& options, const Photos& photos,
-                            const StageContext& context, Scene& scene) {
+                            const Guidance& guidance, const StageContext& context, Scene& scene) {
   Reconstructed result;
-  if (options.use_positions) result.frame = FrameFromPositions(photos.usable, scene);
   const std::optional<Plan> plan = PlanOfSurvey(context);
+  if (options.use_positions) result.frame = FrameFromPositions(photos.usable, scene);
+  const bool by_plan = options.use_positions && !result.frame && guidance.views;
+  if (by_plan) result.frame = FrameFromPlan(plan->origin, guidance.views->poses, scene);
+  if (options.use_positions && (by_plan || !result.frame)) {
+    result.finding = WhyNoFrame(photos, result.frame.has_value());
+  }
   result.records = ReadRecords(photos.usable, plan ? &*plan : nullptr, scene);
+  for (size_t i = 0; by_plan && i < result.records.size(); ++i) {
+    const std::optional<Pose>& expected = guidance.views->poses[i];
+    if (expected && !result.records[i].gimbal) result.records[i].gimbal = expected->rotation;
+  }
   return result;
 }
 
@@ -401,11 +432,12 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   mapper.adjust_threads = options.fast_adjustment ? context.threads : 1;
 
   for (VerifiedPair& pair : pairs) ClassifyMotion(scene, mapper.max_error_sigmas, pair);
-  Reconstructed placed = ReadRecordsOf(options, photos, context, scene);
+  Reconstructed placed = ReadRecordsOf(options, photos, guidance, context, scene);
   PlacePhotos(mapper, pairs, context, placed, scene);
-  const std::vector<std::string> findings = DescribePanoramas(scene, pairs, photos.usable);
-  for (const std::string& finding : findings) context.progress->Warn(finding);
+  std::vector<std::string> findings = DescribePanoramas(scene, pairs, photos.usable);
   if (NumRegistered(scene) < 2) ThrowNothingRegistered(pairs, findings);
+  if (!placed.finding.empty()) findings.push_back(placed.finding);
+  for (const std::string& finding : findings) context.progress->Warn(finding);
   const GeoreferenceResult georeference = Georeference(placed, mapper, photos, context, scene);
   std::map<int, std::string> unregistered = georeference.taken;
   unregistered.merge(ExplainUnregistered(mapper, pairs, scene));

@@ -12,6 +12,7 @@
 
 #include "survey/attitude.h"
 #include "survey/median.h"
+#include "survey/plan_frame.h"
 
 namespace stucco {
 namespace {
@@ -166,6 +167,28 @@ std::optional<Georef> FrameFromPositions(const std::vector<const CapturedPhoto*>
         PositionPrior{EnuFromGeodetic(georef, position->latitude_deg, position->longitude_deg,
                                       position->height_m),
                       position->sigma_horizontal_m, position->sigma_vertical_m};
+  }
+  return georef;
+}
+
+std::optional<Georef> FrameFromPlan(const PlanOrigin& origin,
+                                    const std::vector<std::optional<Pose>>& expected,
+                                    Scene& scene) {
+  assert(expected.size() == scene.photos.size());
+  if (std::ranges::count_if(expected, &std::optional<Pose>::has_value) < 3) return std::nullopt;
+  Georef georef;
+  georef.frame = "enu";
+  georef.origin_latitude_deg = origin.latitude_deg;
+  georef.origin_longitude_deg = origin.longitude_deg;
+  georef.origin_height_m = origin.height_m;
+  georef.up = Eigen::Vector3d::UnitZ();
+  georef.metric = true;
+  georef.source = "plan";
+  for (size_t i = 0; i < expected.size(); ++i) {
+    if (!expected[i]) continue;
+    const Eigen::Vector3d center = expected[i]->Center();
+    const Eigen::Vector2d place = EnuFromPlan(origin, georef, center.head<2>());
+    scene.photos[i].prior = PositionPrior{{place.x(), place.y(), center.z()}};
   }
   return georef;
 }

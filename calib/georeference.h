@@ -9,6 +9,8 @@
 #include "calib/scene.h"
 #include "survey/captures.h"
 #include "survey/georef.h"
+#include "survey/plan.h"
+#include "survey/pose.h"
 
 namespace stucco {
 
@@ -17,6 +19,12 @@ namespace stucco {
 // captures.
 std::optional<Georef> FrameFromPositions(const std::vector<const CapturedPhoto*>& captures,
                                          Scene& scene);
+
+// Local tangent frame at the plan's origin; nothing with fewer than three expected poses. They (in
+// the frame of the plan, by photo) become the position priors of the scene: for photos that say
+// nothing of where, or of how high, they were taken.
+std::optional<Georef> FrameFromPlan(const PlanOrigin& origin,
+                                    const std::vector<std::optional<Pose>>& expected, Scene& scene);
 
 // What the positions tell of the frame besides the shift. Cameras on one line leave the turn about
 // it open; then the gimbal has to say where up is, or nothing does.

@@ -13,7 +13,8 @@
 
 namespace stucco {
 
-// What a photo's metadata say of its pose, in the frame of the positions (ENU).
+// What a photo's metadata say of its pose, or its plan where they say nothing, in the frame of the
+// positions (ENU).
 struct PoseRecord {
   std::optional<PositionPrior> position;
   std::optional<Eigen::Quaterniond> gimbal;  // cam_from_world

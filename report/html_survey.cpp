@@ -69,6 +69,11 @@ std::string CameraTable(const CalibratedCamera& camera) {
       IsolatedHtml(camera.label), EscapeHtml(camera.model), head, values, sigmas);
 }
 
+std::string_view PositionsOf(const Georef& georef) {
+  if (georef.source == "plan") return "the positions of the plan, to some metres";
+  return georef.source == "rtk" ? "RTK positions" : "GPS positions";
+}
+
 std::string GeorefText(const PageContent& page) {
   const SurveyData& data = page.data;
   if (!data.georef) return "";
@@ -80,9 +85,8 @@ std::string GeorefText(const PageContent& page) {
     return fmt::format(
         "Lengths are metres; east, north and up are known from {}. Origin: latitude {:.7f}, "
         "longitude {:.7f}, height {:.2f} m.",
-        data.georef->source == "rtk" ? "RTK positions" : "GPS positions",
-        data.georef->origin_latitude_deg, data.georef->origin_longitude_deg,
-        data.georef->origin_height_m);
+        PositionsOf(*data.georef), data.georef->origin_latitude_deg,
+        data.georef->origin_longitude_deg, data.georef->origin_height_m);
   }
   return "Lengths are metres.";
 }

@@ -19,7 +19,7 @@ struct Georef {
   // Unit vector away from the ground, when calibration knows it (GPS or gimbal).
   std::optional<Eigen::Vector3d> up;
   bool metric = false;  // lengths are metres
-  std::string source;   // "gps", "rtk", "gimbal", "none"
+  std::string source;   // "gps", "rtk", "plan", "gimbal", "none"
 };
 
 // calib/georef.json. Throws Error (kBadInput).

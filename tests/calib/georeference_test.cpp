@@ -202,6 +202,32 @@ TEST(FrameFromPositions, NeedsThreePositionsWithHeights) {
   EXPECT_FALSE(scene.photos[0].prior);
 }
 
+TEST(FrameFromPlan, PutsPhotosWhereTheyArePlanned) {
+  PlanOrigin origin;
+  origin.latitude_deg = 50;
+  origin.longitude_deg = 14;
+  origin.height_m = 200;
+  std::vector<std::optional<Pose>> expected(4);
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d center(100.0 * i, -50, 30);
+    const Eigen::Quaterniond rotation(Eigen::AngleAxisd(0.3 * i, Eigen::Vector3d::UnitX()));
+    expected[i] = Pose{rotation, -(rotation * center)};
+  }
+  Scene scene;
+  scene.photos.resize(4);
+  const auto frame = FrameFromPlan(origin, expected, scene);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->source, "plan");
+  EXPECT_TRUE(frame->metric);
+  EXPECT_DOUBLE_EQ(frame->origin_latitude_deg, 50);
+  EXPECT_DOUBLE_EQ(frame->origin_height_m, 200);
+  ASSERT_TRUE(scene.photos[2].prior);
+  EXPECT_LT((scene.photos[2].prior->position - Eigen::Vector3d(200, -50, 30)).norm(), 0.01);
+  EXPECT_FALSE(scene.photos[3].prior);
+  expected[0].reset();
+  EXPECT_FALSE(FrameFromPlan(origin, expected, scene));
+}
+
 TEST(TransformScene, KeepsReprojectionErrors) {
   Scene scene = MakeScene({.num_photos = 4, .num_points = 40});
   scene.photos[3].pose.reset();
