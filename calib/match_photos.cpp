@@ -22,7 +22,7 @@ namespace stucco {
 namespace {
 
 // Raise when the code behind a checkpoint changes what it computes.
-constexpr char kPairVersion[] = "pair-7";
+constexpr char kPairVersion[] = "pair-8";
 // Recorded positions of one flight, gimbal angles and the map are this good together.
 constexpr double kReachOnWall_m = 4;
 // When fewer of the pairs that should overlap do, the photos do not show what the plan says.

@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "calib/best_two.h"
+#include "calib/chance.h"
 #include "calib/descriptors.h"
 #include "calib/expect/project_inside.h"
 
@@ -23,6 +24,13 @@ constexpr double kLikeScale = 2.5;
 // the record may be off by more than the reach.
 constexpr double kRivals = 2.5;
 constexpr double kLonelyAngle_rad = 0.6;
+// Shifts that differ by less are one.
+constexpr double kSameShift_m = 0.7;
+// Votes for a shift over those for any other, and the logarithm of how often chance may give them.
+constexpr double kAhead = 1.5;
+const double kLogSure = std::log(1e-3);
+// Matches are looked for so near to where the common shift puts them.
+constexpr double kGuided_m = 1;
 // A keypoint's descriptor reaches this many standard deviations of its blob in each direction.
 constexpr double kSupport = 6;
 
@@ -137,6 +145,100 @@ AlongOrder SortAlong(const WallKeypoints& keypoints) {
   return order;
 }
 
+// Where keypoints of the second photo may lie for those of the first: shifted on the wall and about
+// there within `reach_m`; what is as similar within `rivals_m` makes a match doubtful.
+struct Window {
+  Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();  // along, up
+  double reach_m = 4;
+  double rivals_m = 10;
+};
+
+struct NearestOnWall {
+  std::vector<BestTwo> of_first;
+  std::vector<BestTwo> of_second;
+};
+
+NearestOnWall FindNearest(const WallKeypoints& first, const WallKeypoints& second,
+                          const AlongOrder& columns, const Window& window) {
+  NearestOnWall nearest{std::vector<BestTwo>(first.places.size()),
+                        std::vector<BestTwo>(second.places.size())};
+  std::vector<int32_t> products(second.places.size());
+  for (size_t row = 0; row < first.places.size(); ++row) {
+    OnWall place = first.places[row];
+    place.along_m += static_cast<float>(window.shift_m.x());
+    place.z_m += static_cast<float>(window.shift_m.y());
+    const auto near = [&](double along) {
+      return std::lower_bound(columns.along_m.begin(), columns.along_m.end(), along) -
+             columns.along_m.begin();
+    };
+    const auto begin = near(place.along_m - window.rivals_m);
+    const auto end = near(place.along_m + window.rivals_m);
+    DotProducts(first.descriptors.data() + row * kDescriptorSize,
+                columns.descriptors.data() + begin * kDescriptorSize, static_cast<int>(end - begin),
+                products.data());
+    for (auto c = begin; c < end; ++c) {
+      const int other = columns.index[c];
+      const double apart = Apart(place, second.places[other]);
+      if (apart > window.rivals_m || !IsOfLikeSize(place, second.places[other])) continue;
+      const int32_t product = products[c - begin];
+      if (apart <= window.reach_m) {
+        nearest.of_first[row].Offer(product, other);
+        nearest.of_second[other].Offer(product, static_cast<int>(row));
+      } else {
+        nearest.of_first[row].Rival(product);
+        nearest.of_second[other].Rival(product);
+      }
+    }
+  }
+  return nearest;
+}
+
+std::vector<Match> SureMatches(const NearestOnWall& nearest, double ratio) {
+  std::vector<Match> matches = MutualMatches(nearest.of_first, nearest.of_second, ratio);
+  std::erase_if(matches, [&](const Match& match) {
+    return !IsSure(nearest.of_first[match.first]) || !IsSure(nearest.of_second[match.second]);
+  });
+  return matches;
+}
+
+// The shift on the wall that most nearest neighbours have in common: nothing where that may be
+// chance, or where another shift has nearly as many, as on what repeats.
+std::optional<Eigen::Vector2d> CommonShift(const WallKeypoints& first, const WallKeypoints& second,
+                                           const std::vector<Match>& neighbours, double reach_m) {
+  const int count = static_cast<int>(neighbours.size());
+  std::vector<Eigen::Vector2d> shifts;
+  shifts.reserve(neighbours.size());
+  for (const Match& match : neighbours) {
+    const OnWall& from = first.places[match.first];
+    const OnWall& to = second.places[match.second];
+    shifts.emplace_back(to.along_m - from.along_m, to.z_m - from.z_m);
+  }
+  std::vector<int> votes(shifts.size(), 0);
+  for (size_t i = 0; i < shifts.size(); ++i) {
+    for (size_t k = 0; k < shifts.size(); ++k) {
+      votes[i] += i != k && (shifts[i] - shifts[k]).norm() < kSameShift_m;
+    }
+  }
+  const auto most = std::ranges::max_element(votes);
+  if (most == votes.end()) return std::nullopt;
+  const Eigen::Vector2d best = shifts[most - votes.begin()];
+  int rival = 0;
+  for (size_t i = 0; i < shifts.size(); ++i) {
+    if ((shifts[i] - best).norm() > 2 * kSameShift_m) rival = std::max(rival, votes[i]);
+  }
+  const double chance = std::min(1.0, std::pow(kSameShift_m / reach_m, 2));
+  if (std::log(count) + LogBinomialTail(count - 1, *most, chance) > kLogSure) return std::nullopt;
+  if (*most < kAhead * rival) return std::nullopt;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  int near = 0;
+  for (const Eigen::Vector2d& shift : shifts) {
+    if ((shift - best).norm() >= kSameShift_m) continue;
+    sum += shift;
+    ++near;
+  }
+  return sum / near;
+}
+
 }  // namespace
 
 Features DetectOnWall(const Image& image, const Camera& camera, const WallView& view,
@@ -188,39 +290,17 @@ std::vector<Match> MatchOnWall(const WallKeypoints& first, const WallKeypoints& 
                                double reach_m, double ratio) {
   assert(IsWhole(first) && IsWhole(second));
   const AlongOrder columns = SortAlong(second);
-  std::vector<BestTwo> of_first(first.places.size());
-  std::vector<BestTwo> of_second(second.places.size());
-  std::vector<int32_t> products(second.places.size());
-  for (size_t row = 0; row < first.places.size(); ++row) {
-    const OnWall& place = first.places[row];
-    const auto near = [&](double along) {
-      return std::lower_bound(columns.along_m.begin(), columns.along_m.end(), along) -
-             columns.along_m.begin();
-    };
-    const auto begin = near(place.along_m - kRivals * reach_m);
-    const auto end = near(place.along_m + kRivals * reach_m);
-    DotProducts(first.descriptors.data() + row * kDescriptorSize,
-                columns.descriptors.data() + begin * kDescriptorSize, static_cast<int>(end - begin),
-                products.data());
-    for (auto c = begin; c < end; ++c) {
-      const int other = columns.index[c];
-      const double apart = Apart(place, second.places[other]);
-      if (apart > kRivals * reach_m || !IsOfLikeSize(place, second.places[other])) continue;
-      const int32_t product = products[c - begin];
-      if (apart <= reach_m) {
-        of_first[row].Offer(product, other);
-        of_second[other].Offer(product, static_cast<int>(row));
-      } else {
-        of_first[row].Rival(product);
-        of_second[other].Rival(product);
-      }
-    }
-  }
-  std::vector<Match> matches = MutualMatches(of_first, of_second, ratio);
-  std::erase_if(matches, [&](const Match& match) {
-    return !IsSure(of_first[match.first]) || !IsSure(of_second[match.second]);
-  });
-  return matches;
+  const double far_m = kRivals * reach_m;
+  std::vector<Match> matches =
+      SureMatches(FindNearest(first, second, columns, {{0, 0}, reach_m, far_m}), ratio);
+  // Whatever the records are off by, they are so for the whole wall.
+  const NearestOnWall anywhere = FindNearest(first, second, columns, {{0, 0}, far_m, far_m});
+  const auto shift =
+      CommonShift(first, second, MutualMatches(anywhere.of_first, anywhere.of_second, 1), far_m);
+  if (!shift) return matches;
+  std::vector<Match> guided = SureMatches(
+      FindNearest(first, second, columns, {*shift, kGuided_m, kRivals * kGuided_m}), ratio);
+  return guided.size() > matches.size() ? guided : matches;
 }
 
 }  // namespace stucco

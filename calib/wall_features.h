@@ -49,7 +49,9 @@ struct WallKeypoints {
 
 // Mutual nearest neighbours among keypoints of like size within `reach_m` of each other on the
 // wall, which pass the ratio test among those within 2.5 times as much: what repeats along the wall
-// farther off does not confuse.
+// farther off does not confuse. Where nearest neighbours within 2.5 times the reach agree on one
+// shift, as records that are off give it to a whole wall, and on no other nearly as well, matches
+// are those within a metre of it, if these are more.
 std::vector<Match> MatchOnWall(const WallKeypoints& first, const WallKeypoints& second,
                                double reach_m, double ratio);
 

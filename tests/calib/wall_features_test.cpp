@@ -151,7 +151,10 @@ TEST_F(WallFeatures, MatchOnlyWithinReachAndOfLikeSize) {
   const WallKeypoints first{UnitDescriptors(frontal_.on_wall), frontal_.places};
   WallKeypoints second = first;
   EXPECT_EQ(MatchOnWall(first, second, 4, 0.8).size(), first.places.size());
+  // Beyond the reach by itself, but all by the same: the record is off.
   for (OnWall& place : second.places) place.along_m += 5;
+  EXPECT_GT(MatchOnWall(first, second, 4, 0.8).size(), 0.9 * first.places.size());
+  for (OnWall& place : second.places) place.along_m += 7;
   EXPECT_LT(MatchOnWall(first, second, 4, 0.8).size(), first.places.size() / 20);
   second = first;
   for (OnWall& place : second.places) place.scale_m *= 100;
@@ -180,6 +183,27 @@ TEST(MatchOnWall, DoubtsWhatRepeatsJustBeyondItsReach) {
   EXPECT_EQ(MatchOnWall(first, OneHot({1, 2, 1}, {11, 11, 21}), 4, 0.8).size(), 2u);
   // And never matches there.
   EXPECT_EQ(MatchOnWall(OneHot({1}, {10}), OneHot({1, 2}, {19, 11}), 4, 0.8).size(), 0u);
+}
+
+// A row of windows: each of the entries every three metres.
+WallKeypoints Repeating(int windows, float begin_m) {
+  std::vector<int> entries;
+  std::vector<float> along_m;
+  for (int window = 0; window < windows; ++window) {
+    for (int i = 0; i < 12; ++i) {
+      entries.push_back(i);
+      along_m.push_back(begin_m + 3 * static_cast<float>(window) + 0.1f * static_cast<float>(i));
+    }
+  }
+  return OneHot(entries, along_m);
+}
+
+TEST(MatchOnWall, ChoosesNoShiftOfWhatRepeats) {
+  // Each window matches the others as well as itself.
+  EXPECT_TRUE(MatchOnWall(Repeating(6, 0), Repeating(6, 0.4f), 4, 0.8).empty());
+  EXPECT_TRUE(MatchOnWall(Repeating(6, 0), Repeating(6, 1.5f), 4, 0.8).empty());
+  // One window alone is where it is.
+  EXPECT_EQ(MatchOnWall(Repeating(1, 0), Repeating(1, 1.5f), 4, 0.8).size(), 12u);
 }
 
 TEST(MatchOnWall, TakesALonelyMatchOnlyWhenItIsGood) {
