@@ -11,7 +11,7 @@
 #include "survey/files.h"
 #include "survey/internal/colmap.h"
 #include "survey/internal/output_file.h"
-#include "survey/internal/text.h"
+#include "survey/text.h"
 
 namespace stucco {
 namespace internal {

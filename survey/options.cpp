@@ -12,7 +12,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "survey/internal/text.h"
+#include "survey/text.h"
 
 namespace stucco {
 namespace {
@@ -131,10 +131,10 @@ std::string UnknownOption(const OptionTable& table, std::string_view name) {
 
 std::optional<std::vector<double>> ParseList(std::string_view text) {
   std::vector<double> list;
-  if (internal::Trim(text).empty()) return list;
+  if (Trim(text).empty()) return list;
   while (true) {
     const size_t comma = text.find(',');
-    const auto number = internal::ParseNumber<double>(internal::Trim(text.substr(0, comma)));
+    const auto number = ParseNumber<double>(Trim(text.substr(0, comma)));
     if (!number) return std::nullopt;
     list.push_back(*number);
     if (comma == std::string_view::npos) return list;
@@ -145,11 +145,11 @@ std::optional<std::vector<double>> ParseList(std::string_view text) {
 // The text as a value of the option's type. Text that is not of this type stays a text, which
 // SetOption refuses with the right words.
 OptionValue ParseFor(const Option& option, std::string_view text) {
-  const std::string_view word = internal::Trim(text);
+  const std::string_view word = Trim(text);
   if (std::holds_alternative<int*>(option.value)) {
-    if (const auto number = internal::ParseNumber<int64_t>(word)) return *number;
+    if (const auto number = ParseNumber<int64_t>(word)) return *number;
   } else if (std::holds_alternative<double*>(option.value)) {
-    if (const auto number = internal::ParseNumber<double>(word)) return *number;
+    if (const auto number = ParseNumber<double>(word)) return *number;
   } else if (std::holds_alternative<bool*>(option.value)) {
     if (word == "true" || word == "1") return true;
     if (word == "false" || word == "0") return false;

@@ -16,8 +16,8 @@
 
 #include "survey/error.h"
 #include "survey/internal/bytes.h"
-#include "survey/internal/text.h"
 #include "survey/point_cloud.h"
+#include "survey/text.h"
 
 // PLY, "The Stanford Triangle Format" (Turk 1994).
 namespace stucco {
@@ -135,7 +135,7 @@ class Source {
     constexpr size_t kLongestWord = 4096;
     std::string_view ahead = Peek(kLongestWord);
     size_t blanks = 0;
-    while (blanks < ahead.size() && internal::IsBlank(ahead[blanks])) {
+    while (blanks < ahead.size() && IsBlank(ahead[blanks])) {
       if (++blanks < ahead.size()) continue;
       Skip(blanks);
       ahead = Peek(kLongestWord);
@@ -143,7 +143,7 @@ class Source {
     }
     Skip(blanks);
     ahead = Peek(kLongestWord);
-    const std::string_view word = internal::TakeWord(ahead);
+    const std::string_view word = TakeWord(ahead);
     Skip(word.size());
     return word;
   }
@@ -182,14 +182,14 @@ Encoding ParseEncoding(std::string_view word, const std::string& file) {
 
 Property ParseProperty(std::string_view line, const std::string& file) {
   Property property;
-  std::string_view word = internal::TakeWord(line);
+  std::string_view word = TakeWord(line);
   if (word == "list") {
     property.is_list = true;
-    property.count_type = ParseScalar(internal::TakeWord(line), file);
-    word = internal::TakeWord(line);
+    property.count_type = ParseScalar(TakeWord(line), file);
+    word = TakeWord(line);
   }
   property.type = ParseScalar(word, file);
-  property.name = internal::TakeWord(line);
+  property.name = TakeWord(line);
   return property;
 }
 
@@ -199,18 +199,18 @@ Header ReadHeader(Source& source, const std::string& file) {
   bool has_format = false;
   while (const auto text = source.NextLine()) {
     std::string_view line = *text;
-    const std::string_view word = internal::TakeWord(line);
+    const std::string_view word = TakeWord(line);
     if (word == "end_header") {
       if (!has_format) Fail(file, "has no line \"format\"");
       return header;
     }
     if (word == "format") {
-      header.encoding = ParseEncoding(internal::TakeWord(line), file);
+      header.encoding = ParseEncoding(TakeWord(line), file);
       has_format = true;
     } else if (word == "element") {
       Element& element = header.elements.emplace_back();
-      element.name = internal::TakeWord(line);
-      const auto count = internal::ParseNumber<uint64_t>(internal::TakeWord(line));
+      element.name = TakeWord(line);
+      const auto count = ParseNumber<uint64_t>(TakeWord(line));
       if (!count) Fail(file, fmt::format("element \"{}\" has no count", element.name));
       element.count = *count;
     } else if (word == "property") {
@@ -274,7 +274,7 @@ class Body {
   double NextWord() {
     const std::string_view word = source_.NextWord();
     if (word.empty()) Fail(file_, "ends too early");
-    const auto number = internal::ParseNumber<double>(word);
+    const auto number = ParseNumber<double>(word);
     if (!number) Fail(file_, fmt::format("\"{}\" is not a number", word));
     return *number;
   }

@@ -7,7 +7,8 @@
 #include <string_view>
 #include <system_error>
 
-namespace stucco::internal {
+// Words and lines of text files, and numbers whatever the locale.
+namespace stucco {
 
 inline bool IsBlank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
@@ -54,4 +55,4 @@ inline std::optional<std::string_view> TakeLine(std::string_view& text) {
   return line;
 }
 
-}  // namespace stucco::internal
+}  // namespace stucco
