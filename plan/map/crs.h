@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "plan/map/raw_map.h"
-#include "survey/plan.h"
 #include "survey/plan_frame.h"
 
 namespace stucco::plan {
 
-// The coordinate system that a map is in: its own, or `map_crs` where the map names none (or says
-// degrees, as GeoJSON must, and has coordinates that are none). Throws Error where neither fits the
-// coordinates.
-std::string CrsOfMap(const RawMap& map, const std::string& map_crs);
+// Coordinate systems by what PROJ calls them: "EPSG:25832", WKT, "+proj=...".
+
+// On the earth at all, and not a drawing with axes of its own.
+bool IsCrsOnEarth(const std::string& crs);
+// Longitude and latitude in degrees.
+bool IsCrsGeographic(const std::string& crs);
 
 // Between a coordinate system and WGS 84. Coordinates are east, north (longitude, latitude)
 // whatever axes the system lists first. Throws Error (kBadInput) naming `file` when PROJ does not
@@ -27,11 +27,5 @@ std::vector<Geodetic> GeodeticFromCrs(const std::string& crs,
 std::vector<Eigen::Vector2d> CrsFromGeodetic(const std::string& crs,
                                              std::span<const Geodetic> points,
                                              const std::string& file);
-
-// Replaces the coordinates of the map by those of the plan.
-void MoveToPlan(RawMap& map, const std::string& crs, const PlanOrigin& origin);
-
-// The middle of the map.
-Geodetic MiddleOf(const RawMap& map, const std::string& crs);
 
 }  // namespace stucco::plan

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "plan/map/crs.h"
 #include "plan/map/internal/ogr.h"
+#include "plan/map/map_crs.h"
 #include "plan/map/read_map.h"
 #include "site/box_grid.h"
 #include "site/facades.h"

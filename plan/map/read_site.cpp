@@ -10,10 +10,10 @@
 #include <set>
 
 #include "plan/map/clean.h"
-#include "plan/map/crs.h"
 #include "plan/map/home.h"
 #include "plan/map/internal/ogr.h"
 #include "plan/map/internal/outlines.h"
+#include "plan/map/map_crs.h"
 #include "plan/map/read_dem.h"
 #include "plan/map/read_map.h"
 #include "plan/map/read_obstacles.h"
