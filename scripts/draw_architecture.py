@@ -16,11 +16,13 @@ import include_graph  # noqa: E402
 
 COLUMN, GAP, MARGIN, ROW_GAP, LINE = 142, 12, 16, 44, 15
 # Left to right; what has no column spans those of SPANS, or those that include it.
-COLUMNS = ["evaluate", "plan", "calib", "proxy", "texture", "dense", "capture_ingest", "report"]
+COLUMNS = ["evaluate", "plan", "calib", "proxy", "texture", "dense", "capture_ingest", "report",
+           "exchange"]
 ROWS = [["cli"], ["evaluate", "pipeline"],
-        ["simulate", "plan", "calib", "proxy", "texture", "dense", "capture_ingest", "report"],
+        ["simulate", "plan", "calib", "proxy", "texture", "dense", "capture_ingest", "report",
+         "exchange"],
         ["site"], ["survey"]]
-SPANS = {"cli": (0, 8), "pipeline": (1, 8), "survey": (0, 8), "evaluate": (0, 1),
+SPANS = {"cli": (0, 9), "pipeline": (1, 9), "survey": (0, 9), "evaluate": (0, 1),
          "simulate": (0, 1)}
 
 

@@ -19,7 +19,8 @@ struct Georef {
   // Unit vector away from the ground, when calibration knows it (GPS or gimbal).
   std::optional<Eigen::Vector3d> up;
   bool metric = false;  // lengths are metres
-  std::string source;   // "gps", "rtk", "plan", "gimbal", "none"
+  // "gps", "rtk", "plan", "gimbal", "none"; "file": an imported model said so itself.
+  std::string source;
 };
 
 // calib/georef.json. Throws Error (kBadInput).

@@ -21,10 +21,11 @@ STAGES = {"plan", "capture_ingest", "calib", "dense", "proxy", "texture", "repor
 # What the sources of a module may include besides their own module.
 ARROWS = {stage: {"survey"} for stage in STAGES}
 ARROWS["survey"] = set()
+ARROWS["exchange"] = {"survey"}
 ARROWS["site"] = {"survey"}
 for stage in ("plan", "calib", "proxy", "texture"):
     ARROWS[stage] = {"survey", "site"}
-ARROWS["pipeline"] = STAGES | {"survey", "site"}
+ARROWS["pipeline"] = STAGES | {"survey", "site", "exchange"}
 ARROWS["simulate"] = {"survey", "site", "plan"}
 ARROWS["evaluate"] = {"survey", "site", "simulate"}
 ARROWS["cli"] = {"pipeline", "survey", "simulate", "evaluate"}
@@ -35,7 +36,8 @@ MODULES = set(ARROWS)
 # by its front door.
 FOLDER_ARROWS = {
     "pipeline/engine/": ("pipeline/engine/", "survey/"),
-    "pipeline/verbs/": ("pipeline/engine/", "pipeline/verbs/", "plan/", "survey/"),
+    "pipeline/verbs/": ("pipeline/engine/", "pipeline/verbs/", "calib/", "exchange/", "plan/",
+                        "survey/"),
     "cli/": ("cli/", "evaluate/", "pipeline/default_stages.h", "pipeline/engine/engine.h",
              "pipeline/verbs/", "simulate/", "survey/"),
 }
