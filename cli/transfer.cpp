@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <iostream>
 
@@ -38,27 +36,24 @@ int ImportPly(const Program& program, const std::string& cloud) {
   return 0;
 }
 
-bool IsPly(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension == ".ply";
-}
-
-int ImportModel(const Program& program, const std::string& model) {
+int ImportPoses(const Program& program, const std::string& model) {
   const CommonOptions& common = program.common;
-  const ImportReport report = ImportColmap(common.survey, model, program.table, RealPlatform());
+  Console console = Console::ForStderr(common.verbosity());
+  const ImportReport report =
+      ImportModel(common.survey, model, program.table, console, RealPlatform());
   const std::string next = "stucco run " + ShellWord(common.survey);
   if (common.json) {
-    const Json json = {{"photos", report.photos},
+    const Json json = {{"format", report.format},
+                       {"frame", report.frame},
+                       {"photos", report.photos},
                        {"points", report.points},
                        {"cameras", report.cameras},
                        {"notes", report.notes},
                        {"next", next}};
     PrintJson(json);
   } else if (!common.quiet) {
-    std::cout << fmt::format("Imported {} photos, {} points, {} cameras as calib.\n", report.photos,
-                             report.points, report.cameras);
+    std::cout << fmt::format("Imported {} photos, {} points, {} cameras of {} as calib.\n",
+                             report.photos, report.points, report.cameras, report.format);
     for (const std::string& note : report.notes) {
       std::cout << "  " << note << "\n";
     }
@@ -80,21 +75,24 @@ std::string FormatHelp() {
 void AddImport(CLI::App& app, Program& program) {
   CLI::App& verb =
       AddVerb(app, {"import",
-                    "Take camera poses of COLMAP in the place of calib, or a PLY cloud in that of "
-                    "dense",
+                    "Take camera poses of another program in the place of calib, or a PLY cloud in "
+                    "that of dense",
                     "stucco import castle ~/colmap/sparse/0 && stucco run castle\n"
+                    "stucco import castle block.xml     (BlocksExchange)\n"
                     "stucco import castle scan.ply      (in the frame of the poses)\n"
                     "stucco calib castle --force        (back to our own poses)",
                     kTransferGroup});
   AddSurveyArgument(verb, program);
   auto model = std::make_shared<std::string>();
   verb.add_option("model", *model,
-                  "Folder with cameras, images and points3D as .bin or .txt, or a .ply file")
+                  "COLMAP folder, bundle.out (Bundler), BlocksExchange XML, reconstruction.json "
+                  "(OpenSfM), folder of XMP files (RealityCapture), or PLY cloud; recognised by "
+                  "contents")
       ->type_name("PATH")
       ->required();
   verb.callback([&program, model] {
     program.action = [&program, model] {
-      return IsPly(*model) ? ImportPly(program, *model) : ImportModel(program, *model);
+      return IsCloud(*model) ? ImportPly(program, *model) : ImportPoses(program, *model);
     };
   });
 }
@@ -102,7 +100,8 @@ void AddImport(CLI::App& app, Program& program) {
 void AddExport(CLI::App& app, Program& program) {
   CLI::App& verb = AddVerb(app, {"export", "Write a result in another program's format",
                                  "stucco export castle --format glb -o castle.glb\n"
-                                 "stucco export castle --format colmap-txt -o colmap",
+                                 "stucco export castle --format colmap-txt -o colmap\n"
+                                 "stucco export castle --format blocksexchange -o castle.xml",
                                  kTransferGroup});
   AddSurveyArgument(verb, program);
   auto format = std::make_shared<std::string>();
@@ -113,7 +112,7 @@ void AddExport(CLI::App& app, Program& program) {
   verb.add_flag("--overwrite", *overwrite, "Replace what is there");
   verb.callback([&program, format, out, overwrite] {
     program.action = [&program, format, out, overwrite] {
-      ExportSurvey(program.common.survey, *format, *out, *overwrite);
+      ExportSurvey(program.common.survey, *format, *out, *overwrite, program.table);
       if (program.common.json) {
         const Json json = {{"format", *format}, {"out", *out}};
         PrintJson(json);

@@ -71,6 +71,7 @@ std::string CameraTable(const CalibratedCamera& camera) {
 
 std::string_view PositionsOf(const Georef& georef) {
   if (georef.source == "plan") return "the positions of the plan, to some metres";
+  if (georef.source == "file") return "the model that was imported";
   return georef.source == "rtk" ? "RTK positions" : "GPS positions";
 }
 

@@ -6,10 +6,14 @@
 
 #include <algorithm>
 
+#include "exchange/blocks_exchange.h"
+#include "exchange/nerfstudio.h"
+#include "pipeline/engine/settings.h"
 #include "pipeline/engine/shell.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/georef.h"
 #include "survey/options.h"
 #include "survey/survey_folder.h"
 
@@ -74,12 +78,35 @@ void CopyObj(const fs::path& texture, const fs::path& out) {
   }
 }
 
+// The frame is no part of COLMAP's format, nor of nerfstudio's.
+void ExportPoses(const fs::path& survey, const std::string& format, const fs::path& out,
+                 const fs::path& photos) {
+  const Reconstruction model = ReadColmapModel(survey / kSparseFolder);
+  std::error_code error;
+  const Georef georef =
+      fs::exists(survey / kGeorefFile, error) ? ReadGeoref(survey / kGeorefFile) : Georef();
+  const ModelToWrite what{model, georef, photos};
+  if (format == "blocksexchange") {
+    if (!out.parent_path().empty()) fs::create_directories(out.parent_path(), error);
+    WriteBlocksExchange(what, out);
+    return;
+  }
+  if (format == "nerfstudio") {
+    WriteNerfstudio(what, out);
+  } else {
+    format == "colmap-txt" ? WriteColmapText(model, out) : WriteColmapBinary(model, out);
+  }
+  WriteGeoref(georef, out / "georef.json");
+}
+
 }  // namespace
 
 const std::vector<ExportFormat>& ExportFormats() {
   static const std::vector<ExportFormat> formats = {
       {"colmap-txt", "folder with cameras.txt, images.txt, points3D.txt", "calib"},
       {"colmap-bin", "folder with cameras.bin, images.bin, points3D.bin", "calib"},
+      {"blocksexchange", "file: BlocksExchange XML 2.1 with poses, lenses and tie points", "calib"},
+      {"nerfstudio", "folder with transforms.json and sparse_pc.ply", "calib"},
       {"obj", "folder with model.obj, its .mtl and its textures", "texture"},
       {"glb", "file: textured model as binary glTF", "texture"},
       {"ply", "file: dense point cloud", "dense"}};
@@ -87,13 +114,12 @@ const std::vector<ExportFormat>& ExportFormats() {
 }
 
 void ExportSurvey(const fs::path& survey, const std::string& format, const fs::path& out,
-                  bool overwrite) {
+                  bool overwrite, const StageTable& table) {
   const ExportFormat& chosen = Format(format);
   if (chosen.stage == "calib") {
     RequireMade(survey, kSparseFolder, chosen.stage);
     RequireFree(out, overwrite);
-    const Reconstruction model = ReadColmapModel(survey / kSparseFolder);
-    format == "colmap-txt" ? WriteColmapText(model, out) : WriteColmapBinary(model, out);
+    ExportPoses(survey, format, out, LoadSettings(survey, table, {}).photos);
   } else if (format == "obj") {
     RequireMade(survey, "texture/model.obj", chosen.stage);
     RequireFree(out, overwrite);

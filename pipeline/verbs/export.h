@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/engine/stages.h"
+
 namespace stucco {
 
 struct ExportFormat {
@@ -16,10 +18,10 @@ struct ExportFormat {
 
 const std::vector<ExportFormat>& ExportFormats();
 
-// Writes a survey's result in another program's format to `out`: a file for "glb" and "ply", a
-// folder for the others. Throws Error: kUsage for an unknown format, kBadInput when the stage has
-// not run or `out` exists already (unless `overwrite`).
+// Writes a survey's result in another program's format to `out`: a file for "blocksexchange", "glb"
+// and "ply", a folder for the others. Throws Error: kUsage for an unknown format, kBadInput when
+// the stage has not run or `out` exists already (unless `overwrite`).
 void ExportSurvey(const std::filesystem::path& survey, const std::string& format,
-                  const std::filesystem::path& out, bool overwrite);
+                  const std::filesystem::path& out, bool overwrite, const StageTable& table);
 
 }  // namespace stucco

@@ -7,31 +7,40 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/engine/console.h"
 #include "pipeline/engine/platform.h"
 #include "pipeline/engine/stages.h"
 
 namespace stucco {
 
 struct ImportReport {
+  std::string format;  // "BlocksExchange 2.1"
+  std::string frame;   // of georef.json: "enu" or "arbitrary"
   int photos = 0;
   int points = 0;
   int cameras = 0;
   std::vector<std::string> notes;  // "camera 1 was scaled from 1600 x 1066 to 3072 x 2048" ...
 };
 
-// Takes a COLMAP model (text or binary) as the survey's calibration: writes the `calib` folder and
-// a manifest that says where it came from, so that `run` goes on from it. Photo names are matched
-// to the photo folder by path, else by a file name that occurs once. A model of resized photos is
-// scaled to the photos. Throws Error (kBadInput) when the model is damaged, names photos that are
-// not there, or was made from pictures of another shape.
-ImportReport ImportColmap(const std::filesystem::path& survey, const std::filesystem::path& source,
-                          const StageTable& table, const Platform& platform);
+// Takes the camera poses of another program (COLMAP, Bundler, BlocksExchange, OpenSfM or
+// RealityCapture; recognised by their contents) as the survey's calibration: writes the `calib`
+// folder and a manifest that says where it came from, so that `run` goes on from it. Runs ingest
+// first, where that is not done: models whose file does not say where they lie are brought to the
+// positions of their photos. Photo names are matched to the photo folder by the ends of their
+// paths, else by a file name that occurs once. A model of resized photos is scaled to the photos.
+// Throws Error (kBadInput) when the model is damaged, names photos that are not there, has lenses
+// that are none of ours, or was made from pictures of another shape.
+ImportReport ImportModel(const std::filesystem::path& survey, const std::filesystem::path& path,
+                         const StageTable& table, Console& console, const Platform& platform);
 
 struct CloudImportReport {
   uint64_t points = 0;
   double seen_share = 0;  // of the points, in the picture of at least one posed photo
   std::vector<std::string> notes;
 };
+
+// Whether a file is a PLY cloud, by its beginning.
+bool IsCloud(const std::filesystem::path& path);
 
 // Takes a PLY cloud in the frame of the survey's calibration as its dense cloud: writes the `dense`
 // folder and a manifest that says where it came from, so that `run` goes on from it. Lists of

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "pipeline/engine/layout.h"
 #include "pipeline/engine/settings.h"
@@ -56,12 +57,18 @@ Reconstruction ReadCalibration(const fs::path& survey) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: there are no camera poses yet that a cloud could belong to",
                             survey.string()),
-                "import a COLMAP model or run the survey until calib first");
+                "import camera poses or run the survey until calib first");
   }
   return ReadColmapModel(survey / kSparseFolder);
 }
 
 }  // namespace
+
+bool IsCloud(const fs::path& path) {
+  std::string head(3, '\0');
+  std::ifstream(path, std::ios::binary).read(head.data(), std::ssize(head));
+  return head == "ply";
+}
 
 CloudImportReport ImportCloud(const fs::path& survey, const fs::path& source,
                               const StageTable& table, const Platform& platform) {

@@ -6,9 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/engine/fingerprint.h"
+#include "survey/colmap_io.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/georef.h"
+#include "survey/survey_folder.h"
 #include "tests/pipeline/fake_survey.h"
+#include "tests/pipeline/verbs/imported.h"
 
 namespace stucco {
 namespace {
@@ -24,7 +28,7 @@ class ExportTest : public testing::Test {
     WriteFile(fake.survey / file, text);
   }
   void Export(const std::string& format, bool overwrite = false) {
-    ExportSurvey(fake.survey, format, out, overwrite);
+    ExportSurvey(fake.survey, format, out, overwrite, fake.table);
   }
   Error Refused(const std::string& format) {
     try {
@@ -70,10 +74,44 @@ TEST_F(ExportTest, AnObjComesWithItsMaterialsAndPicturesAlone) {
   EXPECT_THAT(Refused("obj").what(), HasSubstr("exists already"));
 }
 
+TEST_F(ExportTest, PosesComeBackAsTheyWere) {
+  WriteModel(fake.root / "model", {"p1.jpg", "p2.jpg"}, 16, 8);
+  Georef georef;
+  georef.frame = "enu";
+  georef.metric = true;
+  georef.origin_latitude_deg = 52;
+  georef.origin_longitude_deg = 4;
+  WriteGeoref(georef, fake.root / "model/georef.json");
+  ImportInto(fake, fake.root / "model");
+  const Reconstruction before = ReadColmapModel(fake.survey / kSparseFolder);
+  for (const char* format : {"blocksexchange", "colmap-txt", "colmap-bin"}) {
+    Export(format, true);
+    EXPECT_EQ(ImportInto(fake, out).frame, "enu") << format;
+    EXPECT_EQ(ReadGeoref(fake.survey / kGeorefFile).origin_latitude_deg, 52) << format;
+    const Reconstruction after = ReadColmapModel(fake.survey / kSparseFolder);
+    EXPECT_LT(
+        (before.points.begin()->second.position - after.points.begin()->second.position).norm(),
+        1e-9)
+        << format;
+    for (const auto& [id, photo] : before.photos) {
+      EXPECT_EQ(photo.name, after.photos.at(id).name);
+      EXPECT_LT(
+          (photo.cam_from_world.Center() - after.photos.at(id).cam_from_world.Center()).norm(),
+          1e-9)
+          << format;
+    }
+    fs::remove_all(out);
+  }
+  Export("nerfstudio");
+  EXPECT_THAT(FilesBelow(out), ElementsAre("georef.json", "sparse_pc.ply", "transforms.json"));
+  EXPECT_THAT(ReadFile(out / "transforms.json"), HasSubstr("\"../../photos/p1.jpg\""));
+}
+
 TEST_F(ExportTest, AnUnknownFormatGetsASuggestion) {
   EXPECT_EQ(Refused("gltf").kind(), ErrorKind::kUsage);
   EXPECT_THAT(Refused("gltf").remedy(), HasSubstr("did you mean glb?"));
-  EXPECT_THAT(Refused("collada").remedy(), HasSubstr("colmap-txt, colmap-bin, obj, glb, ply"));
+  EXPECT_THAT(Refused("collada").remedy(),
+              HasSubstr("colmap-txt, colmap-bin, blocksexchange, nerfstudio, obj"));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ class ImportCloudTest : public testing::Test {
 
   void GivePoses() {
     WriteModel(fake.root / "model", {"p1.jpg", "p2.jpg"}, 16, 8);
-    ImportColmap(fake.survey, fake.root / "model", fake.table, fake.platform);
+    ImportInto(fake, fake.root / "model");
   }
   CloudImportReport Import() {
     WritePly(cloud, fake.root / "cloud.ply");
@@ -58,6 +58,13 @@ TEST_F(ImportCloudTest, TakesThePlaceOfTheDenseCloud) {
   EXPECT_THAT(report.notes, Contains(HasSubstr("no normals")));
   EXPECT_EQ(ReadPly(fake.survey / kCloudFile).positions, cloud.positions);
   EXPECT_EQ(StateOf(fake.Status(), "dense"), "done");
+}
+
+TEST_F(ImportCloudTest, IsKnownByItsBeginning) {
+  WritePly(cloud, fake.root / "cloud.bin");
+  EXPECT_TRUE(IsCloud(fake.root / "cloud.bin"));
+  EXPECT_FALSE(IsCloud(fake.photos / "p1.jpg"));
+  EXPECT_FALSE(IsCloud(fake.root / "gone.ply"));
 }
 
 TEST_F(ImportCloudTest, KeepsListsOfPhotosOnlyWhereAllAreKnown) {

@@ -7,7 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/verbs/import.h"
+#include "tests/pipeline/fake_survey.h"
+
 namespace stucco {
+
+inline ImportReport ImportInto(FakeSurvey& fake, const std::filesystem::path& model) {
+  Console console = Console::ForStderr(Verbosity::kQuiet);
+  return ImportModel(fake.survey, model, fake.table, console, fake.platform);
+}
 
 // A COLMAP text model of one pinhole camera of width x height pixels: photos in a row along x,
 // looking along z, and one point, 10 before them, that all of them see.
