@@ -6,6 +6,7 @@
 
 #include "exchange/exchanged_model.h"
 #include "exchange/model_to_write.h"
+#include "exchange/photo_index.h"
 
 namespace stucco {
 
@@ -17,9 +18,10 @@ namespace stucco {
 // element.
 ExchangedModel ReadBlocksExchange(const std::filesystem::path& file, const PhotoIndex& photos);
 
-// Version 2.1, which most programs read. Paths of photos are relative to the file. An "enu" frame is written as
-// "ENU:latitude,longitude", heights above the zero of the georef's; any other without a coordinate
-// system. Throws Error (kBadInput) for a lens that the format does not know (k4, k5, k6).
+// Version 2.1, which most programs read. Paths of photos are relative to the file. An "enu" frame
+// is written as "ENU:latitude,longitude", heights above the zero of the georef's; any other without
+// a coordinate system. Throws Error (kBadInput) for a lens that the format does not know (k4, k5,
+// k6).
 void WriteBlocksExchange(const ModelToWrite& what, const std::filesystem::path& file);
 
 }  // namespace stucco

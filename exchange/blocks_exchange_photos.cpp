@@ -206,9 +206,8 @@ BlockPhotos ReadBlockPhotos(const XmlFile& file, const pugi::xml_node& block,
   const std::vector<std::string> paths = photos.Require(names);
   for (size_t i = 0; i < posed.size(); ++i) {
     const PosedGroup& group = groups[posed[i].group];
-    found.posed[posed[i].id] =
-        AddPosedPhoto(group.camera, paths[i],
-                      ReadPose(file, posed[i].photo, group.ours_from_file), result.model);
+    found.posed[posed[i].id] = AddPosedPhoto(
+        group.camera, paths[i], ReadPose(file, posed[i].photo, group.ours_from_file), result.model);
   }
   return found;
 }

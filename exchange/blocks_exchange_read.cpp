@@ -107,8 +107,7 @@ class TiePointReader {
       const Eigen::Vector2d pixel(file.Number(seen, "x"), file.Number(seen, "y"));
       const auto photo = photos_.posed.find(id);
       if (photo == photos_.posed.end()) continue;
-      point.pixels.emplace_back(photo->second,
-                                pixel + Eigen::Vector2d::Constant(kPixelCentre));
+      point.pixels.emplace_back(photo->second, pixel + Eigen::Vector2d::Constant(kPixelCentre));
     }
     if (point.pixels.size() < 2) return;
     const auto position = PositionOf(file, node, point);
@@ -147,8 +146,8 @@ void ReadTiePoints(const XmlFile& file, const pugi::xml_node& block, const Block
     reader.Read(other, other.root().child("TiePoints"), points_srs);
   }
   if (reader.without_position() > 0) {
-    result.notes.push_back(fmt::format("{} tie points have no position and are left out",
-                                       reader.without_position()));
+    result.notes.push_back(
+        fmt::format("{} tie points have no position and are left out", reader.without_position()));
   }
 }
 
@@ -187,8 +186,8 @@ ExchangedModel ReadBlocksExchange(const fs::path& path, const PhotoIndex& photos
   const XmlFile file(path);
   ExchangedModel result;
   const pugi::xml_node block = ChooseBlock(file, result);
-  result.format = fmt::format(
-      "BlocksExchange {}", file.root().child("BlocksExchange").attribute("version").as_string());
+  result.format = fmt::format("BlocksExchange {}",
+                              file.root().child("BlocksExchange").attribute("version").as_string());
   const BlockPhotos found = ReadBlockPhotos(file, block, photos, result);
   if (found.srs_ids.size() > 1) {
     file.Fail(block, "its photos are in several coordinate systems",

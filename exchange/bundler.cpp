@@ -196,8 +196,7 @@ ExchangedModel ReadBundler(const fs::path& file, const PhotoIndex& photos) {
   const auto point_count = words.Next<uint32_t>("number of points");
   std::vector<BundlerCamera> cameras;
   for (uint32_t i = 0; i < camera_count; ++i) cameras.push_back(ReadCamera(words));
-  const PhotoOfCamera photo_of_camera =
-      AddCameras(cameras, ListBeside(file), photos, result.model);
+  const PhotoOfCamera photo_of_camera = AddCameras(cameras, ListBeside(file), photos, result.model);
   for (uint32_t i = 0; i < point_count; ++i) {
     ReadPoint(cameras.size(), photo_of_camera, words, result.model);
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "exchange/exchanged_model.h"
+#include "exchange/photo_index.h"
 
 namespace stucco {
 

@@ -3,13 +3,11 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "exchange/photo_index.h"
 #include "survey/georef.h"
 #include "survey/reconstruction.h"
 

@@ -18,8 +18,7 @@ std::optional<Eigen::Vector3d> IntersectRays(const ExchangedPoint& point,
     if (!ray) continue;
     const Eigen::Vector3d direction =
         (photo.cam_from_world.rotation.conjugate() * ray->homogeneous()).normalized();
-    const Eigen::Matrix3d across =
-        Eigen::Matrix3d::Identity() - direction * direction.transpose();
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - direction * direction.transpose();
     normal += across;
     right += across * photo.cam_from_world.Center();
     ++rays;

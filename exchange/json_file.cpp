@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "exchange/internal/json_file.h"
+
 #include <fmt/format.h>
 
 #include <limits>
 
-#include "exchange/internal/json_file.h"
 #include "survey/error.h"
 #include "survey/files.h"
 

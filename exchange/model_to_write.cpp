@@ -9,7 +9,8 @@ namespace fs = std::filesystem;
 std::string PathFrom(const fs::path& folder, const ModelToWrite& what,
                      const RegisteredImage& photo) {
   const fs::path path = fs::absolute(what.photos / photo.name).lexically_normal();
-  const fs::path relative = path.lexically_relative(fs::absolute(folder).lexically_normal());
+  const fs::path base = fs::absolute(folder.empty() ? fs::path(".") : folder).lexically_normal();
+  const fs::path relative = path.lexically_relative(base);
   return (relative.empty() ? path : relative).generic_string();
 }
 

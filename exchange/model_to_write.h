@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "survey/georef.h"
 #include "survey/reconstruction.h"
@@ -13,11 +14,12 @@ namespace stucco {
 struct ModelToWrite {
   const Reconstruction& model;
   const Georef& georef;
-  const std::filesystem::path& photos;  // the folder that the names of the model's photos count from
+  const std::filesystem::path&
+      photos;  // the folder that the names of the model's photos count from
 };
 
-// The path of a photo as a file in `folder` names it: relative where that is possible, so that both
-// can be moved together, with '/' between folders.
+// The path of a photo as a file in `folder` (empty: the current one) names it: relative where that
+// is possible, so that both can be moved together, with '/' between folders.
 std::string PathFrom(const std::filesystem::path& folder, const ModelToWrite& what,
                      const RegisteredImage& photo);
 

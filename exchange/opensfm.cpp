@@ -32,11 +32,10 @@ struct LensFields {
 
 // The projection types that are lenses of ours.
 const LensFields* FieldsOf(const std::string& type) {
-  static const std::vector<LensFields> known = {
-      {"perspective", true, {"k1", "k2"}},
-      {"simple_radial", false, {"k1"}},
-      {"radial", false, {"k1", "k2"}},
-      {"brown", false, {"k1", "k2", "k3", "p1", "p2"}}};
+  static const std::vector<LensFields> known = {{"perspective", true, {"k1", "k2"}},
+                                                {"simple_radial", false, {"k1"}},
+                                                {"radial", false, {"k1", "k2"}},
+                                                {"brown", false, {"k1", "k2", "k3", "p1", "p2"}}};
   const auto found = std::find_if(known.begin(), known.end(),
                                   [&](const LensFields& each) { return type == each.type; });
   return found == known.end() ? nullptr : &*found;
@@ -92,9 +91,8 @@ JsonPlace LargestOf(const JsonPlace& file, std::vector<std::string>& notes) {
   }
   if (largest == nullptr) file.Fail("has no reconstruction with photos", "run OpenSfM again");
   if (all.size() > 1) {
-    notes.push_back(
-        fmt::format("of its {} reconstructions the one with the most photos, {}, was taken",
-                    all.size(), most));
+    notes.push_back(fmt::format(
+        "of its {} reconstructions the one with the most photos, {}, was taken", all.size(), most));
   }
   return *largest;
 }
@@ -136,8 +134,7 @@ PhotoOfName ReadShots(const JsonPlace& reconstruction, const PhotoIndex& photos,
     const std::string name = shot.At("camera").Text();
     const auto known = cameras.find(name);
     if (known != cameras.end()) return known->second;
-    return cameras[name] =
-               SharedCamera(ReadCamera(reconstruction.At("cameras").At(name)), model);
+    return cameras[name] = SharedCamera(ReadCamera(reconstruction.At("cameras").At(name)), model);
   };
   const auto shots = reconstruction.At("shots").Members();
   std::vector<std::string> names;
@@ -186,8 +183,7 @@ void AddPoints(const JsonPlace& reconstruction, const fs::path& tracks,
     const auto point = points.find(line.track);
     const auto photo = photo_of_name.find(line.photo);
     if (point == points.end() || photo == photo_of_name.end()) return;
-    const Camera& camera =
-        result.model.cameras.at(result.model.photos.at(photo->second).camera);
+    const Camera& camera = result.model.cameras.at(result.model.photos.at(photo->second).camera);
     point->second.pixels.emplace_back(photo->second, PixelOf(camera, line.normalized));
   });
   for (const auto& [name, point] : points) AddSeenPoint(point, result.model);

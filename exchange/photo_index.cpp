@@ -88,12 +88,12 @@ std::vector<std::string> PhotoIndex::Require(const std::vector<std::string>& nam
   }
   if (unknown.empty()) return photos;
   const size_t shown = std::min<size_t>(unknown.size(), 3);
-  throw Error(ErrorKind::kBadInput,
-              fmt::format("{} of {} photos of the model are not in {}: {}{}", unknown.size(),
-                          names.size(), folder_.string(),
-                          fmt::join(unknown.begin(), unknown.begin() + shown, ", "),
-                          unknown.size() > shown ? " ..." : ""),
-              "import a model of the photos that survey.toml names");
+  throw Error(
+      ErrorKind::kBadInput,
+      fmt::format("{} of {} photos of the model are not in {}: {}{}", unknown.size(), names.size(),
+                  folder_.string(), fmt::join(unknown.begin(), unknown.begin() + shown, ", "),
+                  unknown.size() > shown ? " ..." : ""),
+      "import a model of the photos that survey.toml names");
 }
 
 ImageSize PhotoIndex::SizeOf(const std::string& photo) const {

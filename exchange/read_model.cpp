@@ -175,10 +175,9 @@ RecognizedModel RecognizeModel(const fs::path& path) {
   }
   std::vector<std::string> names;
   for (const RecognizedModel& model : models) names.push_back(model.path.string());
-  throw Error(
-      ErrorKind::kBadInput,
-      fmt::format("{}: holds several models: {}", path.string(), fmt::join(names, ", ")),
-      "name one of them");
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: holds several models: {}", path.string(), fmt::join(names, ", ")),
+              "name one of them");
 }
 
 ExchangedModel ReadModel(const RecognizedModel& source, const PhotoIndex& photos) {

@@ -153,8 +153,8 @@ std::vector<std::string> PhotosOf(const std::vector<fs::path>& sidecars, const f
 std::vector<fs::path> FindRealityCaptureFiles(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
-  for (fs::recursive_directory_iterator entry(
-           folder, fs::directory_options::skip_permission_denied, error);
+  for (fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied,
+                                              error);
        !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
     if (!IsXmp(entry->path()) || !entry->is_regular_file(error)) continue;
     if (ReadFile(entry->path()).find(kNamespace) != std::string::npos) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "exchange/exchanged_model.h"
+#include "exchange/photo_index.h"
 
 namespace stucco {
 

@@ -9,6 +9,7 @@
 
 #include "exchange/exchanged_model.h"
 #include "exchange/internal/xml_file.h"
+#include "exchange/photo_index.h"
 
 namespace stucco {
 

@@ -71,15 +71,14 @@ Eigen::Matrix3d DirectionsAt(const Georef& georef, const Geodetic* places, doubl
       (EnuOf(georef, places[1], height_m) - EnuOf(georef, places[2], height_m)).normalized();
   axes.col(1) =
       (EnuOf(georef, places[3], height_m) - EnuOf(georef, places[4], height_m)).normalized();
-  axes.col(2) =
-      (EnuOf(georef, places[0], height_m + 1) - EnuOf(georef, places[0], height_m - 1))
-          .normalized();
+  axes.col(2) = (EnuOf(georef, places[0], height_m + 1) - EnuOf(georef, places[0], height_m - 1))
+                    .normalized();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
-void MoveCameras(const std::string& crs, const std::string& file, const Georef& georef,
-                 double step, Reconstruction& model) {
+void MoveCameras(const std::string& crs, const std::string& file, const Georef& georef, double step,
+                 Reconstruction& model) {
   std::vector<Eigen::Vector2d> around;
   for (const Eigen::Vector3d& centre : CentresOf(model)) {
     const Eigen::Vector2d at = centre.head<2>();
@@ -93,9 +92,8 @@ void MoveCameras(const std::string& crs, const std::string& file, const Georef& 
     const double height_m = photo.cam_from_world.Center().z();
     const Eigen::Matrix3d enu_from_map = DirectionsAt(georef, next, height_m);
     Pose& pose = photo.cam_from_world;
-    pose.rotation =
-        (pose.rotation * Eigen::Quaterniond(Eigen::Matrix3d(enu_from_map.transpose())))
-            .normalized();
+    pose.rotation = (pose.rotation * Eigen::Quaterniond(Eigen::Matrix3d(enu_from_map.transpose())))
+                        .normalized();
     pose.translation = -(pose.rotation * EnuOf(georef, *next, height_m));
     next += kPlacesOfCamera;
   }

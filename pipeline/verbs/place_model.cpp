@@ -66,8 +66,7 @@ void NoteOutliers(PlacedModel& placed) {
   if (placed.outliers.empty()) return;
   const size_t shown = std::min<size_t>(placed.outliers.size(), 3);
   placed.notes.push_back(fmt::format(
-      "{} recorded positions contradict the others and were not used: {}{}",
-      placed.outliers.size(),
+      "{} recorded positions contradict the others and were not used: {}{}", placed.outliers.size(),
       fmt::join(placed.outliers.begin(), placed.outliers.begin() + shown, ", "),
       placed.outliers.size() > shown ? " ..." : ""));
 }

@@ -87,8 +87,7 @@ TEST(Placement, BringsAModelToItsPositions) {
   int i = 0;
   for (const auto& [id, photo] : survey.model.photos) {
     const Eigen::Vector3d geodetic = GeodeticFromEnu(place.georef, photo.cam_from_world.Center());
-    const Eigen::Vector3d centre =
-        EnuFromGeodetic(Place(), geodetic[0], geodetic[1], geodetic[2]);
+    const Eigen::Vector3d centre = EnuFromGeodetic(Place(), geodetic[0], geodetic[1], geodetic[2]);
     EXPECT_LT((centre - survey.CentreInPlace(i++)).norm(), 1e-6);
   }
   const PositionDifferences differences =

@@ -51,17 +51,17 @@ struct BlockText {
   std::string lens = kLens;
   std::string orientation = "XRightYDown";
   std::string rotation = Rotation(kRightDown);
-  std::string srs;     // definition
+  std::string srs;      // definition
   std::string points =  // the same pixel in the document's count
       "<TiePoint><Position><x>11</x><y>1</y><z>5</z></Position>"
       "<Color><Red>1</Red><Green>0.2</Green><Blue>0</Blue></Color>" +
       Measured(7, 109.5, 29.5) + Measured(9, 109.5, 29.5) + "</TiePoint>";
 
   std::string Text() const {
-    const std::string systems =
-        srs.empty() ? ""
-                    : "<SpatialReferenceSystems><SRS><Id>4</Id><Definition>" + srs +
-                          "</Definition></SRS></SpatialReferenceSystems>";
+    const std::string systems = srs.empty()
+                                    ? ""
+                                    : "<SpatialReferenceSystems><SRS><Id>4</Id><Definition>" + srs +
+                                          "</Definition></SRS></SpatialReferenceSystems>";
     return "<?xml version=\"1.0\" encoding=\"utf-8\"?><BlocksExchange version=\"2.1\">" + systems +
            "<Block>" + (srs.empty() ? "" : "<SRSId>4</SRSId>") +
            "<Photogroups><Photogroup><ImageDimensions><Width>200</Width><Height>100</Height>"
@@ -107,9 +107,8 @@ TEST_F(BlocksExchangeTest, APointIsWhereTheDocumentSays) {
 }
 
 TEST_F(BlocksExchangeTest, FocalLengthsOfEveryKindAreTheSame) {
-  for (const char* focal :
-       {"<FocalLengthPixels>100</FocalLengthPixels>",
-        "<FocalLength>5</FocalLength><PixelSize>0.05</PixelSize>"}) {
+  for (const char* focal : {"<FocalLengthPixels>100</FocalLengthPixels>",
+                            "<FocalLength>5</FocalLength><PixelSize>0.05</PixelSize>"}) {
     block.lens = focal;  // without principal point: the middle
     EXPECT_LT((PixelIn(Read().model, "a.jpg", kSeen) - kSeenAt).norm(), 1e-12) << focal;
   }
@@ -130,18 +129,18 @@ TEST_F(BlocksExchangeTest, DistortionIsBrowns) {
                "<Distortion><K1>0</K1><K2>0</K2><K3>0</K3><P1>0.1</P1><P2>0.01</P2></Distortion>";
   const double x = 0.1 + 0.1 * (0.05 + 2 * 0.01) + 2 * 0.01 * 0.1 * -0.2;
   const double y = -0.2 + 0.01 * (0.05 + 2 * 0.04) + 2 * 0.1 * 0.1 * -0.2;
-  EXPECT_LT((PixelIn(Read().model, "a.jpg", kSeen) - Eigen::Vector2d(100 + 100 * x, 50 + 100 * y))
-                .norm(),
-            1e-12);
+  EXPECT_LT(
+      (PixelIn(Read().model, "a.jpg", kSeen) - Eigen::Vector2d(100 + 100 * x, 50 + 100 * y)).norm(),
+      1e-12);
 }
 
 // The same camera with its axes called otherwise: rows of the matrix are its x, y and their cross
 // product in the world, where right is -y, down is -z and forward +x.
 TEST_F(BlocksExchangeTest, EveryCameraOrientationIsTheSameCamera) {
   const std::vector<std::pair<std::string, std::string>> all = {
-      {"XRightYUp", "0 -1 0 0 0 1 -1 0 0"},   {"XLeftYDown", "0 1 0 0 0 -1 -1 0 0"},
-      {"XLeftYUp", "0 1 0 0 0 1 1 0 0"},      {"XDownYRight", "0 0 -1 0 -1 0 -1 0 0"},
-      {"XDownYLeft", "0 0 -1 0 1 0 1 0 0"},   {"XUpYRight", "0 0 1 0 -1 0 1 0 0"},
+      {"XRightYUp", "0 -1 0 0 0 1 -1 0 0"}, {"XLeftYDown", "0 1 0 0 0 -1 -1 0 0"},
+      {"XLeftYUp", "0 1 0 0 0 1 1 0 0"},    {"XDownYRight", "0 0 -1 0 -1 0 -1 0 0"},
+      {"XDownYLeft", "0 0 -1 0 1 0 1 0 0"}, {"XUpYRight", "0 0 1 0 -1 0 1 0 0"},
       {"XUpYLeft", "0 0 1 0 1 0 -1 0 0"}};
   for (const auto& [name, matrix] : all) {
     block.orientation = name;

@@ -9,12 +9,12 @@ namespace stucco {
 
 Reconstruction MadeModel() {
   Reconstruction model;
-  model.cameras[CameraId{1}] = {CameraId{1},
-                                CameraModel::kFullOpenCv,
-                                200,
-                                100,
-                                {161.3, 160.9, 101.7, 48.2, -0.11, 0.031, 0.0007, -0.0004, -0.012,
-                                 0.0, 0.0, 0.0}};
+  model.cameras[CameraId{1}] = {
+      CameraId{1},
+      CameraModel::kFullOpenCv,
+      200,
+      100,
+      {161.3, 160.9, 101.7, 48.2, -0.11, 0.031, 0.0007, -0.0004, -0.012, 0.0, 0.0, 0.0}};
   model.cameras[CameraId{2}] = {
       CameraId{2}, CameraModel::kRadial, 200, 100, {173.1, 99.1, 50.3, 0.05, -0.01}};
   const char* const names[] = {"a.jpg", "b.jpg", "sub/c.jpg"};

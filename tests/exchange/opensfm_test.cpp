@@ -19,8 +19,7 @@ using testing::IsEmpty;
 constexpr char kShot[] =
     R"("camera": "c", "rotation": [1.2091995761561452, -1.2091995761561452, 1.2091995761561452],
        "translation": [2, 3, -1])";
-constexpr char kLens[] =
-    R"("projection_type": "perspective", "focal": 0.5, "k1": 0, "k2": 0)";
+constexpr char kLens[] = R"("projection_type": "perspective", "focal": 0.5, "k1": 0, "k2": 0)";
 
 std::string Json(const std::string& lens, const std::string& more) {
   return fmt::format(R"([{{"cameras": {{"c": {{{}, "width": 200, "height": 100}}}},
@@ -48,7 +47,8 @@ class OpenSfmTest : public testing::Test {
 };
 
 TEST_F(OpenSfmTest, APointIsWhereTheDocumentSays) {
-  // Image coordinates are from the middle, over the longer side: (110 - 100) / 200, (30 - 50) / 200.
+  // Image coordinates are from the middle, over the longer side: (110 - 100) / 200, (30 - 50) /
+  // 200.
   photos.Write("tracks.csv",
                "OPENSFM_TRACKS_VERSION_v2\na.jpg\t12\t3\t0.05\t-0.1\t0.002\t9\t8\t7\t-1\t-1\n"
                "c.jpg\t12\t5\t0.05\t-0.1\t0.002\t9\t8\t7\t-1\t-1\n"
@@ -73,7 +73,8 @@ TEST_F(OpenSfmTest, EveryLensOfItsDocumentThatIsOneOfOurs) {
              Eigen::Vector2d(100 + 10 * r, 50 - 20 * r))
                 .norm(),
             1e-12);
-  const std::string apart = R"("focal_x": 0.5, "focal_y": 0.6, "c_x": 0.01, "c_y": -0.02, "k1": 0.5)";
+  const std::string apart =
+      R"("focal_x": 0.5, "focal_y": 0.6, "c_x": 0.01, "c_y": -0.02, "k1": 0.5)";
   r = 1 + 0.5 * s;
   EXPECT_LT((SeenBy(R"("projection_type": "simple_radial", )" + apart) -
              Eigen::Vector2d(100 + 2 + 10 * r, 50 - 4 - 24 * r))
@@ -88,7 +89,8 @@ TEST_F(OpenSfmTest, EveryLensOfItsDocumentThatIsOneOfOurs) {
   const double x = 0.1 * r + 2 * 0.1 * 0.1 * -0.2 + 0.01 * (s + 2 * 0.01);
   const double y = -0.2 * r + 2 * 0.01 * 0.1 * -0.2 + 0.1 * (s + 2 * 0.04);
   EXPECT_LT((SeenBy(R"("projection_type": "brown", "k2": 0.25, "k3": 0.125, "p1": 0.1,
-                       "p2": 0.01, )" + apart) -
+                       "p2": 0.01, )" +
+                    apart) -
              Eigen::Vector2d(100 + 2 + 100 * x, 50 - 4 + 120 * y))
                 .norm(),
             1e-12);

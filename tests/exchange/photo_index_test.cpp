@@ -38,9 +38,13 @@ TEST(PhotoIndex, RequiresEveryNameOnce) {
   const RowOfPhotos photos;
   const PhotoIndex index = photos.Index();
   EXPECT_THAT(index.Require({"b.jpg", "x/a.jpg"}), ElementsAre("b.jpg", "a.jpg"));
-  EXPECT_THAT(RefusalOf([&] { index.Require({"a.jpg", "x.jpg", "y.jpg"}); }).what(),
+  EXPECT_THAT(RefusalOf([&] {
+                index.Require({"a.jpg", "x.jpg", "y.jpg"});
+              }).what(),
               HasSubstr("2 of 3 photos of the model are not in"));
-  EXPECT_THAT(RefusalOf([&] { index.Require({"a.jpg", "x/a.jpg"}); }).what(),
+  EXPECT_THAT(RefusalOf([&] {
+                index.Require({"a.jpg", "x/a.jpg"});
+              }).what(),
               HasSubstr("a.jpg more than once"));
 }
 

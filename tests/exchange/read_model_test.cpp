@@ -44,7 +44,8 @@ TEST_F(RecognizeModelTest, KnowsFoldersByWhatLiesInThem) {
   EXPECT_EQ(Recognize("bundler").path, photos.root / "bundler/bundle/bundle.out");
   photos.Write("odm/opensfm/reconstruction.json", "[{\"cameras\": {");
   EXPECT_EQ(Recognize("odm").format, ModelFormat::kOpenSfm);
-  photos.Write("photos/sub/c.xmp", "<x xmlns:xcr=\"http://www.capturingreality.com/ns/xcr/1.1#\"/>");
+  photos.Write("photos/sub/c.xmp",
+               "<x xmlns:xcr=\"http://www.capturingreality.com/ns/xcr/1.1#\"/>");
   EXPECT_EQ(Recognize("photos").format, ModelFormat::kRealityCapture);
 }
 

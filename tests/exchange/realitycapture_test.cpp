@@ -47,11 +47,11 @@ class RealityCaptureTest : public testing::Test {
 TEST_F(RealityCaptureTest, APointIsWhereTheDocumentSays) {
   EXPECT_LT((SeenBy(kLens) - kSeenAt).norm(), 1e-12);
   // Principal points are from the middle, over the longer side.
-  EXPECT_LT((SeenBy(std::string(kLens) +
-                    "xcr:PrincipalPointU=\"0.01\" xcr:PrincipalPointV=\"-0.02\"") -
-             Eigen::Vector2d(112, 26))
-                .norm(),
-            1e-12);
+  EXPECT_LT(
+      (SeenBy(std::string(kLens) + "xcr:PrincipalPointU=\"0.01\" xcr:PrincipalPointV=\"-0.02\"") -
+       Eigen::Vector2d(112, 26))
+          .norm(),
+      1e-12);
 }
 
 TEST_F(RealityCaptureTest, DistortionIsThatOfTheDocument) {
@@ -77,7 +77,7 @@ TEST_F(RealityCaptureTest, EverySidecarIsOfThePhotoOfItsName) {
       std::string(kLens) + "xcr:Rotation=\"0 -1 0 0 0 -1 1 0 0\" xcr:Position=\"1 2 3\"";
   photos.Write("xmp/a.xmp", Xmp(attributes, ""));
   photos.Write("xmp/sub/c.XMP", Xmp(attributes, ""));
-  photos.Write("xmp/b.xmp", Xmp(kLens, ""));                     // could not be aligned
+  photos.Write("xmp/b.xmp", Xmp(kLens, ""));                           // could not be aligned
   photos.Write("xmp/d.xmp", "<x:xmpmeta>of a developer</x:xmpmeta>");  // none of its own
   const ExchangedModel read = Read();
   ASSERT_EQ(read.model.photos.size(), 2u);
@@ -95,8 +95,9 @@ TEST_F(RealityCaptureTest, RefusesWhatItCannotRead) {
               HasSubstr("fourth radial term"));
   EXPECT_THAT(Refusal("", kPose), HasSubstr("xcr:FocalLength35mm: is missing"));
   EXPECT_THAT(Refusal("xcr:FocalLength35mm=\"nan\"", kPose), HasSubstr("\"nan\" is not"));
-  EXPECT_THAT(Refusal(kLens, "<xcr:Rotation>0 -1 0</xcr:Rotation><xcr:Position>1 2 3"
-                             "</xcr:Position>"),
+  EXPECT_THAT(Refusal(kLens,
+                      "<xcr:Rotation>0 -1 0</xcr:Rotation><xcr:Position>1 2 3"
+                      "</xcr:Position>"),
               HasSubstr("xcr:Rotation"));
   EXPECT_THAT(Refusal(kLens, ""), HasSubstr("none of its 1 XMP files"));
   photos.Write("xmp/z.xmp", Xmp(kLens, kPose));

@@ -89,14 +89,26 @@ TEST(RoundTrip, BlocksExchangeOfAFrameOfItsOwnHasNoCoordinateSystem) {
   ExpectSame(model, read.model, Eigen::Vector3d::Zero());
 }
 
+TEST(RoundTrip, PathsAreFromTheFolderOfTheFile) {
+  const Reconstruction model = MadeModel();
+  const Georef nowhere;
+  const std::filesystem::path photos = "/survey/photos";
+  const ModelToWrite what{model, nowhere, photos};
+  const RegisteredImage& photo = model.photos.at(PhotoId{3});
+  EXPECT_EQ(PathFrom("/survey", what, photo), "photos/sub/c.jpg");
+  EXPECT_EQ(PathFrom("/survey/out/", what, photo), "../photos/sub/c.jpg");
+  EXPECT_EQ(PathFrom("", what, photo), PathFrom(std::filesystem::current_path(), what, photo));
+}
+
 TEST(RoundTrip, ALensThatTheFormatDoesNotKnowIsRefused) {
   const RowOfPhotos photos;
   Reconstruction model = MadeModel();
   model.cameras.at(CameraId{1}).params.back() = 0.1;
   const Georef nowhere;
   const auto folder = photos.root / "photos";
-  const Error error = RefusalOf(
-      [&] { WriteBlocksExchange({model, nowhere, folder}, photos.root / "block.xml"); });
+  const Error error = RefusalOf([&] {
+    WriteBlocksExchange({model, nowhere, folder}, photos.root / "block.xml");
+  });
   EXPECT_THAT(error.what(), testing::HasSubstr("camera 1 (FULL_OPENCV) has k4, k5 or k6"));
   EXPECT_FALSE(std::filesystem::exists(photos.root / "block.xml"));
 }

@@ -9,8 +9,8 @@
 
 namespace stucco {
 
-// What calibration.json says of a model that was imported: all that can be measured of it. `captures`
-// may be null.
+// What calibration.json says of a model that was imported: all that can be measured of it.
+// `captures` may be null.
 Calibration DescribeModel(const Reconstruction& model, const PlacedModel& place,
                           const Captures* captures);
 

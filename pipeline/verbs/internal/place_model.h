@@ -23,8 +23,8 @@ struct PlacedModel {
 
 // Brings the model into the frame of a survey, east, north, up near its cameras: from the place or
 // the map that its file names, else by the recorded positions of its photos, as calib does with its
-// own models. Where neither is of use it stays as it is, and a note says why. `captures` may be null.
-// Throws Error (kBadInput), which names `file`, for a map that is not known.
+// own models. Where neither is of use it stays as it is, and a note says why. `captures` may be
+// null. Throws Error (kBadInput), which names `file`, for a map that is not known.
 PlacedModel PlaceModel(const std::filesystem::path& file, const Captures* captures,
                        ExchangedModel& source);
 

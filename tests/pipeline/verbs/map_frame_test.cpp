@@ -29,8 +29,7 @@ Reconstruction OnMap(const std::string& crs, double metre) {
     RegisteredImage& photo = model.photos[PhotoId{i + 1}];
     photo.id = PhotoId{i + 1};
     photo.cam_from_world.rotation = Eigen::Quaterniond(rotation);
-    photo.cam_from_world.translation =
-        -(rotation * Eigen::Vector3d(at[i].x(), at[i].y(), 30));
+    photo.cam_from_world.translation = -(rotation * Eigen::Vector3d(at[i].x(), at[i].y(), 30));
   }
   TrackPoint& point = model.points[PointId{1}];
   point.id = PointId{1};
@@ -43,7 +42,8 @@ Eigen::Vector3d PlaceOf(const Georef& georef, const RegisteredImage& photo) {
 }
 
 TEST(MapFrame, CamerasKeepTheirPlacesOnTheEarth) {
-  for (const char* crs : {"EPSG:32631", "EPSG:4326", "EPSG:28992"}) {
+  for (const char* crs :
+       {"EPSG:32631", "EPSG:4326", "EPSG:28992", "EPSG:4326+5773", "EPSG:32631+5773"}) {
     Reconstruction model = OnMap(crs, 0);
     const Georef georef = MoveFromMap(crs, "block.xml", model);
     EXPECT_EQ(georef.frame, "enu") << crs;
@@ -63,7 +63,8 @@ TEST(MapFrame, ConvergenceAndScaleOfTheMapLeaveNothingBehind) {
   Reconstruction model = OnMap("EPSG:32631", 1);
   const Georef georef = MoveFromMap("EPSG:32631", "block.xml", model);
   const double from_meridian = (kLongitude_deg - 3) * M_PI / 180;
-  const double convergence = std::atan(std::tan(from_meridian) * std::sin(kLatitude_deg * M_PI / 180));
+  const double convergence =
+      std::atan(std::tan(from_meridian) * std::sin(kLatitude_deg * M_PI / 180));
   const Pose& pose = model.photos.at(PhotoId{1}).cam_from_world;
   const Eigen::Vector3d looks = pose.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   EXPECT_NEAR(std::atan2(looks.x(), looks.y()), convergence, 1e-4);
