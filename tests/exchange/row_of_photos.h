@@ -8,6 +8,7 @@
 #include <string>
 
 #include "exchange/exchanged_model.h"
+#include "exchange/photo_index.h"
 #include "survey/error.h"
 
 namespace stucco {
