@@ -77,10 +77,13 @@ std::string GeorefText(const PageContent& page) {
            "and only ratios of lengths mean something.";
   }
   if (data.georef->frame == "enu") {
+    const std::string& source = data.georef->source;
     return fmt::format(
         "Lengths are metres; east, north and up are known from {}. Origin: latitude {:.7f}, "
         "longitude {:.7f}, height {:.2f} m.",
-        data.georef->source == "rtk" ? "RTK positions" : "GPS positions",
+        source == kGroundControlSource ? "ground control points"
+        : source == "rtk"              ? "RTK positions"
+                                       : "GPS positions",
         data.georef->origin_latitude_deg, data.georef->origin_longitude_deg,
         data.georef->origin_height_m);
   }
@@ -127,10 +130,10 @@ std::string CalibrationSection(const PageContent& page) {
     html += "</ul>";
   }
   html += fmt::format(
-      "<p>{} These figures say how well the photos agree with each other; nothing here was "
-      "compared "
-      "with independent measurements.</p>",
-      GeorefText(page));
+      "<p>{} These figures say how well the photos agree with each other; {}</p>", GeorefText(page),
+      calibration.check_rms ? "what was compared with independent measurements stands under ground "
+                              "control."
+                            : "nothing here was compared with independent measurements.");
   for (const CalibratedCamera& camera : calibration.cameras) html += CameraTable(camera);
   if (!calibration.photos.empty()) {
     html += fmt::format(

@@ -9,6 +9,9 @@
 
 namespace stucco {
 
+// Georef::source where ground control points hold the frame.
+inline constexpr char kGroundControlSource[] = "gcp";
+
 // What the world frame of a survey is (calib/georef.json).
 struct Georef {
   // "enu": metres east, north, up of the origin. "arbitrary": scale and directions are free.
@@ -19,7 +22,7 @@ struct Georef {
   // Unit vector away from the ground, when calibration knows it (GPS or gimbal).
   std::optional<Eigen::Vector3d> up;
   bool metric = false;  // lengths are metres
-  std::string source;   // "gps", "rtk", "gimbal", "none"
+  std::string source;   // "gcp", "rtk", "gps", "gimbal", "none"
 };
 
 // calib/georef.json. Throws Error (kBadInput).
