@@ -370,6 +370,11 @@ ControlOutcome UseGroundControl(const ControlInput& input, GeoreferenceResult& g
   }
   georeference.georef = *outcome.georef;
   if (outcome.records) georeference.records = outcome.records;
+  georeference.sigmas = SigmasOf(input.mapper, outcome.records.has_value(), scene);
+  // Residuals are of what was recorded, but for the shift.
+  for (size_t i = 0; i < outcome.placed_records.size(); ++i) {
+    scene.photos[i].prior = outcome.placed_records[i].position;
+  }
   georeference.residuals = MeasurePriors(scene, georeference.prior_outliers);
   return outcome;
 }

@@ -88,11 +88,12 @@ PlacesOnEarth PlacesFromSystem(const std::string& crs, std::span<const Eigen::Ve
   const std::unique_ptr<OGRCoordinateTransformation, DestroyTransformation> transformation(
       known ? OGRCreateCoordinateTransformation(&source, &wgs84) : nullptr);
   if (!transformation) {
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: \"{}\" in its first line is no coordinate system on the earth that "
-                            "PROJ knows",
-                            file, crs),
-                "write an EPSG code (EPSG:25832), a PROJ text, or WGS84 UTM 32N");
+    throw Error(
+        ErrorKind::kBadInput,
+        fmt::format("{}: \"{}\" in its first line is no coordinate system on the earth that "
+                    "PROJ knows",
+                    file, crs),
+        "write an EPSG code (EPSG:25832), a PROJ text, or WGS84 UTM 32N");
   }
   for (const Eigen::Vector3d& point : points) {
     double x = point.x();

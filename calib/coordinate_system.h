@@ -19,7 +19,7 @@ struct PlaceOnEarth {
 
 struct PlacesOnEarth {
   std::vector<std::optional<PlaceOnEarth>> places;  // nothing where a point has none in the system
-  std::string doubt;  // about the unit of the heights; empty: none
+  std::string doubt;                                // about the unit of the heights; empty: none
 };
 
 // Places of points given in a coordinate system: an EPSG code, a PROJ text, WKT, or "WGS84 UTM 32N"

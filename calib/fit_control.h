@@ -20,9 +20,9 @@ struct PointPair {
 
 struct ControlFit {
   std::optional<Similarity> surveyed_from_scene;
-  std::string why_not;                // where there is none, for users
-  std::vector<int> blunders;          // pairs that contradict the others
-  std::vector<double> residual_m;     // per pair
+  std::string why_not;             // where there is none, for users
+  std::vector<int> blunders;       // pairs that contradict the others
+  std::vector<double> residual_m;  // per pair
 };
 
 // Robust similarity: the triple of pairs that most others agree with (RANSAC of all triples, costs

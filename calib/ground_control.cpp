@@ -65,8 +65,8 @@ class PhotoNames {
       }
       return {found->second.photo, {}};
     }
-    return {-1, fmt::format("{} is no photo of this survey; check the name, or delete the line",
-                            name)};
+    return {-1,
+            fmt::format("{} is no photo of this survey; check the name, or delete the line", name)};
   }
 
  private:
@@ -89,10 +89,10 @@ std::optional<fs::path> ListOf(const CalibOptions& options, const fs::path& surv
       survey / (options.ground_control.empty() ? kGroundControlFile : options.ground_control);
   if (fs::exists(path)) return path;
   if (options.ground_control.empty()) return std::nullopt;
-  throw Error(ErrorKind::kBadInput,
-              fmt::format("{}: calib.ground_control names it, but there is no such file",
-                          path.string()),
-              "correct the path in survey.toml, which counts from the survey's folder");
+  throw Error(
+      ErrorKind::kBadInput,
+      fmt::format("{}: calib.ground_control names it, but there is no such file", path.string()),
+      "correct the path in survey.toml, which counts from the survey's folder");
 }
 
 bool IsInPicture(const Eigen::Vector2d& pixel, const CapturedPhoto& photo) {
@@ -165,13 +165,15 @@ void RequireNearPhotos(const GroundControl& control,
               "or longitude and y is north or latitude");
 }
 
-void SayProblems(const GroundControl& control, Progress& progress) {
-  for (size_t i = 0; i < std::min(kProblemsSaid, control.problems.size()); ++i) {
-    progress.Warn(control.problems[i]);
+// The first ones, and how many more there are; a file of another survey has thousands.
+void SayProblems(GroundControl& control, Progress& progress) {
+  const size_t count = control.problems.size();
+  if (count > kProblemsSaid) {
+    control.problems.resize(kProblemsSaid);
+    control.problems.push_back(fmt::format("{}: {} more lines are left out for such reasons",
+                                           control.file, count - kProblemsSaid));
   }
-  if (control.problems.size() <= kProblemsSaid) return;
-  progress.Warn(fmt::format("{}: {} more lines are left out for such reasons", control.file,
-                            control.problems.size() - kProblemsSaid));
+  for (const std::string& problem : control.problems) progress.Warn(problem);
 }
 
 }  // namespace

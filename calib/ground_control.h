@@ -30,10 +30,10 @@ struct GroundControl {
   std::vector<std::string> problems;  // what was left out, and why
 };
 
-// What calib.ground_control names, else gcp_list.txt of the survey, else nothing. `photos` are those
-// of the scene. Says in the log what is left out. Throws Error (kBadInput) when a named file is
-// missing, when it is no such list, when no point is marked in a photo of the survey, or when its
-// points lie far from where the photos were taken.
+// What calib.ground_control names, else gcp_list.txt of the survey, else nothing. `photos` are
+// those of the scene. Says in the log what is left out. Throws Error (kBadInput) when a named file
+// is missing, when it is no such list, when no point is marked in a photo of the survey, or when
+// its points lie far from where the photos were taken.
 GroundControl ReadGroundControl(const CalibOptions& options, const Captures& captures,
                                 const std::vector<const CapturedPhoto*>& photos,
                                 const StageContext& context);

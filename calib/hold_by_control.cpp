@@ -147,9 +147,7 @@ class ControlHolder {
       if (!DropBlunders() && !was_wide) break;
     }
     ApplyRecordsAgain();
-    for (size_t i = 0; has_records_ && i < records_.size(); ++i) {
-      scene_.photos[i].prior = records_[i].position;
-    }
+    if (has_records_) outcome_.placed_records = records_;
   }
 
   void SetPoints() {
@@ -157,14 +155,14 @@ class ControlHolder {
     for (const size_t i : used_) {
       const MeasuredPoint& measured = outcome_.points[i].measured;
       // Where it was surveyed: the model is as good as there.
-      scene_.control.points.push_back(
-          {surveyed_[i], input_.sigma_m, measured.used, surveyed_[i]});
+      scene_.control.points.push_back({surveyed_[i], input_.sigma_m, measured.used, surveyed_[i]});
     }
   }
 
   void FoldShift(const Eigen::Vector3d& shift) {
     ShiftBack(shift, records_);
-    outcome_.positions_shift_m = outcome_.positions_shift_m.value_or(Eigen::Vector3d::Zero()) + shift;
+    outcome_.positions_shift_m =
+        outcome_.positions_shift_m.value_or(Eigen::Vector3d::Zero()) + shift;
   }
 
   void ApplyRecordsAgain() {
@@ -191,7 +189,8 @@ class ControlHolder {
       const MeasuredPoint& measured = outcome_.points[i].measured;
       const double deviation = Deviation(i);
       const double error_m = (*measured.position - surveyed_[i]).norm();
-      if (deviation < kBlunder_sigmas || error_m < kBlunder_pixels * measured.ground_pixel) continue;
+      if (deviation < kBlunder_sigmas || error_m < kBlunder_pixels * measured.ground_pixel)
+        continue;
       wrong.emplace_back(i, deviation);
       worst = std::max(worst, deviation);
     }
@@ -236,11 +235,12 @@ class ControlHolder {
   std::string DescribeRefused(const MeasuredPoint& measured) const {
     std::string text;
     for (const PhotoMark& mark : measured.refused) {
-      const auto pixel = scene_.CameraOf(mark.photo)
-                             .Project(*scene_.photos[mark.photo].pose * *measured.position);
+      const auto pixel =
+          scene_.CameraOf(mark.photo).Project(*scene_.photos[mark.photo].pose * *measured.position);
       text += text.empty() ? "marks not used: " : ", ";
       text += scene_.photos[mark.photo].name;
-      text += pixel ? fmt::format(" ({:.0f} px off)", (*pixel - mark.pixel).norm()) : " (behind it)";
+      text +=
+          pixel ? fmt::format(" ({:.0f} px off)", (*pixel - mark.pixel).norm()) : " (behind it)";
     }
     return text;
   }

@@ -34,10 +34,13 @@ struct PointOutcome {
 };
 
 struct ControlOutcome {
-  std::optional<Georef> georef;       // where control points hold the frame
-  std::string why_not;                // where they do not although there are some
-  std::vector<PointOutcome> points;   // by point of the ground control
-  std::optional<RecordErrors> records;             // measured anew in the frame of the points
+  std::optional<Georef> georef;      // where control points hold the frame
+  std::string why_not;               // where they do not although there are some
+  std::vector<PointOutcome> points;  // by point of the ground control
+  // The photos' records moved into the frame of the points, and how they err there; the scene has
+  // them as priors.
+  std::vector<PoseRecord> placed_records;
+  std::optional<RecordErrors> records;               // measured anew in the frame of the points
   std::optional<Eigen::Vector3d> positions_shift_m;  // recorded minus true, of all flights together
 };
 

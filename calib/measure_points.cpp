@@ -47,7 +47,8 @@ std::string WhyNot(size_t num_marks, size_t num_posed) {
                        num_posed, num_posed == 1 ? "" : "s");
   }
   return fmt::format(
-      "its marks in {} photos meet in no point, or under too small an angle; check them", num_posed);
+      "its marks in {} photos meet in no point, or under too small an angle; check them",
+      num_posed);
 }
 
 // What is left of the measurement once the point is known.

@@ -60,8 +60,8 @@ CalibratedPoint SummarizePoint(const MarkedPoint& marked, const PointOutcome& ou
   const Eigen::Vector3d& error = *outcome.error_m;
   point.error_m = {error.x(), error.y(), error.z()};
   point.ground_pixel_m = outcome.measured.ground_pixel;
-  point.verdict = Light(std::hypot(error.x(), error.y()), std::abs(error.z()),
-                        point.ground_pixel_m, sigma_m);
+  point.verdict =
+      Light(std::hypot(error.x(), error.y()), std::abs(error.z()), point.ground_pixel_m, sigma_m);
   return point;
 }
 

@@ -16,7 +16,7 @@ Verdict VerdictOf(const std::string& name) {
   return Verdict::kUnknown;
 }
 
-std::string Millimetres(double length_m) {
+std::string ToMillimetres(double length_m) {
   return fmt::format("{:.3f}", length_m);
 }
 
@@ -24,7 +24,7 @@ std::string ErrorCells(const CalibratedPoint& point) {
   std::string cells;
   for (size_t axis = 0; axis < 3; ++axis) {
     cells += fmt::format("<td class=\"num\">{}</td>",
-                         axis < point.error_m.size() ? Millimetres(point.error_m[axis]) : "-");
+                         axis < point.error_m.size() ? ToMillimetres(point.error_m[axis]) : "-");
   }
   return cells;
 }
@@ -53,12 +53,12 @@ std::string PointTable(const std::vector<CalibratedPoint>& points) {
 
 std::string SetFigure(const std::string& name, const CalibratedPointSet& set) {
   return Figure(name,
-                fmt::format("{} m {}", Millimetres(set.horizontal_rms_m),
+                fmt::format("{} m {}", ToMillimetres(set.horizontal_rms_m),
                             VerdictBadge(VerdictOf(set.verdict))),
                 fmt::format("horizontal rms of {} ({} pixels on the ground); vertical {} m ({}); "
                             "reprojection {} px",
                             set.points, Decimal(set.horizontal_rms_m / set.ground_pixel_m, 1),
-                            Millimetres(set.vertical_rms_m),
+                            ToMillimetres(set.vertical_rms_m),
                             Decimal(set.vertical_rms_m / set.ground_pixel_m, 1),
                             Decimal(set.reprojection_error_px, 2)));
 }
@@ -73,8 +73,9 @@ std::string GroundControlSection(const PageContent& page) {
       "<dl class=\"measures\">";
   if (calibration.check_rms) html += SetFigure("Check points", *calibration.check_rms);
   if (calibration.control_rms) html += SetFigure("Control points", *calibration.control_rms);
-  html += "</dl><p>Errors are where the marks in the photos put a point, minus where it was "
-          "surveyed. ";
+  html +=
+      "</dl><p>Errors are where the marks in the photos put a point, minus where it was "
+      "surveyed. ";
   html += calibration.check_rms
               ? "Check points took part in nothing: their errors are the accuracy of the model. "
               : "There is no check point: errors of control points only say how well the model "

@@ -121,8 +121,8 @@ class ListBuilder {
   void Add(std::string_view text, int number) {
     const PointLine line = ReadLine(text, number);
     if (!line.problem.empty()) return Refuse(number, line.problem);
-    const auto known = std::ranges::find_if(
-        points_, [&](const BuiltPoint& point) { return IsOf(line, point); });
+    const auto known =
+        std::ranges::find_if(points_, [&](const BuiltPoint& point) { return IsOf(line, point); });
     if (known == points_.end()) {
       AddPoint(line);
     } else {
@@ -157,8 +157,7 @@ class ListBuilder {
   void AddPoint(const PointLine& line) {
     BuiltPoint& built = points_.emplace_back();
     built.is_named = !line.name.empty();
-    built.point.name =
-        built.is_named ? line.name : fmt::format("line-{}", line.marking.line);
+    built.point.name = built.is_named ? line.name : fmt::format("line-{}", line.marking.line);
     built.point.coordinates = line.coordinates;
     built.point.markings.push_back(line.marking);
     built.role = line.role;
@@ -228,9 +227,9 @@ GroundControlList ParseGroundControl(std::string_view text, const std::string& f
   GroundControlList list = builder.Build(crs);
   if (list.points.empty()) {
     throw Error(ErrorKind::kBadInput,
-                list.problems.empty() ? fmt::format("{}: has no points", file)
-                                      : fmt::format("{}: no line is a point; {}", file,
-                                                    list.problems.front()),
+                list.problems.empty()
+                    ? fmt::format("{}: has no points", file)
+                    : fmt::format("{}: no line is a point; {}", file, list.problems.front()),
                 kForm);
   }
   return list;

@@ -11,9 +11,9 @@
 
 namespace stucco {
 
-// (point - surveyed point) / sigma per axis. Blocks: point, shift of the positions. The shift has no
-// part in it; but what shares no term with a point Ceres eliminates like a point, and without the
-// shift all poses would hang together.
+// (point - surveyed point) / sigma per axis. Blocks: point, shift of the positions. The shift has
+// no part in it; but what shares no term with a point Ceres eliminates like a point, and without
+// the shift all poses would hang together.
 struct SurveyedPointCost {
   Eigen::Vector3d surveyed;
   Eigen::Vector3d inverse_sigma;

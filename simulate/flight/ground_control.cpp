@@ -67,10 +67,12 @@ std::optional<Eigen::Vector3d> AnyPoint(const std::vector<const FlownPhoto*>& ph
                                         const CastRay& cast, Random& random) {
   const FlownPhoto& photo = *photos[random.Index(static_cast<int>(photos.size()))];
   const double column = random.Uniform(0.1, 0.9) * photo.camera.width_px;
-  const auto ray = photo.camera.Unproject({column, random.Uniform(0.1, 0.9) * photo.camera.height_px});
+  const auto ray =
+      photo.camera.Unproject({column, random.Uniform(0.1, 0.9) * photo.camera.height_px});
   if (!ray) return std::nullopt;
-  const auto hit = cast(photo.cam_from_world.Center(),
-                        (photo.cam_from_world.rotation.conjugate() * ray->homogeneous()).normalized());
+  const auto hit =
+      cast(photo.cam_from_world.Center(),
+           (photo.cam_from_world.rotation.conjugate() * ray->homogeneous()).normalized());
   if (!hit) return std::nullopt;
   return hit->point;
 }

@@ -65,9 +65,9 @@ TEST(CoordinateSystem, DoubtsHeightsBesideFeet) {
 }
 
 TEST(CoordinateSystem, RefusesWhatIsNone) {
-  for (const char* crs : {"UTM zone 33", "EPSG:1", "WGS84 UTM 61N", "WGS84 UTM 33X", "hello",
-                          "/etc/passwd", "http://localhost/crs",
-                          "LOCAL_CS[\"plant\",UNIT[\"metre\",1]]"}) {
+  for (const char* crs :
+       {"UTM zone 33", "EPSG:1", "WGS84 UTM 61N", "WGS84 UTM 33X", "hello", "/etc/passwd",
+        "http://localhost/crs", "LOCAL_CS[\"plant\",UNIT[\"metre\",1]]"}) {
     SCOPED_TRACE(crs);
     ExpectBadInput([&] { Places(crs, {0, 0, 0}); }, crs);
   }

@@ -83,7 +83,7 @@ TEST(FitControl, LeavesTwoOfTwelveOut) {
 TEST(FitControl, SensorsTellWhichOfFourIsWrong) {
   std::vector<PointPair> pairs;
   for (const Eigen::Vector3d& corner : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(60, 0, 1),
-                                       Eigen::Vector3d(60, 50, 0), Eigen::Vector3d(0, 50, 2)}) {
+                                        Eigen::Vector3d(60, 50, 0), Eigen::Vector3d(0, 50, 2)}) {
     pairs.push_back({corner, SmallSimilarity() * corner});
   }
   pairs[2].surveyed.z() += 10;

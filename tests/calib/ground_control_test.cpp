@@ -84,9 +84,11 @@ TEST_F(GroundControlFile, LeavesOutMarksThatCannotBe) {
   ExpectProblem(Read(good + point + "1 2 DJI_0001.JPG A\n"), {"line 3", "several photos"});
   ExpectProblem(Read(good + point + "1 2 DJI_0009.JPG A\n"), {"line 3", "no photo of this survey"});
   ExpectProblem(Read(good + point + "1 2 dark.JPG A\n"), {"line 3", "not usable"});
-  ExpectProblem(Read(good + point + "1 3001 DJI_0007.JPG A\n"), {"line 3", "outside", "4000 x 3000"});
+  ExpectProblem(Read(good + point + "1 3001 DJI_0007.JPG A\n"),
+                {"line 3", "outside", "4000 x 3000"});
   ExpectProblem(Read(good + point + "1 2 east/DJI_0002.JPG A\n"), {"line 3", "twice"});
-  ExpectProblem(Read(good + "1e12 1e12 470 1 2 DJI_0007.JPG B\n"), {"line 3", "point B", "no place"});
+  ExpectProblem(Read(good + "1e12 1e12 470 1 2 DJI_0007.JPG B\n"),
+                {"line 3", "point B", "no place"});
 }
 
 TEST_F(GroundControlFile, IsTakenFromWhereTheOptionSays) {

@@ -73,10 +73,12 @@ TEST_F(SummarizeControlTest, ControlAndCheckApart) {
 
 TEST_F(SummarizeControlTest, LightsAreInPixelsOnTheGround) {
   // A pixel covers 2 cm: good to 4 cm horizontally and 6 cm vertically, poor from twice that on.
-  for (const auto& [error_m, verdict] :
-       {std::pair(Eigen::Vector3d(0.039, 0, 0), "green"), {{0.041, 0, 0}, "amber"},
-        {{0, 0.081, 0}, "red"}, {{0, 0, -0.059}, "green"}, {{0, 0, 0.061}, "amber"},
-        {{0, 0, 0.121}, "red"}}) {
+  for (const auto& [error_m, verdict] : {std::pair(Eigen::Vector3d(0.039, 0, 0), "green"),
+                                         {{0.041, 0, 0}, "amber"},
+                                         {{0, 0.081, 0}, "red"},
+                                         {{0, 0, -0.059}, "green"},
+                                         {{0, 0, 0.061}, "amber"},
+                                         {{0, 0, 0.121}, "red"}}) {
     control_.points.clear();
     outcome_ = {};
     AddPoint("A", PointState::kMeasured, error_m);

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simulate/flight/ground_control.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "simulate/flight/ground_control.h"
 #include "tests/simulate/made_flight.h"
 
 namespace stucco::simulate {
@@ -24,8 +23,9 @@ TEST(SurveyPoints, LieOnSurfacesThatPhotosShow) {
   for (const SurveyedPoint& surveyed : list.points) {
     checks += surveyed.role == PointRole::kCheck ? 1 : 0;
     EXPECT_GE(surveyed.markings.size(), 3u);
-    const Eigen::Vector3d point = EnuFromGeodetic(flight.georef, surveyed.coordinates.y(),
-                                                  surveyed.coordinates.x(), surveyed.coordinates.z());
+    const Eigen::Vector3d point =
+        EnuFromGeodetic(flight.georef, surveyed.coordinates.y(), surveyed.coordinates.x(),
+                        surveyed.coordinates.z());
     for (const PointMarking& marking : surveyed.markings) {
       const auto photo = std::ranges::find(flight.photos, marking.photo, &FlownPhoto::path);
       ASSERT_NE(photo, flight.photos.end());
