@@ -19,6 +19,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "calib/internal/control_costs.h"
 #include "calib/internal/costs.h"
 #include "survey/error.h"
 #include "survey/median.h"
@@ -36,6 +37,9 @@ constexpr double kRationalSigma = 0.2;
 // about it freely but for their records and few ties, of which wrong ones must not outweigh all
 // records together.
 constexpr double kPriorLossScale = 10;
+
+// Marks beyond this many standard deviations lose weight.
+constexpr double kMarkLossScale = 3;
 
 // Positions that can hold what a lens model bends, centimetres.
 constexpr double kHoldsBends_m = 0.1;
@@ -112,6 +116,7 @@ class Adjustment {
     AdjustReport report;
     for (const int track : ConcernedTracks()) AddTrack(scene_.tracks[track], report);
     if (report.num_observations == 0) return report;
+    AddControl();
     HoldWhatIsGiven();
     AddPriors();
     ceres::Solver::Summary summary;
@@ -177,21 +182,45 @@ class Adjustment {
   }
 
   void AddObservation(const SceneElement& element, Eigen::Vector3d& point) {
-    ScenePhoto& photo = scene_.photos[element.photo];
+    const ScenePhoto& photo = scene_.photos[element.photo];
+    AddSight({element.photo, photo.keypoints[element.keypoint]}, photo.keypoint_sigma_px, loss_,
+             point);
+  }
+
+  // A point where a photo shows it.
+  void AddSight(const PhotoMark& mark, double sigma, ceres::LossFunction& loss,
+                Eigen::Vector3d& point) {
+    ScenePhoto& photo = scene_.photos[mark.photo];
     Camera& camera = scene_.cameras[photo.camera].intrinsics;
-    const auto [it, is_new] = poses_.try_emplace(element.photo, *photo.pose);
+    const auto [it, is_new] = poses_.try_emplace(mark.photo, *photo.pose);
     double* pose = it->second.values;
     used_cameras_.insert(photo.camera);
-    const Eigen::Vector2d& keypoint = photo.keypoints[element.keypoint];
-    const double sigma = photo.keypoint_sigma_px;
-    problem_.AddResidualBlock(CreateCost(camera, keypoint, sigma), &loss_, camera.params.data(),
+    problem_.AddResidualBlock(CreateCost(camera, mark.pixel, sigma), &loss, camera.params.data(),
                               pose, point.data());
     if (!is_new) return;
     problem_.SetManifold(pose, &pose_manifold_);
-    if (!IsVariable(element.photo)) {
+    if (!IsVariable(mark.photo)) {
       problem_.SetParameterBlockConstant(pose);
     }
   }
+
+  void AddControl() {
+    if (!options_.use_priors) return;
+    for (ControlPoint& point : scene_.control.points) {
+      bool is_seen = false;
+      for (const PhotoMark& mark : point.marks) {
+        if (!scene_.photos[mark.photo].pose) continue;
+        AddSight(mark, scene_.control.mark_sigma_px, mark_loss_, point.position);
+        is_seen = true;
+      }
+      if (!is_seen) continue;
+      problem_.AddResidualBlock(SurveyedPointCost::Create(point.surveyed, point.sigma_m),
+                                &control_loss_, point.position.data(), Shift());
+      has_control_ = true;
+    }
+  }
+
+  double* Shift() { return scene_.control.positions_shift_m.data(); }
 
   static ceres::CostFunction* CreateCost(const Camera& camera, const Eigen::Vector2d& keypoint,
                                          double sigma) {
@@ -267,16 +296,23 @@ class Adjustment {
       has_priors = AddPosition(scene_.photos[index].prior, pose) || has_priors;
       AddAttitude(scene_.photos[index].attitude, pose);
     }
-    if (!has_priors) HoldFrame();
+    if (!has_priors && has_control_) problem_.SetParameterBlockConstant(Shift());
+    if (!has_priors && !has_control_) HoldFrame();
   }
 
   bool AddPosition(const std::optional<PositionPrior>& prior, PoseBlock& pose) {
     if (!prior) return false;
     const Eigen::Vector3d sigma(prior->sigma_horizontal_m, prior->sigma_horizontal_m,
                                 prior->sigma_vertical_m);
-    problem_.AddResidualBlock(
-        PositionCost::Create(prior->position, sigma),
-        sigma.maxCoeff() < kHoldsBends_m ? &sure_position_loss_ : &prior_loss_, pose.values);
+    ceres::LossFunction* loss =
+        sigma.maxCoeff() < kHoldsBends_m ? &sure_position_loss_ : &prior_loss_;
+    if (has_control_) {
+      // Receivers err together by metres; control points say by how much.
+      problem_.AddResidualBlock(ShiftedPositionCost::Create(prior->position, sigma), loss,
+                                pose.values, Shift());
+    } else {
+      problem_.AddResidualBlock(PositionCost::Create(prior->position, sigma), loss, pose.values);
+    }
     return true;
   }
 
@@ -337,6 +373,13 @@ class Adjustment {
                                         ceres::DO_NOT_TAKE_OWNERSHIP};
   ceres::ScaledLoss prior_loss_{&prior_outliers_, options_.noise* options_.noise,
                                 ceres::DO_NOT_TAKE_OWNERSHIP};
+  ceres::CauchyLoss mark_outliers_{kMarkLossScale};
+  ceres::ScaledLoss mark_loss_{&mark_outliers_, position_noise_* position_noise_,
+                               ceres::DO_NOT_TAKE_OWNERSHIP};
+  ceres::CauchyLoss control_outliers_{scene_.control.loss_scale};
+  ceres::ScaledLoss control_loss_{&control_outliers_, position_noise_* position_noise_,
+                                  ceres::DO_NOT_TAKE_OWNERSHIP};
+  bool has_control_ = false;
   ceres::Problem problem_;  // last: refers to the members above
 };
 

@@ -13,11 +13,14 @@
 #include <utility>
 
 #include "calib/adjust.h"
+#include "calib/as_model.h"
 #include "calib/contradictions.h"
 #include "calib/covariance.h"
 #include "calib/detect_photos.h"
 #include "calib/focal.h"
 #include "calib/georeference.h"
+#include "calib/ground_control.h"
+#include "calib/hold_by_control.h"
 #include "calib/mapper.h"
 #include "calib/match_photos.h"
 #include "calib/panorama.h"
@@ -25,6 +28,7 @@
 #include "calib/records.h"
 #include "calib/start_from_records.h"
 #include "calib/summarize.h"
+#include "calib/summarize_control.h"
 #include "calib/tracks.h"
 #include "calib/wrong_poses.h"
 #include "survey/calibration.h"
@@ -61,28 +65,6 @@ Photos ReadPhotos(const StageContext& context) {
         "add photos to the photo folder; ingest/captures.json says why others were refused");
   }
   return photos;
-}
-
-// The wished model with what the metadata know; parameters the metadata's model lacks start at
-// zero.
-Camera AsModel(const Camera& camera, CameraModel model) {
-  Camera result = camera;
-  result.model = model;
-  result.params.assign(ParameterNames(model).size(), 0.0);
-  result.params[0] = camera.FocalX();
-  result.params[1] = camera.FocalY();
-  result.params[2] = camera.PrincipalPoint().x();
-  result.params[3] = camera.PrincipalPoint().y();
-  if (model == CameraModel::kPinhole) return result;
-  const bool with_pairs =
-      camera.model == CameraModel::kOpenCv || camera.model == CameraModel::kFullOpenCv;
-  for (size_t i = 4; with_pairs && i < std::min(result.params.size(), camera.params.size()); ++i) {
-    result.params[i] = camera.params[i];
-  }
-  if (camera.model == CameraModel::kSimpleRadial || camera.model == CameraModel::kRadial) {
-    for (size_t i = 3; i < camera.params.size(); ++i) result.params[i + 1] = camera.params[i];
-  }
-  return result;
 }
 
 // Without tracks.
@@ -379,11 +361,46 @@ GeoreferenceResult Georeference(const Reconstructed& from, const MapperOptions& 
   return result;
 }
 
+Eigen::Vector3d SurveyedSigma(const CalibOptions& options) {
+  return {options.control_sigma_horizontal_m, options.control_sigma_horizontal_m,
+          options.control_sigma_vertical_m};
+}
+
+// Brings the scene to its control points, where it has some.
+ControlOutcome UseGroundControl(const ControlInput& input, GeoreferenceResult& georeference,
+                                Scene& scene) {
+  if (input.control.file.empty()) return {};
+  ControlOutcome outcome = HoldByControl(input, scene);
+  if (!outcome.georef) {
+    if (!outcome.why_not.empty()) {
+      input.context.progress->Warn(fmt::format("{}: its points do not hold the model: {}",
+                                               input.control.file, outcome.why_not));
+    }
+    return outcome;
+  }
+  georeference.georef = *outcome.georef;
+  if (outcome.records) georeference.records = outcome.records;
+  georeference.sigmas = SigmasOf(input.mapper, outcome.records.has_value(), scene);
+  // Residuals are of what was recorded, but for the shift.
+  for (size_t i = 0; i < outcome.placed_records.size(); ++i) {
+    scene.photos[i].prior = outcome.placed_records[i].position;
+  }
+  georeference.residuals = MeasurePriors(scene, georeference.prior_outliers);
+  return outcome;
+}
+
 // What the user should know of the result.
 void Note(const Calibration& calibration, Progress& progress) {
   progress.Note(fmt::format("{} of {} photos placed, {} points, mean reprojection error {:.2f} px",
                             calibration.photos_posed, calibration.photos_total, calibration.points,
                             calibration.reprojection_error_px));
+  if (calibration.check_rms) {
+    progress.Note(
+        fmt::format("{} check points: {:.3f} m horizontal, {:.3f} m vertical (root mean "
+                    "square)",
+                    calibration.check_rms->points, calibration.check_rms->horizontal_rms_m,
+                    calibration.check_rms->vertical_rms_m));
+  }
   if (calibration.prior_rms_horizontal_m < 0) return;
   progress.Note(
       fmt::format("residual to recorded positions: {:.3f} m horizontal, {:.3f} m "
@@ -391,15 +408,13 @@ void Note(const Calibration& calibration, Progress& progress) {
                   calibration.prior_rms_horizontal_m, calibration.prior_rms_vertical_m));
 }
 
-void Write(const SummaryInput& input, const Georef& georef,
-           const std::vector<std::string>& findings, const StageContext& context) {
+void Write(const SummaryInput& input, const Georef& georef, Calibration calibration,
+           const StageContext& context) {
   const Reconstruction reconstruction = ToReconstruction(input.scene, PhotoIds(input));
   const std::filesystem::path sparse = context.out / "sparse" / "0";
   WriteColmapBinary(reconstruction, sparse);
   WriteColmapText(reconstruction, sparse);
   WriteGeoref(georef, context.out / "georef.json");
-  Calibration calibration = Summarize(input);
-  calibration.findings.insert(calibration.findings.begin(), findings.begin(), findings.end());
   for (const CalibratedCamera& camera : calibration.cameras) {
     if (!camera.held.empty() && camera.held.size() < camera.names.size()) {
       calibration.findings.push_back(
@@ -415,6 +430,7 @@ void Write(const SummaryInput& input, const Georef& georef,
 
 void RunCalib(const CalibOptions& options, StageContext& context) {
   const Photos photos = ReadPhotos(context);
+  const GroundControl control = ReadGroundControl(options, photos.captures, photos.usable, context);
   const Guidance guidance = GuideByPlan(options, photos.captures, photos.usable, context);
   const PhotoSet set{photos.captures, photos.usable, guidance};
   const DetectedFeatures features = DetectAll(options, set, context);
@@ -438,7 +454,11 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   if (NumRegistered(scene) < 2) ThrowNothingRegistered(pairs, findings);
   if (!placed.finding.empty()) findings.push_back(placed.finding);
   for (const std::string& finding : findings) context.progress->Warn(finding);
-  const GeoreferenceResult georeference = Georeference(placed, mapper, photos, context, scene);
+  GeoreferenceResult georeference = Georeference(placed, mapper, photos, context, scene);
+  const Eigen::Vector3d surveyed_sigma_m = SurveyedSigma(options);
+  const ControlOutcome held = UseGroundControl(
+      {control, surveyed_sigma_m, mapper, placed.records, georeference.georef, context},
+      georeference, scene);
   std::map<int, std::string> unregistered = georeference.taken;
   unregistered.merge(ExplainUnregistered(mapper, pairs, scene));
   for (const auto& [photo, why] : unregistered) {
@@ -452,7 +472,10 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
                              georeference.prior_outliers,
                              georeference.records ? &*georeference.records : nullptr,
                              georeference.sigmas};
-  Write(summary, georeference.georef, findings, context);
+  Calibration calibration = Summarize(summary);
+  calibration.findings.insert(calibration.findings.begin(), findings.begin(), findings.end());
+  SummarizeControl(control, held, surveyed_sigma_m, calibration);
+  Write(summary, georeference.georef, std::move(calibration), context);
   const auto keypoints = CountKeypoints(features, PlacesOfAll(options, set, features));
   WriteFile(context.out / "photos.csv", PhotosCsv(summary, {keypoints, matched.tried, pairs}));
 }

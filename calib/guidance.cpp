@@ -9,8 +9,8 @@
 #include <array>
 #include <optional>
 
+#include "calib/camera_key.h"
 #include "calib/expect/expected_poses.h"
-#include "calib/photo_set.h"
 #include "survey/files.h"
 #include "survey/plan_of_survey.h"
 

@@ -10,6 +10,7 @@
 #include <map>
 #include <tuple>
 
+#include "calib/camera_key.h"
 #include "calib/choose_pairs.h"
 #include "calib/descriptors.h"
 #include "calib/matches.h"

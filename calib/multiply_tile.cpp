@@ -13,19 +13,17 @@
 namespace stucco {
 namespace {
 
-constexpr int kTile = PackedRows::kTile;
-constexpr int kRows = PackedRows::kRows;
 constexpr int kPairs = kDescriptorSize / 2;
 
 void MultiplyTileAnywhere(const RowPointers& rows, const int16_t* tile, int32_t* products,
                           int stride) {
-  for (int r = 0; r < kRows; ++r) {
-    int32_t sums[kTile] = {};
+  for (int r = 0; r < kRowsAtOnce; ++r) {
+    int32_t sums[kTileRows] = {};
     for (int pair = 0; pair < kPairs; ++pair) {
       const int32_t first = rows[r][2 * pair];
       const int32_t second = rows[r][2 * pair + 1];
-      const int16_t* values = tile + static_cast<ptrdiff_t>(pair) * 2 * kTile;
-      for (int i = 0; i < kTile; ++i) {
+      const int16_t* values = tile + static_cast<ptrdiff_t>(pair) * 2 * kTileRows;
+      for (int i = 0; i < kTileRows; ++i) {
         sums[i] += first * values[2 * i] + second * values[2 * i + 1];
       }
     }
@@ -44,7 +42,7 @@ int32_t PairAt(const int16_t* row, int pair) {
 __attribute__((target("avx2"))) void MultiplyTileAvx2(const RowPointers& rows, const int16_t* tile,
                                                       int32_t* products, int stride) {
   constexpr int kAtOnce = 4;  // as many sums as the registers hold
-  for (int r = 0; r < kRows; r += kAtOnce) {
+  for (int r = 0; r < kRowsAtOnce; r += kAtOnce) {
     __m256i left[kAtOnce] = {};
     __m256i right[kAtOnce] = {};
     for (int pair = 0; pair < kPairs; ++pair) {
@@ -70,14 +68,14 @@ __attribute__((target("avx512bw,avx512vnni"))) void MultiplyTileVnni(const RowPo
                                                                      const int16_t* tile,
                                                                      int32_t* products,
                                                                      int stride) {
-  __m512i sums[kRows] = {};
+  __m512i sums[kRowsAtOnce] = {};
   for (int pair = 0; pair < kPairs; ++pair) {
-    const __m512i values = _mm512_loadu_si512(tile + static_cast<ptrdiff_t>(pair) * 2 * kTile);
-    for (int r = 0; r < kRows; ++r) {
+    const __m512i values = _mm512_loadu_si512(tile + static_cast<ptrdiff_t>(pair) * 2 * kTileRows);
+    for (int r = 0; r < kRowsAtOnce; ++r) {
       sums[r] = _mm512_dpwssd_epi32(sums[r], _mm512_set1_epi32(PairAt(rows[r], pair)), values);
     }
   }
-  for (int r = 0; r < kRows; ++r) {
+  for (int r = 0; r < kRowsAtOnce; ++r) {
     _mm512_storeu_si512(products + static_cast<ptrdiff_t>(r) * stride, sums[r]);
   }
 }

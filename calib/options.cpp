@@ -28,6 +28,15 @@ void Describe(OptionTable& table, CalibOptions& options) {
   table.Add(
       "fast_adjustment", options.fast_adjustment,
       "Adjust on all threads: faster, but results differ in the last digits from run to run.");
+  table
+      .Add("ground_control", options.ground_control, {},
+           "File of ground control and check points, from the survey's folder on; empty: "
+           "gcp_list.txt, where there is one.")
+      .is_input_file = true;
+  table.Add("control_sigma_horizontal_m", options.control_sigma_horizontal_m, 0.001, 10,
+            "Standard deviation of surveyed points east and north, metres.");
+  table.Add("control_sigma_vertical_m", options.control_sigma_vertical_m, 0.001, 10,
+            "Standard deviation of surveyed points in height, metres.");
 }
 
 }  // namespace stucco

@@ -19,6 +19,9 @@ struct CalibOptions {
   bool use_positions = true;
   double min_angle_deg = 1.5;
   bool fast_adjustment = false;
+  std::string ground_control;
+  double control_sigma_horizontal_m = 0.02;
+  double control_sigma_vertical_m = 0.03;
 };
 
 void Describe(OptionTable& table, CalibOptions& options);

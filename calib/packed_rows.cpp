@@ -12,6 +12,7 @@
 namespace stucco {
 
 PackedRows::PackedRows(const int16_t* rows, int count) : count_(count) {
+  static_assert(kTile == kTileRows && kRows == kRowsAtOnce);
   static_assert(kValuesOfTile == kTile * kDescriptorSize);
   tiles_.assign(static_cast<size_t>((count + kTile - 1) / kTile) * kValuesOfTile, 0);
   for (int i = 0; i < count; ++i) {

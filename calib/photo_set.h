@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "calib/guidance.h"
-#include "survey/camera.h"
 #include "survey/captures.h"
 
 namespace stucco {
@@ -21,8 +19,5 @@ struct PhotoSet {
 // One standard deviation of the focal length that the metadata say, relative to it; 0 where it is
 // given as the truth.
 double FocalSigmaRatio(const CapturedCamera& camera);
-
-// Everything that the camera's projection depends on, as text for keys of checkpoints.
-std::string KeyOf(const Camera& camera);
 
 }  // namespace stucco

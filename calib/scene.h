@@ -60,11 +60,36 @@ struct SceneTrack {
   std::optional<Eigen::Vector3d> position;
 };
 
+// Where somebody marked a point in a photo, full-resolution pixels.
+struct PhotoMark {
+  int photo = 0;
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+};
+
+// A surveyed point that holds the scene.
+struct ControlPoint {
+  Eigen::Vector3d surveyed = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sigma_m = Eigen::Vector3d::Ones();
+  std::vector<PhotoMark> marks;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // where adjustment puts it
+};
+
+// Takes part in adjustments with priors; the scene is in the points' frame then.
+struct SceneControl {
+  std::vector<ControlPoint> points;  // none, or enough to hold the frame
+  double mark_sigma_px = 1;
+  // Points farther than this from what was surveyed, in standard deviations, lose weight.
+  double loss_scale = 3;
+  // By how much all recorded positions are off together, which only control points can tell.
+  Eigen::Vector3d positions_shift_m = Eigen::Vector3d::Zero();
+};
+
 struct Scene {
   std::vector<SceneCamera> cameras;
   std::vector<ScenePhoto> photos;
   std::vector<SceneTrack> tracks;
   std::vector<std::vector<int>> tracks_of_photo;  // per photo: track of each keypoint, -1 for none
+  SceneControl control;
 
   const Camera& CameraOf(int photo) const { return cameras[photos[photo].camera].intrinsics; }
 };

@@ -33,7 +33,7 @@ Stage CalibStage() {
   stage.version = 4;
   stage.title = "camera poses and lens calibration";
   stage.needs = {"ingest"};
-  stage.inputs = {kCapturesFile, kPlanFile};
+  stage.inputs = {kCapturesFile, kPlanFile, kGroundControlFile};
   stage.opens_photos = true;
   stage.cost = {.cpu_s_per_megapixel = 0.55,
                 .cpu_s_per_pair = 0.33,

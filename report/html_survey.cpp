@@ -70,6 +70,7 @@ std::string CameraTable(const CalibratedCamera& camera) {
 }
 
 std::string_view PositionsOf(const Georef& georef) {
+  if (georef.source == kGroundControlSource) return "ground control points";
   if (georef.source == "plan") return "the positions of the plan, to some metres";
   if (georef.source == "file") return "the model that was imported";
   return georef.source == "rtk" ? "RTK positions" : "GPS positions";
@@ -132,10 +133,10 @@ std::string CalibrationSection(const PageContent& page) {
     html += "</ul>";
   }
   html += fmt::format(
-      "<p>{} These figures say how well the photos agree with each other; nothing here was "
-      "compared "
-      "with independent measurements.</p>",
-      GeorefText(page));
+      "<p>{} These figures say how well the photos agree with each other; {}</p>", GeorefText(page),
+      calibration.check_rms ? "what was compared with independent measurements stands under ground "
+                              "control."
+                            : "nothing here was compared with independent measurements.");
   for (const CalibratedCamera& camera : calibration.cameras) html += CameraTable(camera);
   if (!calibration.photos.empty()) {
     html += fmt::format(

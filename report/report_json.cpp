@@ -132,6 +132,37 @@ Json CameraJson(const CalibratedCamera& camera) {
           {"held", TextsJson(camera.held)}};
 }
 
+Json PointJson(const CalibratedPoint& point) {
+  return {{"name", CleanUtf8(point.name)},
+          {"role", point.role},
+          {"state", point.state},
+          {"why", CleanUtf8(point.why)},
+          {"photos", point.photos},
+          {"error_m", point.error_m},
+          {"reprojection_error_px", UnlessNegative(point.reprojection_error_px)},
+          {"verdict", point.verdict}};
+}
+
+Json PointSetJson(const std::optional<CalibratedPointSet>& set) {
+  if (!set) return nullptr;
+  return {{"points", set->points},
+          {"horizontal_rms_m", set->horizontal_rms_m},
+          {"vertical_rms_m", set->vertical_rms_m},
+          {"reprojection_error_px", set->reprojection_error_px},
+          {"ground_pixel_m", set->ground_pixel_m},
+          {"verdict", set->verdict}};
+}
+
+Json GroundControlJson(const Calibration& calibration) {
+  if (calibration.ground_control.empty()) return nullptr;
+  Json points = Json::array();
+  for (const CalibratedPoint& point : calibration.ground_control)
+    points.push_back(PointJson(point));
+  return {{"control", PointSetJson(calibration.control_rms)},
+          {"check", PointSetJson(calibration.check_rms)},
+          {"points", points}};
+}
+
 Json CalibrationJson(const SurveyData& data) {
   if (!data.calibration) return nullptr;
   const Calibration& calibration = *data.calibration;
@@ -146,6 +177,7 @@ Json CalibrationJson(const SurveyData& data) {
            {{"horizontal", UnlessNegative(calibration.prior_rms_horizontal_m)},
             {"vertical", UnlessNegative(calibration.prior_rms_vertical_m)}}},
           {"cameras", cameras},
+          {"ground_control", GroundControlJson(calibration)},
           {"findings", TextsJson(calibration.findings)}};
 }
 

@@ -31,8 +31,34 @@ static void Fields(Archive& archive, T& flight) {
 template <typename Archive, internal::Is<CalibratedRecords> T>
 static void Fields(Archive& archive, T& records) {
   archive.Optional("flights", records.flights);
+  archive.Optional("shift_m", records.shift_m);
   archive.Optional("attitude_sigma_deg", records.attitude_sigma_deg);
   archive.Optional("mount_deg", records.mount_deg);
+}
+
+template <typename Archive, internal::Is<CalibratedPoint> T>
+static void Fields(Archive& archive, T& point) {
+  archive.Required("name", point.name);
+  archive.Required("role", point.role);
+  archive.Required("state", point.state);
+  archive.Optional("why", point.why);
+  archive.Optional("photos", point.photos);
+  archive.Optional("error_m", point.error_m);
+  archive.Optional("reprojection_error_px", point.reprojection_error_px);
+  archive.Optional("ground_pixel_m", point.ground_pixel_m);
+  archive.Optional("verdict", point.verdict);
+}
+
+template <typename Archive, internal::Is<CalibratedPointSet> T>
+static void Fields(Archive& archive, T& set) {
+  archive.Required("points", set.points);
+  archive.Required("east_rms_m", set.east_rms_m);
+  archive.Required("north_rms_m", set.north_rms_m);
+  archive.Required("horizontal_rms_m", set.horizontal_rms_m);
+  archive.Required("vertical_rms_m", set.vertical_rms_m);
+  archive.Required("reprojection_error_px", set.reprojection_error_px);
+  archive.Required("ground_pixel_m", set.ground_pixel_m);
+  archive.Required("verdict", set.verdict);
 }
 
 template <typename Archive, internal::Is<UnposedPhoto> T>
@@ -67,6 +93,9 @@ static void Fields(Archive& archive, T& calibration) {
   archive.Required("unposed", calibration.unposed);
   archive.Required("cameras", calibration.cameras);
   archive.Optional("records", calibration.records);
+  archive.Optional("ground_control", calibration.ground_control);
+  archive.Optional("control_rms", calibration.control_rms);
+  archive.Optional("check_rms", calibration.check_rms);
   archive.Optional("findings", calibration.findings);
 }
 

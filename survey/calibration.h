@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ struct CalibratedFlight {
 
 struct CalibratedRecords {
   std::vector<CalibratedFlight> flights;
+  // Recorded minus true, of all flights together: east, north, up. Only control points tell; empty:
+  // not known.
+  std::vector<double> shift_m;
   double attitude_sigma_deg = -1;  // about each axis; -1: no records of angles
   double mount_deg = 0;            // angle between what the gimbal says and where the camera looks
 };
@@ -56,6 +60,32 @@ struct CalibratedCamera {
       held;  // parameters that the photos could not determine or that were given
 };
 
+// A surveyed point of gcp_list.txt, and how the model meets it.
+struct CalibratedPoint {
+  std::string name;
+  std::string role;   // "control", "check"
+  std::string state;  // "used", "measured" (check points), "blunder", "not seen", "unused"
+  std::string why;    // sentences; may be empty
+  int photos = 0;     // whose marks agree on it
+  // Where marks and poses put it, minus where it was surveyed: east, north, up; empty: not known.
+  std::vector<double> error_m;
+  double reprojection_error_px = -1;  // root mean square; -1: not known
+  double ground_pixel_m = -1;         // what a pixel covers there; -1: not known
+  std::string verdict;                // "green", "amber", "red"; empty: not judged
+};
+
+// Root mean square errors of the points that are used, or measured.
+struct CalibratedPointSet {
+  int points = 0;
+  double east_rms_m = 0;
+  double north_rms_m = 0;
+  double horizontal_rms_m = 0;  // of the distance
+  double vertical_rms_m = 0;
+  double reprojection_error_px = 0;
+  double ground_pixel_m = 0;
+  std::string verdict;
+};
+
 struct Calibration {
   int photos_total = 0;
   int photos_posed = 0;
@@ -67,7 +97,10 @@ struct Calibration {
   std::vector<CalibratedPhoto> photos;
   std::vector<UnposedPhoto> unposed;
   std::vector<CalibratedCamera> cameras;
-  CalibratedRecords records;          // empty where there are none, or they do not fit
+  CalibratedRecords records;                      // empty where there are none, or they do not fit
+  std::vector<CalibratedPoint> ground_control;    // as in the file
+  std::optional<CalibratedPointSet> control_rms;  // of those used
+  std::optional<CalibratedPointSet> check_rms;
   std::vector<std::string> findings;  // "6 photos were taken from one point (rotation only) ..."
 };
 

@@ -9,6 +9,9 @@
 
 namespace stucco {
 
+// Georef::source where ground control points hold the frame.
+inline constexpr char kGroundControlSource[] = "gcp";
+
 // What the world frame of a survey is (calib/georef.json).
 struct Georef {
   // "enu": metres east, north, up of the origin. "arbitrary": scale and directions are free.
@@ -19,7 +22,7 @@ struct Georef {
   // Unit vector away from the ground, when calibration knows it (GPS or gimbal).
   std::optional<Eigen::Vector3d> up;
   bool metric = false;  // lengths are metres
-  // "gps", "rtk", "plan", "gimbal", "none"; "file": an imported model said so itself.
+  // "gcp", "rtk", "gps", "plan", "gimbal", "none"; "file": an imported model said so itself.
   std::string source;
 };
 

@@ -20,6 +20,8 @@ struct Option {
   std::vector<std::string> choices;  // for strings; empty: any text
   // False: does not change results (threads, verbosity), so it is left out of fingerprints.
   bool affects_result = true;
+  // Names a file, from the survey's folder on, whose content the result depends on.
+  bool is_input_file = false;
 };
 
 // The settings of one stage, described once: survey.toml, command line, help, validation,

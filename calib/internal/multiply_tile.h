@@ -6,11 +6,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "calib/packed_rows.h"
-
 namespace stucco {
 
-using RowPointers = std::array<const int16_t*, PackedRows::kRows>;
+inline constexpr int kTileRows = 16;   // packed side by side (PackedRows)
+inline constexpr int kRowsAtOnce = 8;  // multiplied with them
+
+using RowPointers = std::array<const int16_t*, kRowsAtOnce>;
 
 // Products of the rows with one tile of PackedRows: `products` has the first row's, `stride`
 // further on the next one's.

@@ -133,6 +133,10 @@ Fingerprint TakeFingerprint(const Stage& stage, const BoundStage& bound,
     if (option.affects_result) {
       fingerprint.options[option.name] = ValueAsToml(option);
     }
+    if (const auto* const* file = std::get_if<std::string*>(&option.value);
+        file != nullptr && option.is_input_file && !(*file)->empty()) {
+      AddInput(**file, context, fingerprint.inputs);
+    }
   }
   if (stage.photos_are_input) {
     AddPhotos(context, fingerprint.inputs);

@@ -28,6 +28,7 @@ std::string FacadeTableSection(const PageContent& page);
 std::string FacadeDialogs(const PageContent& page);
 std::string PhotosSection(const PageContent& page);
 std::string CalibrationSection(const PageContent& page);
+std::string GroundControlSection(const PageContent& page);
 std::string VerdictRulesSection(const PageContent& page);
 std::string FilesSection(const PageContent& page);
 std::string StagesSection(const PageContent& page);

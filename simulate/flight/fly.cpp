@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "simulate/flight/ground_control.h"
 #include "simulate/flight/photo_store.h"
 #include "simulate/flight/prepare.h"
 #include "simulate/flight/take_photos.h"
@@ -105,6 +106,15 @@ void KeepPlan(const fs::path& plan, const fs::path& survey) {
   WriteFileAtomically(kept, ReadFile(plan));
 }
 
+void WriteControl(const Flight& flight, const Renderer& renderer, int count,
+                  const fs::path& survey) {
+  const auto cast = [&renderer](const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
+    return renderer.Cast(from, direction);
+  };
+  WriteFileAtomically(survey / kTrueControlFile,
+                      GroundControlText(SurveyPoints(flight, cast, count)));
+}
+
 }  // namespace
 
 FlySummary Fly(const FlyRequest& request, const FlightOptions& options,
@@ -142,7 +152,11 @@ FlySummary Fly(const FlyRequest& request, const FlightOptions& options,
                                   [](const FlownPhoto& photo) { return !photo.lost; })));
   }
   KeepPlan(plan_path, request.survey);
-  return TakePhotos(prepared, photographer, options, real, progress);
+  FlySummary summary = TakePhotos(prepared, photographer, options, real, progress);
+  if (options.ground_control > 0) {
+    WriteControl(prepared.flight, renderer, options.ground_control, request.survey);
+  }
+  return summary;
 }
 
 }  // namespace stucco::simulate

@@ -47,6 +47,11 @@ void Describe(OptionTable& table, FlightOptions& options) {
   table.Add("held_out", options.held_out, 0, 1000,
             "Photos beside the plan that only the truth folder has, to check renderings against.");
   table.Add("write_depth", options.write_depth, "Write exact depth maps into the truth folder.");
+  table
+      .Add("ground_control", options.ground_control, 0, 1000,
+           "Surveyed points, every fourth of them a check point, and where photos show them: "
+           "truth/gcp_list.txt.")
+      .affects_result = false;  // on the photos
   table.Add("jpeg_quality", options.jpeg_quality, 10, 100, "Quality of the JPEG files.");
 }
 

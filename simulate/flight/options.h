@@ -35,6 +35,7 @@ struct FlightOptions {
   bool sun = true;   // false: an overcast sky
   int held_out = 0;  // photos beside the plan, for checking only
   bool write_depth = false;
+  int ground_control = 0;  // points
   int jpeg_quality = 92;
 };
 

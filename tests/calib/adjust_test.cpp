@@ -226,6 +226,47 @@ TEST(Adjust, PositionsGiveTheFrame) {
   }
 }
 
+// Control points and positions that are all off together, as good as the points themselves.
+TEST(Adjust, ControlPointsGiveTheFrameAndTheShiftOfPositions) {
+  const Eigen::Vector3d shift(5, -3, 40);
+  const Scene truth = MakeScene({.num_points = 150, .noise_px = 0.3});
+  Scene scene = truth;
+  for (ScenePhoto& photo : scene.photos) {
+    photo.prior = PositionPrior{photo.pose->Center() + shift, 0.02, 0.02};
+  }
+  for (const Eigen::Vector3d& corner : {Eigen::Vector3d(-6, 1.75, 1), Eigen::Vector3d(6, 1.75, 1),
+                                        Eigen::Vector3d(0, -2, 6), Eigen::Vector3d(0, -6, 0)}) {
+    ControlPoint point{corner, {0.02, 0.02, 0.03}, {}, corner};
+    for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
+      const auto pixel = scene.CameraOf(i).Project(*scene.photos[i].pose * corner);
+      if (pixel) point.marks.push_back({i, *pixel});
+    }
+    scene.control.points.push_back(point);
+  }
+  Similarity motion;
+  motion.scale = 1.02;
+  motion.rotation = Eigen::AngleAxisd(0.01, Eigen::Vector3d(0.3, 1, 0.5).normalized());
+  motion.translation = {0.2, -0.1, 0.3};
+  for (ScenePhoto& photo : scene.photos) photo.pose = Transformed(*photo.pose, motion);
+  for (SceneTrack& track : scene.tracks) track.position = motion * *track.position;
+  const Scene start = scene;
+  AdjustOptions options = Tight(RefineIntrinsics::kNone);
+  options.use_priors = true;
+  ASSERT_TRUE(Adjust(options, scene).usable);
+  for (size_t i = 0; i < scene.photos.size(); ++i) {
+    EXPECT_LT((scene.photos[i].pose->Center() - truth.photos[i].pose->Center()).norm(), 0.02);
+  }
+  EXPECT_LT((scene.control.positions_shift_m - shift).norm(), 0.02);
+  // Without positions there is no shift, and points alone hold the frame.
+  scene = start;
+  for (ScenePhoto& photo : scene.photos) photo.prior.reset();
+  ASSERT_TRUE(Adjust(options, scene).usable);
+  EXPECT_EQ(scene.control.positions_shift_m, Eigen::Vector3d::Zero());
+  for (size_t i = 0; i < scene.photos.size(); ++i) {
+    EXPECT_LT((scene.photos[i].pose->Center() - truth.photos[i].pose->Center()).norm(), 0.02);
+  }
+}
+
 TEST(Adjust, SaysWhenThereIsNothingToDo) {
   Scene scene = Blank(MakeScene({.num_points = 50}));
   const AdjustReport report = Adjust({}, scene);

@@ -88,7 +88,7 @@ TEST(CalibOptions, AreAllInTheTable) {
   CalibOptions options;
   OptionTable table("calib");
   Describe(table, options);
-  EXPECT_EQ(table.options().size(), 10u);
+  EXPECT_EQ(table.options().size(), 13u);
   EXPECT_EQ(SetOption(table, "max_features", OptionValue(int64_t{500})), "");
   EXPECT_EQ(options.max_features, 500);
   EXPECT_NE(SetOption(table, "camera_model", OptionValue(std::string("FISHEYE"))), "");

@@ -209,6 +209,8 @@ TEST_F(Report, HostileNamesStayText) {
     made.textures.facets[0].gains[names[i]] = 1;
     made.calibration.unposed.push_back({names[i], names[i]});
     made.calibration.findings.push_back(names[i]);
+    CalibratedPoint& point = made.calibration.ground_control.emplace_back();
+    point.name = point.role = point.state = point.why = point.verdict = names[i];
     made.captures.photos[i].path = names[i];
     made.proxy.buildings[0].facets[0].source = names[i];
   }
@@ -229,6 +231,41 @@ TEST_F(Report, HostileNamesStayText) {
   EXPECT_TRUE(Has(page, "emoji 😀.jpg"));
   EXPECT_TRUE(Has(page, "<bdi>\u202egpj.exe</bdi>"));
   EXPECT_EQ(CountOf(page, "</dialog>"), 15U);
+}
+
+TEST_F(Report, ShowsGroundControl) {
+  MadeSurvey made = MakeSurvey();
+  made.georef.source = "gcp";
+  CalibratedPoint point;
+  point.name = "P<1>";
+  point.role = "check";
+  point.state = "measured";
+  point.photos = 5;
+  point.error_m = {0.0124, -0.031, 0.2};
+  point.reprojection_error_px = 0.8;
+  point.ground_pixel_m = 0.02;
+  point.verdict = "red";
+  CalibratedPoint unseen;
+  unseen.name = "P2";
+  unseen.role = "control";
+  unseen.state = "not seen";
+  unseen.why = "marked in 1 photo with a pose, two are needed";
+  made.calibration.ground_control = {point, unseen};
+  made.calibration.check_rms = CalibratedPointSet{1, 0.0124, 0.031, 0.0334, 0.2, 0.8, 0.02, "red"};
+  WriteSurvey(made, folder_.path());
+  Run();
+  const std::string page = Content(Page());
+  EXPECT_TRUE(Has(page, "P&lt;1&gt;"));
+  EXPECT_TRUE(Has(page, "<td class=\"num\">-0.031</td>"));
+  EXPECT_TRUE(Has(page, "marked in 1 photo"));
+  EXPECT_TRUE(Has(page, "Check points"));
+  EXPECT_TRUE(Has(page, "known from ground control points"));
+  EXPECT_TRUE(Has(page, "10.0"));  // pixels on the ground, vertically
+  const auto json = Json()["calibration"]["ground_control"];
+  EXPECT_EQ(json["points"].size(), 2U);
+  EXPECT_EQ(json["points"][0]["verdict"], "red");
+  EXPECT_DOUBLE_EQ(json["check"]["vertical_rms_m"], 0.2);
+  EXPECT_TRUE(json["control"].is_null());
 }
 
 TEST_F(Report, NeverSaysMetresWithoutScale) {

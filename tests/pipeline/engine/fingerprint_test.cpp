@@ -67,5 +67,29 @@ TEST(Fingerprint, HashingPhotosIsShownCancelledAndKept) {
   EXPECT_EQ(nothing.steps, "");
 }
 
+// A file that an option names is an input, wherever it lies.
+TEST(Fingerprint, ContentOfAFileThatAnOptionNamesCounts) {
+  FakeSurvey fake;
+  const SurveyPaths paths{fake.survey, fake.photos};
+  fs::create_directories(WorkFolder(fake.survey).root);
+  Stage stage;
+  stage.name = "calib";
+  std::string named;
+  BoundStage bound{OptionTable("calib"), {}};
+  bound.options.Add("ground_control", named, {}, "A file.").is_input_file = true;
+  const auto take = [&] {
+    HashCache hashes(WorkFolder(fake.survey).Hashes());
+    Hashing progress(99);
+    return TakeFingerprint(stage, bound, {paths, {}, 1, hashes, progress}).inputs;
+  };
+  EXPECT_TRUE(take().empty());
+  named = "points.txt";
+  EXPECT_EQ(take().at("points.txt"), kMissingInput);
+  WriteFile(fake.survey / "points.txt", "one");
+  const auto before = take();
+  WriteFile(fake.survey / "points.txt", "other");
+  EXPECT_NE(take(), before);
+}
+
 }  // namespace
 }  // namespace stucco
