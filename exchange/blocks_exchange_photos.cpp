@@ -123,7 +123,7 @@ Camera ReadCamera(const XmlFile& file, const pugi::xml_node& group) {
   // Brown's order: P1 (r^2 + 2 x^2) + 2 P2 x y is what bends x.
   lens.p1 = file.FindNumber(distortion, "P2").value_or(0);
   lens.p2 = file.FindNumber(distortion, "P1").value_or(0);
-  const Camera camera = CameraWithLens(lens, size);
+  Camera camera = CameraWithLens(lens, size);
   if (const auto problem = FindProblem(camera)) file.Fail(group, *problem);
   return camera;
 }

@@ -62,7 +62,7 @@ Camera ReadCamera(const JsonPlace& json) {
   const std::map<std::string, double*> places = {
       {"k1", &lens.k1}, {"k2", &lens.k2}, {"k3", &lens.k3}, {"p1", &lens.p1}, {"p2", &lens.p2}};
   for (const char* name : fields->coefficients) *places.at(name) = json.At(name).Number();
-  const Camera camera = CameraWithLens(lens, size);
+  Camera camera = CameraWithLens(lens, size);
   if (const auto problem = FindProblem(camera)) json.Fail(*problem);
   return camera;
 }

@@ -119,7 +119,7 @@ Camera ReadCamera(const Sidecar& sidecar, const ImageSize& size) {
   lens.cx = size.width_px / 2.0 + longer * sidecar.Number("xcr:PrincipalPointU", 0);
   lens.cy = size.height_px / 2.0 + longer * sidecar.Number("xcr:PrincipalPointV", 0);
   ReadDistortion(sidecar, lens);
-  const Camera camera = CameraWithLens(lens, size);
+  Camera camera = CameraWithLens(lens, size);
   if (const auto problem = FindProblem(camera)) {
     sidecar.Fail("xcr:FocalLength35mm", *problem, "export the XMP files again");
   }

@@ -121,7 +121,7 @@ Georef MoveFromMap(const std::string& crs, const std::string& file, Reconstructi
   std::vector<Eigen::Vector2d> around;
   for (const Eigen::Vector3d& centre : centres) around.emplace_back(centre.head<2>());
   const std::vector<Geodetic> places = GeodeticOf(crs, file, around);
-  const Georef georef = MiddleOf(centres, places, file);
+  Georef georef = MiddleOf(centres, places, file);
   MoveCameras(crs, file, georef, plan::IsCrsGeographic(crs) ? kStep_deg : kStep_m, model);
   MovePoints(crs, file, georef, model);
   return georef;
