@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <variant>
 
 #include "exchange/read_model.h"
 #include "pipeline/engine/exit_code.h"
@@ -104,6 +105,14 @@ std::optional<Captures> ReadCapturesOf(const fs::path& survey) {
   return ReadCaptures(survey / kCapturesFile);
 }
 
+// Whether the survey wants models brought to the positions of its photos (calib.use_positions).
+bool UsesPositions(const Settings& settings) {
+  const auto calib = settings.stages.find(kCalibStage);
+  if (calib == settings.stages.end()) return true;
+  const Option* option = calib->second.options.Find("use_positions");
+  return option == nullptr || *std::get<bool*>(option->value);
+}
+
 // What later stages will miss.
 void NoteMissing(const Calibration& calibration, ImportReport& report) {
   if (report.points == 0) {
@@ -141,7 +150,8 @@ ImportReport ImportModel(const fs::path& survey, const fs::path& path, const Sta
   RunIngest(survey, table, console, platform);
   const std::optional<Captures> captures = ReadCapturesOf(survey);
   const Captures* known = captures ? &*captures : nullptr;
-  const PlacedModel place = PlaceModel(source.path, known, imported);
+  const PlacedModel place =
+      PlaceModel(source.path, UsesPositions(settings) ? known : nullptr, imported);
   report.frame = place.georef.frame;
   report.notes.insert(report.notes.end(), place.notes.begin(), place.notes.end());
   MeasurePointErrors(imported.model);

@@ -113,7 +113,9 @@ PlacedModel PlaceModel(const std::filesystem::path& file, const Captures* captur
   } else if (placed.differences.rms_horizontal_m >= 0) {
     placed.notes.push_back(
         fmt::format("it was brought to the positions that its photos recorded: they differ by "
-                    "{:.2f} m horizontally and {:.2f} m vertically (root mean square)",
+                    "{:.2f} m horizontally and {:.2f} m vertically (root mean square); with "
+                    "use_positions = false below [calib] it keeps its own frame, for a cloud of "
+                    "the same program",
                     placed.differences.rms_horizontal_m, placed.differences.rms_vertical_m));
   }
   NoteOutliers(placed);

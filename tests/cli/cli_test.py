@@ -365,7 +365,14 @@ class ImportAndExport(stucco.TestCase):
         width, height = jpeg_size(stucco.sample_photos(1)[0])
         write_colmap(self.root / "model", [photo.name for photo in stucco.sample_photos(3)], width,
                      height)
+        # The cloud is in the model's own frame.
+        settings = survey / "survey.toml"
+        text = settings.read_text()
+        self.assertIn("use_positions = true", text)
+        settings.write_text(text.replace("use_positions = true", "use_positions = false"))
         self.check(stucco.run("import", survey, self.root / "model"))
+        georef = json.loads((survey / "calib/georef.json").read_text())
+        self.assertEqual(georef["frame"], "arbitrary")
         elsewhere = self.write_ply("utm.ply", [(x + 5e5, y + 5e6, z) for x, y, z in wall])
         self.refused(stucco.run("import", survey, elsewhere), 3, "frame of the camera poses")
         self.refused(stucco.run("import", survey, self.root / "gone.ply"), 3, "gone.ply")
