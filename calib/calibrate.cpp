@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -29,10 +30,12 @@
 #include "calib/start_from_records.h"
 #include "calib/summarize.h"
 #include "calib/summarize_control.h"
+#include "calib/summarize_photos.h"
+#include "calib/take_apart.h"
 #include "calib/tracks.h"
+#include "calib/write_results.h"
 #include "calib/wrong_poses.h"
 #include "survey/calibration.h"
-#include "survey/colmap_io.h"
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/plan_of_survey.h"
@@ -169,6 +172,7 @@ struct Reconstructed {
   std::vector<PoseRecord> records;
   bool is_in_frame = false;  // it began at the records
   std::string finding;       // of the records, for people; may be empty
+  std::optional<Plan> plan;
 };
 
 // Why the photos' own positions do not hold the frame; empty where nobody needs to know.
@@ -195,7 +199,7 @@ std::string WhyNoFrame(const Photos& photos, bool plan_holds_it) {
 Reconstructed ReadRecordsOf(const CalibOptions& options, const Photos& photos,
                             const Guidance& guidance, const StageContext& context, Scene& scene) {
   Reconstructed result;
-  const std::optional<Plan> plan = PlanOfSurvey(context);
+  const std::optional<Plan>& plan = result.plan = PlanOfSurvey(context);
   if (options.use_positions) result.frame = FrameFromPositions(photos.usable, scene);
   const bool by_plan = options.use_positions && !result.frame && guidance.views;
   if (by_plan) result.frame = FrameFromPlan(plan->origin, guidance.views->poses, scene);
@@ -389,41 +393,16 @@ ControlOutcome UseGroundControl(const ControlInput& input, GeoreferenceResult& g
   return outcome;
 }
 
-// What the user should know of the result.
-void Note(const Calibration& calibration, Progress& progress) {
-  progress.Note(fmt::format("{} of {} photos placed, {} points, mean reprojection error {:.2f} px",
-                            calibration.photos_posed, calibration.photos_total, calibration.points,
-                            calibration.reprojection_error_px));
-  if (calibration.check_rms) {
-    progress.Note(
-        fmt::format("{} check points: {:.3f} m horizontal, {:.3f} m vertical (root mean "
-                    "square)",
-                    calibration.check_rms->points, calibration.check_rms->horizontal_rms_m,
-                    calibration.check_rms->vertical_rms_m));
-  }
-  if (calibration.prior_rms_horizontal_m < 0) return;
-  progress.Note(
-      fmt::format("residual to recorded positions: {:.3f} m horizontal, {:.3f} m "
-                  "vertical (root mean square)",
-                  calibration.prior_rms_horizontal_m, calibration.prior_rms_vertical_m));
-}
-
-void Write(const SummaryInput& input, const Georef& georef, Calibration calibration,
-           const StageContext& context) {
-  const Reconstruction reconstruction = ToReconstruction(input.scene, PhotoIds(input));
-  const std::filesystem::path sparse = context.out / "sparse" / "0";
-  WriteColmapBinary(reconstruction, sparse);
-  WriteColmapText(reconstruction, sparse);
-  WriteGeoref(georef, context.out / "georef.json");
-  for (const CalibratedCamera& camera : calibration.cameras) {
-    if (!camera.held.empty() && camera.held.size() < camera.names.size()) {
-      calibration.findings.push_back(
-          fmt::format("{}: the photos do not determine {}; kept near the expected value",
-                      camera.label, fmt::join(camera.held, ", ")));
-    }
-  }
-  WriteCalibration(calibration, context.out / "calibration.json");
-  Note(calibration, *context.progress);
+// Photos that are not in the scene, and why.
+std::map<int, std::string> Unregistered(const MapperOptions& mapper,
+                                        const std::vector<VerifiedPair>& pairs, const Scene& scene,
+                                        const SceneParts& parts,
+                                        const std::map<int, std::string>& taken) {
+  std::map<int, std::string> why = WhyApart(parts);
+  why.insert(taken.begin(), taken.end());
+  why.merge(ExplainUnregistered(mapper, pairs, scene));
+  std::erase_if(why, [&](const auto& photo) { return scene.photos[photo.first].pose.has_value(); });
+  return why;
 }
 
 }  // namespace
@@ -459,23 +438,29 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   const ControlOutcome held = UseGroundControl(
       {control, surveyed_sigma_m, mapper, placed.records, georeference.georef, context},
       georeference, scene);
-  std::map<int, std::string> unregistered = georeference.taken;
-  unregistered.merge(ExplainUnregistered(mapper, pairs, scene));
+  const std::vector<PoseRecord>& records =
+      held.placed_records.empty() ? placed.records : held.placed_records;
+  const RecordErrors* errors = georeference.records ? &*georeference.records : nullptr;
+  const SceneParts parts =
+      TakeApart({mapper, pairs, photos.usable, placed.plan, records, errors, context},
+                georeference.sigmas, scene);
+  georeference.residuals = MeasurePriors(scene, georeference.prior_outliers);
+  const std::map<int, std::string> unregistered =
+      Unregistered(mapper, pairs, scene, parts, georeference.taken);
   for (const auto& [photo, why] : unregistered) {
     context.progress->Warn(fmt::format("{}: not placed: {}", scene.photos[photo].name, why));
   }
-  const SummaryInput summary{photos.captures,
-                             photos.capture_of_photo,
-                             scene,
-                             unregistered,
-                             georeference.residuals,
-                             georeference.prior_outliers,
-                             georeference.records ? &*georeference.records : nullptr,
-                             georeference.sigmas};
+  const SummaryInput summary{photos.captures, photos.capture_of_photo, scene,
+                             unregistered,    georeference.residuals,  georeference.prior_outliers,
+                             errors,          georeference.sigmas,     &parts};
   Calibration calibration = Summarize(summary);
   calibration.findings.insert(calibration.findings.begin(), findings.begin(), findings.end());
+  if (errors != nullptr) {
+    std::ranges::move(SummarizeRecordOnly(summary, records, *errors),
+                      std::back_inserter(calibration.photos));
+  }
   SummarizeControl(control, held, surveyed_sigma_m, calibration);
-  Write(summary, georeference.georef, std::move(calibration), context);
+  WriteResults(summary, georeference.georef, std::move(calibration), context);
   const auto keypoints = CountKeypoints(features, PlacesOfAll(options, set, features));
   WriteFile(context.out / "photos.csv", PhotosCsv(summary, {keypoints, matched.tried, pairs}));
 }

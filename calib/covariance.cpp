@@ -20,6 +20,7 @@
 namespace stucco {
 namespace {
 
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 using Matrix2X = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -72,6 +73,42 @@ Matrix36 CenterByPose(const Pose& pose) {
   Matrix36 by_pose;
   by_pose << -2 * world_from_cam * cross, -world_from_cam;
   return by_pose;
+}
+
+// What the covariance of a photo's centre, of its turn (rotation vector in the camera's frame) and,
+// where it has more rows, of its camera's intrinsics says.
+PoseSigma SigmaOf(const Scene& scene, int photo, const Eigen::MatrixXd& covariance) {
+  constexpr size_t kPoints = 25;
+  const Pose& pose = *scene.photos[photo].pose;
+  const double focal = scene.CameraOf(photo).FocalX();
+  const Eigen::Index num_intrinsics = covariance.rows() - 6;
+  const std::vector<int> tracks = TracksSeenBy(scene, photo);
+  double squares = 0;
+  int count = 0;
+  for (size_t i = 0; i < tracks.size(); i += tracks.size() / kPoints + 1) {
+    const SceneTrack& track = scene.tracks[tracks[i]];
+    const auto element = std::ranges::find(track.elements, photo, &SceneElement::photo);
+    const Eigen::Vector3d point = pose * *track.position;
+    Linearised linear;
+    if (!(point.z() > 0) || !Linearise(scene, *element, *track.position, linear)) continue;
+    Eigen::Matrix3d cross;
+    cross << 0, -point.z(), point.y(), point.z(), 0, -point.x(), -point.y(), point.x(), 0;
+    Eigen::Matrix<double, 2, 3> by_point;
+    by_point << 1, 0, -point.x() / point.z(), 0, 1, -point.y() / point.z();
+    by_point *= focal / point.z();
+    Matrix2X of_pixel(2, covariance.rows());
+    of_pixel.leftCols<3>() = -by_point * pose.rotation.toRotationMatrix();
+    of_pixel.middleCols<3>(3) = -by_point * cross;
+    of_pixel.rightCols(num_intrinsics) =
+        scene.photos[photo].keypoint_sigma_px * linear.intrinsics.leftCols(num_intrinsics);
+    squares += (of_pixel * covariance * of_pixel.transpose()).trace();
+    ++count;
+  }
+  PoseSigma sigma;
+  sigma.position = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+  sigma.rotation_rad = std::sqrt(covariance.block<3, 3>(3, 3).trace());
+  if (count > 0) sigma.picture_px = std::sqrt(squares / count);
+  return sigma;
 }
 
 // The similarity that fits small motions of all centres best (least squares): translation, turn
@@ -407,12 +444,19 @@ class ReducedSystem {
       if (pose_offset_[i] < 0) continue;
       const Pose& pose = *scene_.photos[i].pose;
       const auto own = half.middleCols<6>(pose_offset_[i]);
-      const Eigen::MatrixX3d center = own * CenterByPose(pose).transpose() -
-                                      of_similarity * datum.CenterBySimilarity(i).transpose();
-      const Eigen::MatrixX3d rotation =
+      const int camera = scene_.photos[i].camera;
+      const bool is_variable = scene_.cameras[camera].focal_sigma_ratio > 0;
+      const Eigen::Index num_intrinsics =
+          is_variable ? static_cast<Eigen::Index>(scene_.cameras[camera].intrinsics.params.size())
+                      : 0;
+      Eigen::MatrixXd motion(size_, 6 + num_intrinsics);
+      motion.leftCols<3>() = own * CenterByPose(pose).transpose() -
+                             of_similarity * datum.CenterBySimilarity(i).transpose();
+      motion.middleCols<3>(3) =
           2 * own.leftCols<3>() - of_similarity * Datum::RotationBySimilarity(pose).transpose();
-      sigmas.poses[i] = {std::sqrt(variance) * center.norm(),
-                         std::sqrt(variance) * rotation.norm()};
+      motion.rightCols(num_intrinsics) = half.middleCols(camera_offset_[camera], num_intrinsics);
+      sigmas.poses[i] =
+          SigmaOf(scene_, static_cast<int>(i), variance * motion.transpose() * motion);
     }
   }
 
@@ -427,7 +471,6 @@ class ReducedSystem {
 
 // Each pose with the points held.
 std::vector<PoseSigma> OwnSigmas(const Scene& scene) {
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
   std::vector<Matrix6> normals(scene.photos.size(), Matrix6::Zero());
   for (const SceneTrack& track : scene.tracks) {
     if (!track.position) continue;
@@ -444,9 +487,11 @@ std::vector<PoseSigma> OwnSigmas(const Scene& scene) {
     if (!scene.photos[i].pose) continue;
     const Matrix6 covariance = variance * normals[i].inverse();
     if (!covariance.allFinite()) continue;
-    const Matrix36 by_pose = CenterByPose(*scene.photos[i].pose);
-    sigmas[i].position = std::sqrt((by_pose * covariance * by_pose.transpose()).trace());
-    sigmas[i].rotation_rad = 2 * std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+    Matrix6 motion_by_pose = Matrix6::Zero();
+    motion_by_pose.topRows<3>() = CenterByPose(*scene.photos[i].pose);
+    motion_by_pose.bottomLeftCorner<3, 3>() = 2 * Eigen::Matrix3d::Identity();
+    sigmas[i] = SigmaOf(scene, static_cast<int>(i),
+                        motion_by_pose * covariance * motion_by_pose.transpose());
   }
   return sigmas;
 }

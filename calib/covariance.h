@@ -12,6 +12,10 @@ namespace stucco {
 struct PoseSigma {
   double position = -1;      // unit of the scene, root of the sum over the axes; -1: not computed
   double rotation_rad = -1;  // likewise
+  // How far it moves the photo's own points in its picture, pixels in full size, root mean square
+  // of the distance: where a turn, a shift and the lens make up for each other they do no harm
+  // there.
+  double picture_px = -1;
 };
 
 struct SceneSigmas {

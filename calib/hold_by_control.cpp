@@ -148,6 +148,8 @@ class ControlHolder {
     }
     ApplyRecordsAgain();
     if (has_records_) outcome_.placed_records = records_;
+    // What the plan wished for was recorded by nobody.
+    if (input_.georef.source == "plan") outcome_.positions_shift_m.reset();
   }
 
   void SetPoints() {

@@ -40,8 +40,9 @@ struct ControlOutcome {
   // The photos' records moved into the frame of the points, and how they err there; the scene has
   // them as priors.
   std::vector<PoseRecord> placed_records;
-  std::optional<RecordErrors> records;               // measured anew in the frame of the points
-  std::optional<Eigen::Vector3d> positions_shift_m;  // recorded minus true, of all flights together
+  std::optional<RecordErrors> records;  // measured anew in the frame of the points
+  // Recorded minus true, of all flights together; nothing where the plan stood in for records.
+  std::optional<Eigen::Vector3d> positions_shift_m;
 };
 
 struct ControlInput {

@@ -7,55 +7,16 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <set>
 
 #include "calib/adjust.h"
-#include "survey/median.h"
+#include "calib/summarize_photos.h"
 
 namespace stucco {
 namespace {
 
 // A parameter whose uncertainty is still most of what was assumed beforehand is not measured.
 constexpr double kUndetermined = 0.7;
-constexpr int kCoverageCells = 10;
 constexpr double kDegree = M_PI / 180;
-// A pose is weak when so few observations hold it, or when it is this many times less certain than
-// the middle one.
-constexpr int kFewObservations = 50;
-constexpr double kUncertain = 5;
-// What a photo's keypoints share and its pose takes up shows in no residual: in simulated flights
-// poses were this much farther off than their residuals say (docs/benchmarks.md).
-constexpr double kSharedErrors = 1.4;
-
-double Coverage(const Camera& camera, const RegisteredImage& photo) {
-  std::set<int> filled;
-  for (const Observation& o : photo.observations) {
-    const int column = static_cast<int>(o.pixel.x() / camera.width_px * kCoverageCells);
-    const int row = static_cast<int>(o.pixel.y() / camera.height_px * kCoverageCells);
-    filled.insert(row * kCoverageCells + column);
-  }
-  return static_cast<double>(filled.size()) / (kCoverageCells * kCoverageCells);
-}
-
-CalibratedPhoto SummarizePhoto(const SummaryInput& input, const Reconstruction& reconstruction,
-                               const RegisteredImage& registered, int index) {
-  CalibratedPhoto photo;
-  photo.path = registered.name;
-  const Camera& camera = reconstruction.cameras.at(registered.camera);
-  double sum = 0;
-  for (const Observation& o : registered.observations) {
-    const auto pixel =
-        camera.Project(registered.cam_from_world * reconstruction.points.at(o.point).position);
-    if (pixel) sum += (*pixel - o.pixel).norm();
-  }
-  photo.observations = static_cast<int>(registered.observations.size());
-  photo.reprojection_error_px = photo.observations > 0 ? sum / photo.observations : 0;
-  photo.prior_residual_m = input.priors.distance_m[index];
-  photo.prior_outlier = std::find(input.prior_outliers.begin(), input.prior_outliers.end(),
-                                  index) != input.prior_outliers.end();
-  photo.coverage = Coverage(camera, registered);
-  return photo;
-}
 
 CalibratedCamera SummarizeCamera(const CapturedCamera& captured, const SceneCamera& camera,
                                  const Eigen::VectorXd* sigma) {
@@ -74,26 +35,6 @@ CalibratedCamera SummarizeCamera(const CapturedCamera& captured, const SceneCame
     }
   }
   return result;
-}
-
-// Photos of the scene in the order of `result.photos`.
-void AddSigmas(const std::vector<PoseSigma>& sigmas, const std::vector<int>& photos,
-               Calibration& result) {
-  std::vector<double> positions;
-  positions.reserve(photos.size());
-  for (const int photo : photos) positions.push_back(sigmas[photo].position);
-  const double usual = Median(std::move(positions)).value_or(0);
-  for (size_t i = 0; i < photos.size(); ++i) {
-    CalibratedPhoto& photo = result.photos[i];
-    const PoseSigma& sigma = sigmas[photos[i]];
-    if (sigma.position >= 0) {
-      photo.position_sigma = kSharedErrors * sigma.position;
-      photo.rotation_sigma_deg = kSharedErrors * sigma.rotation_rad / kDegree;
-    }
-    const bool is_weak = sigma.position < 0 || sigma.position > kUncertain * usual ||
-                         photo.observations < kFewObservations;
-    photo.state = is_weak ? "weak" : "tied";
-  }
 }
 
 CalibratedRecords SummarizeRecords(const RecordErrors& errors) {
@@ -203,15 +144,8 @@ Calibration Summarize(const SummaryInput& input) {
   result.mean_track_length = MeanTrackLength(reconstruction);
   result.prior_rms_horizontal_m = input.priors.rms_horizontal_m;
   result.prior_rms_vertical_m = input.priors.rms_vertical_m;
-  std::vector<int> posed;
-  for (size_t i = 0; i < input.scene.photos.size(); ++i) {
-    const auto registered = reconstruction.photos.find(PhotoId{ids[i]});
-    if (registered == reconstruction.photos.end()) continue;
-    posed.push_back(static_cast<int>(i));
-    result.photos.push_back(
-        SummarizePhoto(input, reconstruction, registered->second, static_cast<int>(i)));
-  }
-  AddSigmas(input.sigmas.poses, posed, result);
+  result.photos = SummarizePhotos(input, reconstruction);
+  result.parts = SummarizeParts(input);
   if (input.records != nullptr) {
     result.records = SummarizeRecords(*input.records);
     AddFindings(result.records, result);

@@ -11,6 +11,7 @@
 #include "calib/georeference.h"
 #include "calib/records.h"
 #include "calib/scene.h"
+#include "calib/take_apart.h"
 #include "survey/calibration.h"
 #include "survey/captures.h"
 #include "survey/reconstruction.h"
@@ -30,6 +31,7 @@ struct SummaryInput {
   const std::vector<int>& prior_outliers;
   const RecordErrors* records = nullptr;  // where they hold the frame
   SceneSigmas sigmas = {};                // of the scene
+  const SceneParts* parts = nullptr;      // where the scene was taken apart
 };
 
 // Photo ids of the result by photo of the scene: the place in captures.json, counted from 1.

@@ -30,7 +30,7 @@ Stage IngestStage() {
 Stage CalibStage() {
   Stage stage;
   stage.name = "calib";
-  stage.version = 5;
+  stage.version = 6;
   stage.title = "camera poses and lens calibration";
   stage.needs = {"ingest"};
   stage.inputs = {kCapturesFile, kPlanFile, kGroundControlFile};
@@ -92,7 +92,7 @@ Stage ReportStage() {
   Stage stage;
   stage.name = "report";
   stage.title = "the quality report";
-  stage.version = 3;
+  stage.version = 4;
   stage.needs = {"ingest", "calib", "dense", "proxy", "texture"};
   stage.inputs = {"ingest", "calib", kCloudFile, "proxy", "texture", kPlanFile};
   stage.reports_failures = true;

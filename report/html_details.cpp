@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "report/internal/html_sections.h"
+#include "report/photo_trust.h"
 #include "survey/escape.h"
 #include "survey/numbers.h"
 
@@ -75,6 +76,16 @@ std::string Qualities(const FacetRow& row) {
                     planned(&FacadeQuality::q_c));
 }
 
+// How surely its photos are placed, on the facade.
+std::string PlacedTo(const PageContent& page, const TexturedFacet& texture) {
+  const auto placed = PlacementOf(page.data, texture);
+  if (!placed) return "";
+  return Figure("Its photos are placed to",
+                PixelSize(placed->middle_px * texture.gsd_m, page.data.metric),
+                fmt::format("on it, the middle one; the worst to {}",
+                            PixelSize(placed->worst_px * texture.gsd_m, page.data.metric)));
+}
+
 std::string Measures(const PageContent& page, const FacetRow& row) {
   const bool metric = page.data.metric;
   std::string html = "<dl class=\"measures\">";
@@ -87,6 +98,7 @@ std::string Measures(const PageContent& page, const FacetRow& row) {
     html += Figure("Misfit between photos", texture.misregistration_px >= 0
                                                 ? Decimal(texture.misregistration_px, 2) + " texels"
                                                 : "one photo");
+    html += PlacedTo(page, texture);
     html += Figure("Sharpness", Decimal(texture.sharpness, 0));
     html += Figure("Picture", fmt::format("{} x {}", texture.width_px, texture.height_px),
                    "texels of " + PixelSize(texture.metres_per_texel, metric));
@@ -101,7 +113,7 @@ std::string Measures(const PageContent& page, const FacetRow& row) {
   return html + "</dl>";
 }
 
-std::string PhotoList(const FacetRow& row, const FacetPictures& pictures) {
+std::string PhotoList(const PageContent& page, const FacetRow& row, const FacetPictures& pictures) {
   if (row.texture == nullptr || row.texture->photos.empty()) return "";
   std::string html = "<h4>Photos used</h4><ul class=\"photo-list\">";
   for (size_t i = 0; i < row.texture->photos.size(); ++i) {
@@ -114,6 +126,7 @@ std::string PhotoList(const FacetRow& row, const FacetPictures& pictures) {
     if (i < pictures.photo_shares.size()) {
       html += fmt::format("<span class=\"num\">{}</span>", Percent(pictures.photo_shares[i]));
     }
+    if (IsWeak(page.data, path)) html += "<span class=\"quiet\">weakly placed</span>";
     if (gain != row.texture->gains.end()) {
       html += fmt::format("<span class=\"num quiet\">gain {}</span>", Decimal(gain->second, 2));
     }
@@ -161,7 +174,7 @@ std::string Dialog(const PageContent& page, size_t index) {
       "<div class=\"facade-body\"><div>{4}{5}</div><div>{6}{7}{8}{9}</div></div></dialog>",
       index, IsolatedHtml(row.Name()), VerdictBadge(row.verdict), ClassLabel(row.facet_class),
       Picture(pictures, row.id), Links(row), Findings(row), Measures(page, row),
-      row.IsPainted() ? Qualities(row) : "", PhotoList(row, pictures),
+      row.IsPainted() ? Qualities(row) : "", PhotoList(page, row, pictures),
       row.planned != nullptr ? " " + IsolatedHtml(row.id) : "");
 }
 

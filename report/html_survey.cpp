@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/internal/html_sections.h"
+#include "report/photo_trust.h"
 #include "survey/escape.h"
 #include "survey/numbers.h"
 
@@ -27,16 +28,21 @@ std::string PhotoTable(const Calibration& calibration, bool metric) {
       "<table class=\"plain\"><thead><tr><th scope=\"col\">Photo</th>"
       "<th scope=\"col\" class=\"num\">Reprojection error</th>"
       "<th scope=\"col\" class=\"num\">Observations</th>"
-      "<th scope=\"col\" class=\"num\">Picture covered</th>"
+      "<th scope=\"col\" class=\"num\">Picture covered</th><th scope=\"col\">State</th>"
+      "<th scope=\"col\" class=\"num\">In its picture</th>"
       "<th scope=\"col\" class=\"num\">From its GPS position</th></tr></thead><tbody>";
   for (const CalibratedPhoto& photo : calibration.photos) {
+    if (!IsInMainModel(calibration, photo)) continue;
     const std::string residual =
         photo.prior_residual_m < 0 ? "-" : Length(photo.prior_residual_m, metric);
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"num\">{} px</td><td class=\"num\">{}</td>"
-        "<td class=\"num\">{}</td><td class=\"num\">{}{}</td></tr>",
+        "<td class=\"num\">{}</td><td>{}</td><td class=\"num\">{}</td>"
+        "<td class=\"num\">{}{}</td></tr>",
         IsolatedHtml(photo.path), Decimal(photo.reprojection_error_px, 2), photo.observations,
-        Percent(photo.coverage), residual, photo.prior_outlier ? " (not used)" : "");
+        Percent(photo.coverage), Name(photo.state),
+        photo.picture_sigma_px < 0 ? "-" : "± " + Decimal(photo.picture_sigma_px, 1) + " px",
+        residual, photo.prior_outlier ? " (not used)" : "");
   }
   return html + "</tbody></table>";
 }
@@ -139,10 +145,10 @@ std::string CalibrationSection(const PageContent& page) {
                             : "nothing here was compared with independent measurements.");
   for (const CalibratedCamera& camera : calibration.cameras) html += CameraTable(camera);
   if (!calibration.photos.empty()) {
-    html += fmt::format(
-        "<details><summary>All {}</summary><div class=\"scroll\">{}</div></details>",
-        Count(static_cast<int>(calibration.photos.size()), "posed photo", "posed photos"),
-        PhotoTable(calibration, metric));
+    html +=
+        fmt::format("<details><summary>All {}</summary><div class=\"scroll\">{}</div></details>",
+                    Count(CountInMainModel(calibration), "posed photo", "posed photos"),
+                    PhotoTable(calibration, metric));
   }
   return html + "</section>";
 }

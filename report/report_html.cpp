@@ -30,9 +30,9 @@ std::string ReportHtml(const SurveyData& data, const std::vector<FacetRow>& rows
       "<span class=\"quiet\">Stucco</span></header>\n<main>\n";
   for (const auto section :
        {internal::AttentionSection, internal::SummarySection, internal::FacadeTableSection,
-        internal::PhotosSection, internal::CalibrationSection, internal::GroundControlSection,
-        internal::VerdictRulesSection, internal::FilesSection, internal::StagesSection,
-        internal::FacadeDialogs}) {
+        internal::PhotosSection, internal::PlacementSection, internal::CalibrationSection,
+        internal::GroundControlSection, internal::VerdictRulesSection, internal::FilesSection,
+        internal::StagesSection, internal::FacadeDialogs}) {
     html += section(page) + "\n";
   }
   html += "</main>\n<script>\n";

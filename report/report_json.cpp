@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "report/photo_trust.h"
 #include "survey/escape.h"
 
 namespace stucco {
@@ -55,7 +56,7 @@ Json QualityJson(const Terms& terms) {
   return {{"q_s", terms.q_s}, {"q_d", terms.q_d}, {"q_u", terms.q_u}, {"q_c", terms.q_c}};
 }
 
-Json FacadeJson(const FacetRow& row) {
+Json FacadeJson(const SurveyData& data, const FacetRow& row) {
   const Facet* facet = row.facet;
   const TexturedFacet* texture = row.texture;
   const bool painted = row.IsPainted();
@@ -74,6 +75,9 @@ Json FacadeJson(const FacetRow& row) {
   json["inpainted"] = texture != nullptr ? Json(texture->inpainted) : Json(nullptr);
   json["misregistration_px"] =
       painted ? UnlessNegative(texture->misregistration_px) : Json(nullptr);
+  const auto placed = painted ? PlacementOf(data, *texture) : std::nullopt;
+  json["photos_placed_px"] =
+      placed ? Json{{"median", placed->middle_px}, {"largest", placed->worst_px}} : Json(nullptr);
   json["sharpness"] = painted ? Json(texture->sharpness) : Json(nullptr);
   json["heldout_ssim"] = nullptr;
   json["area"] = facet != nullptr ? Json(facet->area) : Json(nullptr);
@@ -163,6 +167,42 @@ Json GroundControlJson(const Calibration& calibration) {
           {"points", points}};
 }
 
+Json SigmaJson(const PlacementSigma& sigma) {
+  return {{"position", sigma.position},
+          {"rotation_deg", sigma.rotation_deg},
+          {"picture_px", UnlessNegative(sigma.picture_px)}};
+}
+
+Json PlacementJson(const Calibration& calibration) {
+  const Placement placement = SummarizePlacement(calibration);
+  Json states;
+  for (const auto& [state, count] : placement.states) states[std::string(Name(state))] = count;
+  Json doubtful = Json::array();
+  for (const CalibratedPhoto* photo : PhotosNotToTrust(calibration)) {
+    doubtful.push_back({{"path", CleanUtf8(photo->path)},
+                        {"state", Name(photo->state)},
+                        {"why", CleanUtf8(photo->why)},
+                        {"position_sigma", UnlessNegative(photo->position_sigma)},
+                        {"rotation_sigma_deg", UnlessNegative(photo->rotation_sigma_deg)},
+                        {"picture_sigma_px", UnlessNegative(photo->picture_sigma_px)}});
+  }
+  Json parts = Json::array();
+  for (const CalibratedPart& part : calibration.parts) {
+    parts.push_back({{"model", part.model},
+                     {"photos", part.photos},
+                     {"placed_by", part.placed_by},
+                     {"position_sigma_m", UnlessNegative(part.position_sigma_m)},
+                     {"rotation_sigma_deg", UnlessNegative(part.rotation_sigma_deg)},
+                     {"why", CleanUtf8(part.why)}});
+  }
+  return {
+      {"states", states},
+      {"middle", placement.middle ? SigmaJson(*placement.middle) : Json(nullptr)},
+      {"nine_in_ten", placement.nine_in_ten ? SigmaJson(*placement.nine_in_ten) : Json(nullptr)},
+      {"not_to_trust", doubtful},
+      {"parts", parts}};
+}
+
 Json CalibrationJson(const SurveyData& data) {
   if (!data.calibration) return nullptr;
   const Calibration& calibration = *data.calibration;
@@ -177,6 +217,7 @@ Json CalibrationJson(const SurveyData& data) {
            {{"horizontal", UnlessNegative(calibration.prior_rms_horizontal_m)},
             {"vertical", UnlessNegative(calibration.prior_rms_vertical_m)}}},
           {"cameras", cameras},
+          {"placement", PlacementJson(calibration)},
           {"ground_control", GroundControlJson(calibration)},
           {"findings", TextsJson(calibration.findings)}};
 }
@@ -229,7 +270,7 @@ Json LimitsJson(const ReportOptions& options) {
 std::string ReportJson(const SurveyData& data, const std::vector<FacetRow>& rows,
                        const ReportOptions& options) {
   Json facades = Json::array();
-  for (const FacetRow& row : rows) facades.push_back(FacadeJson(row));
+  for (const FacetRow& row : rows) facades.push_back(FacadeJson(data, row));
   const auto median = MedianGsd(data);
   const Json report = {{"version", 1},
                        {"unit", Unit(data)},

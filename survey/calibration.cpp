@@ -2,9 +2,42 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "survey/calibration.h"
 
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
 #include "survey/internal/json.h"
 
 namespace stucco {
+namespace {
+
+constexpr std::array<std::pair<PhotoState, std::string_view>, 4> kStates = {{
+    {PhotoState::kTied, "tied"},
+    {PhotoState::kWeak, "weak"},
+    {PhotoState::kAmbiguous, "ambiguous"},
+    {PhotoState::kRecordOnly, "record-only"},
+}};
+
+}  // namespace
+
+std::string_view Name(PhotoState state) {
+  for (const auto& [known, name] : kStates) {
+    if (known == state) return name;
+  }
+  return "";
+}
+
+std::optional<PhotoState> PhotoStateFromName(std::string_view name) {
+  for (const auto& [state, known] : kStates) {
+    if (known == name) return state;
+  }
+  return std::nullopt;
+}
+
+bool IsInModel(PhotoState state) {
+  return state == PhotoState::kTied || state == PhotoState::kWeak;
+}
 
 template <typename Archive, internal::Is<CalibratedPhoto> T>
 static void Fields(Archive& archive, T& photo) {
@@ -14,9 +47,32 @@ static void Fields(Archive& archive, T& photo) {
   archive.Optional("prior_residual_m", photo.prior_residual_m);
   archive.Optional("prior_outlier", photo.prior_outlier);
   archive.Optional("coverage", photo.coverage);
-  archive.Optional("state", photo.state);
+  std::string state(Name(photo.state));
+  archive.Optional("state", state);
+  if constexpr (Archive::kReads) {
+    const auto known = PhotoStateFromName(state);
+    if (!known) archive.Fail("state", fmt::format("is \"{}\", which is no known state", state));
+    photo.state = *known;
+  }
+  archive.Optional("why", photo.why);
+  archive.Optional("part", photo.part);
   archive.Optional("position_sigma", photo.position_sigma);
   archive.Optional("rotation_sigma_deg", photo.rotation_sigma_deg);
+  archive.Optional("picture_sigma_px", photo.picture_sigma_px);
+  archive.Optional("center", photo.center);
+  archive.Optional("rotation", photo.rotation);
+}
+
+template <typename Archive, internal::Is<CalibratedPart> T>
+static void Fields(Archive& archive, T& part) {
+  archive.Required("model", part.model);
+  archive.Required("photos", part.photos);
+  archive.Required("points", part.points);
+  archive.Required("placed_by", part.placed_by);
+  archive.Optional("position_sigma_m", part.position_sigma_m);
+  archive.Optional("rotation_sigma_deg", part.rotation_sigma_deg);
+  archive.Optional("shared_surface", part.shared_surface);
+  archive.Optional("why", part.why);
 }
 
 template <typename Archive, internal::Is<CalibratedFlight> T>
@@ -91,6 +147,7 @@ static void Fields(Archive& archive, T& calibration) {
   });
   archive.Required("photos", calibration.photos);
   archive.Required("unposed", calibration.unposed);
+  archive.Optional("parts", calibration.parts);
   archive.Required("cameras", calibration.cameras);
   archive.Optional("records", calibration.records);
   archive.Optional("ground_control", calibration.ground_control);

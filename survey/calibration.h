@@ -6,9 +6,24 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stucco {
+
+// How surely a photo is placed.
+enum class PhotoState {
+  kTied,        // other photos hold its pose
+  kWeak,        // they hardly do: do not trust it alone
+  kAmbiguous,   // its matches fit more than one pose: in no model
+  kRecordOnly,  // only its record says where it was: in no model
+};
+
+std::string_view Name(PhotoState state);  // "tied", "weak", "ambiguous", "record-only"
+std::optional<PhotoState> PhotoStateFromName(std::string_view name);
+
+// Whether a model has photos of this state: what works on models need not look at states.
+bool IsInModel(PhotoState state);
 
 // calib/calibration.json: what calibration knows about its own result.
 struct CalibratedPhoto {
@@ -18,12 +33,35 @@ struct CalibratedPhoto {
   double prior_residual_m = -1;  // distance to its GPS position; -1: none
   bool prior_outlier = false;
   double coverage = 0;  // share of a 10 x 10 grid over the image with observations
-  // "tied", or "weak" where little holds the pose: do not trust it alone.
-  std::string state = "tied";
-  // One standard deviation of the pose within the model, root of the sum over the axes; position in
-  // the unit of the model; -1: not computed.
+  PhotoState state = PhotoState::kTied;
+  std::string why = {};  // where it is not tied, for people
+  int part = 0;          // index into Calibration::parts; -1: in no model
+  // One standard deviation of the pose within its part, root of the sum over the axes; position in
+  // the unit of the model; -1: not computed. Of photos in no model: of the record.
   double position_sigma = -1;
   double rotation_sigma_deg = -1;
+  // By how much that moves what the photo shows in its picture, full-size pixels.
+  double picture_sigma_px = -1;
+  // Of photos in no model, in the world frame: centre x y z, cam_from_world w x y z. Else empty.
+  std::vector<double> center = {};
+  std::vector<double> rotation = {};
+};
+
+// Photos that are tied to each other, and by nothing but records, if at all, to those of other
+// parts.
+struct CalibratedPart {
+  std::string model;  // folder in calib/; later stages use "sparse/0" alone
+  int photos = 0;
+  int points = 0;
+  // "photos": the first part, which the others are placed against; "records": in the world frame,
+  // by recorded positions; "nothing": in a frame and scale of its own.
+  std::string placed_by = "photos";
+  // One standard deviation of the place of the whole part against the first, root of the sum over
+  // the axes; -1: of the first part, or not placed.
+  double position_sigma_m = -1;
+  double rotation_sigma_deg = -1;
+  double shared_surface = 0;  // share of its points on surfaces that the first part sees as well
+  std::string why = {};       // it stands apart, and what would join it, for people
 };
 
 // How the photos' records of one flight err, as the model shows.
@@ -88,14 +126,15 @@ struct CalibratedPointSet {
 
 struct Calibration {
   int photos_total = 0;
-  int photos_posed = 0;
+  int photos_posed = 0;  // in the model that later stages use
   double reprojection_error_px = 0;
   int points = 0;
   double mean_track_length = 0;
   double prior_rms_horizontal_m = -1;  // -1: no positions
   double prior_rms_vertical_m = -1;
-  std::vector<CalibratedPhoto> photos;
-  std::vector<UnposedPhoto> unposed;
+  std::vector<CalibratedPhoto> photos;  // of all models, and those with a record alone
+  std::vector<UnposedPhoto> unposed;    // in no model
+  std::vector<CalibratedPart> parts;    // the largest first; empty: of an imported model
   std::vector<CalibratedCamera> cameras;
   CalibratedRecords records;                      // empty where there are none, or they do not fit
   std::vector<CalibratedPoint> ground_control;    // as in the file

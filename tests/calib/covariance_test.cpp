@@ -117,11 +117,25 @@ TEST(IntrinsicsSigma, NothingForTooFewOrTooManyPhotos) {
   EXPECT_TRUE(EstimateSigmas({}, Blank(scene)).intrinsics.empty());
 }
 
-// Distances of the centres after the best similarity, and angles of the rotations.
+// Distances of the centres after the best similarity, angles of the rotations, and distances of
+// the true points in the pictures, root mean square.
 struct PoseError {
   double position = 0;
   double rotation_rad = 0;
+  double picture_px = 0;
 };
+
+double ErrorInPicture(const Scene& truth, const Scene& scene, int photo) {
+  double squares = 0;
+  const std::vector<int> tracks = TracksSeenBy(truth, photo);
+  for (const int track : tracks) {
+    const Eigen::Vector3d& point = *truth.tracks[track].position;
+    const auto found = scene.CameraOf(photo).Project(*scene.photos[photo].pose * point);
+    const auto real = truth.CameraOf(photo).Project(*truth.photos[photo].pose * point);
+    squares += (*found - *real).squaredNorm();
+  }
+  return std::sqrt(squares / static_cast<double>(tracks.size()));
+}
 
 std::vector<PoseError> ErrorsAfterAlignment(const Scene& truth, Scene scene) {
   const auto count = static_cast<Eigen::Index>(scene.photos.size());
@@ -135,7 +149,8 @@ std::vector<PoseError> ErrorsAfterAlignment(const Scene& truth, Scene scene) {
   for (size_t i = 0; i < scene.photos.size(); ++i) {
     const Pose& pose = *scene.photos[i].pose;
     errors.push_back({(pose.Center() - truth.photos[i].pose->Center()).norm(),
-                      pose.rotation.angularDistance(truth.photos[i].pose->rotation)});
+                      pose.rotation.angularDistance(truth.photos[i].pose->rotation),
+                      ErrorInPicture(truth, scene, static_cast<int>(i))});
   }
   return errors;
 }
@@ -154,6 +169,8 @@ TEST(PoseSigmas, AgreeWithRepeatedMeasurements) {
     for (size_t i = 0; i < count; ++i) {
       squares[i].position += errors[i].position * errors[i].position / kRuns;
       squares[i].rotation_rad += errors[i].rotation_rad * errors[i].rotation_rad / kRuns;
+      squares[i].picture_px += errors[i].picture_px * errors[i].picture_px / kRuns;
+      predicted[i].picture_px += sigmas.poses[i].picture_px / kRuns;
       predicted[i].position += sigmas.poses[i].position / kRuns;
       predicted[i].rotation_rad += sigmas.poses[i].rotation_rad / kRuns;
     }
@@ -162,6 +179,7 @@ TEST(PoseSigmas, AgreeWithRepeatedMeasurements) {
     EXPECT_NEAR(std::log(predicted[i].position / std::sqrt(squares[i].position)), 0, 0.4) << i;
     EXPECT_NEAR(std::log(predicted[i].rotation_rad / std::sqrt(squares[i].rotation_rad)), 0, 0.4)
         << i;
+    EXPECT_NEAR(std::log(predicted[i].picture_px / std::sqrt(squares[i].picture_px)), 0, 0.4) << i;
   }
 }
 
@@ -177,6 +195,7 @@ TEST(PoseSigmas, ScaleWithTheModelAndDoNotDependOnTheFrame) {
   for (size_t i = 0; i < before.size(); ++i) {
     EXPECT_NEAR(after[i].position / before[i].position, 30, 0.6) << i;
     EXPECT_NEAR(after[i].rotation_rad / before[i].rotation_rad, 1, 0.02) << i;
+    EXPECT_NEAR(after[i].picture_px / before[i].picture_px, 1, 0.02) << i;
   }
 }
 

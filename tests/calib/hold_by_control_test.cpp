@@ -96,6 +96,14 @@ TEST_F(HoldByControlTest, ShiftedPositionsDoNotMatter) {
   }
 }
 
+TEST_F(HoldByControlTest, ThePlanRecordedNoPositionsThatCouldBeShifted) {
+  georef_.source = "plan";
+  const ControlOutcome outcome = Hold();
+  ASSERT_TRUE(outcome.georef) << outcome.why_not;
+  EXPECT_LT(WorstPosition(*outcome.georef), 0.03);
+  EXPECT_FALSE(outcome.positions_shift_m);
+}
+
 TEST_F(HoldByControlTest, PositionsGoodToCentimetresButShiftedDoNotFight) {
   MadeRecordErrors errors;
   errors.position_sigma_m = 0.01;

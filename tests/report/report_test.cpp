@@ -268,6 +268,63 @@ TEST_F(Report, ShowsGroundControl) {
   EXPECT_TRUE(json["control"].is_null());
 }
 
+TEST_F(Report, SaysHowSurelyPhotosArePlaced) {
+  MadeSurvey made = MakeSurvey();
+  std::vector<CalibratedPhoto>& photos = made.calibration.photos;
+  for (size_t i = 0; i < photos.size(); ++i) {
+    photos[i].position_sigma = 0.012;
+    photos[i].rotation_sigma_deg = 0.02;
+    photos[i].picture_sigma_px = 0.4;
+  }
+  photos[4].state = PhotoState::kWeak;
+  photos[4].why = "only 23 points <hold> it";
+  photos[4].position_sigma = 0.31;
+  photos[4].picture_sigma_px = 3.2;
+  photos[5].part = 1;  // of a model apart
+  CalibratedPhoto& unposed = photos.emplace_back();
+  unposed.path = "left/out.jpg";
+  unposed.state = PhotoState::kRecordOnly;
+  unposed.part = -1;
+  unposed.position_sigma = 0.9;
+  unposed.rotation_sigma_deg = 0.35;
+  made.calibration.parts = {{"sparse/0", 18, 900}, {"sparse/1", 1, 50, "nothing"}};
+  made.calibration.parts[1].why = "nothing joins <them>";
+  made.textures.facets[0].photos = {photos[3].path, photos[4].path};
+  WriteSurvey(made, folder_.path());
+  Run();
+  const std::string page = Content(Page());
+  EXPECT_TRUE(Has(page, "How surely photos are placed"));
+  EXPECT_TRUE(Has(page, "± 1.2 cm"));
+  EXPECT_TRUE(Has(page, "± 0.4 px"));
+  EXPECT_TRUE(Has(page, "2 photos not to trust"));
+  EXPECT_TRUE(Has(page, "only 23 points &lt;hold&gt; it"));
+  EXPECT_TRUE(Has(page, "± 90.0 cm"));
+  EXPECT_TRUE(Has(page, "nothing joins &lt;them&gt;"));
+  EXPECT_EQ(CountOf(page, "weakly placed"), 1U);
+  const auto json = Json();
+  const auto placement = json["calibration"]["placement"];
+  EXPECT_EQ(placement["states"]["weak"], 1);
+  EXPECT_EQ(placement["states"]["record-only"], 1);
+  EXPECT_EQ(placement["states"]["ambiguous"], 0);
+  EXPECT_EQ(placement["states"]["tied"], photos.size() - 3);
+  EXPECT_DOUBLE_EQ(placement["middle"]["position"], 0.012);
+  EXPECT_DOUBLE_EQ(placement["nine_in_ten"]["picture_px"], 0.4);
+  ASSERT_EQ(placement["not_to_trust"].size(), 2U);
+  EXPECT_EQ(placement["not_to_trust"][0]["path"], "left/out.jpg");
+  EXPECT_TRUE(placement["not_to_trust"][0]["picture_sigma_px"].is_null());
+  EXPECT_EQ(placement["not_to_trust"][1]["state"], "weak");
+  EXPECT_EQ(placement["parts"].size(), 2U);
+  EXPECT_DOUBLE_EQ(json["facades"][0]["photos_placed_px"]["largest"], 3.2);
+}
+
+TEST_F(Report, SaysNothingOfPlacesThatAreNotKnown) {
+  WriteSurvey(MakeSurvey(), folder_.path());
+  Run();
+  EXPECT_FALSE(Has(Page(), "How surely photos are placed"));
+  EXPECT_TRUE(Json()["calibration"]["placement"]["middle"].is_null());
+  EXPECT_TRUE(Json()["facades"][0]["photos_placed_px"].is_null());
+}
+
 TEST_F(Report, NeverSaysMetresWithoutScale) {
   MadeSurvey made = MakeSurvey({.metric = false});
   made.calibration.cameras[0].label = "no millimetres of a lens";

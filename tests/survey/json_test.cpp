@@ -228,6 +228,51 @@ TEST(Calibration, ReadsBackAsWritten) {
   EXPECT_EQ(read.findings, written.findings);
 }
 
+TEST(Calibration, KeepsHowSurelyPhotosArePlaced) {
+  const TemporaryFolder folder;
+  Calibration written;
+  for (const PhotoState state :
+       {PhotoState::kTied, PhotoState::kWeak, PhotoState::kAmbiguous, PhotoState::kRecordOnly}) {
+    CalibratedPhoto& photo = written.photos.emplace_back();
+    photo.path = Name(state);
+    photo.state = state;
+  }
+  CalibratedPhoto& last = written.photos.back();
+  last.why = "it overlaps with no other photo";
+  last.part = -1;
+  last.picture_sigma_px = 1.25;
+  last.center = {1, 2, 3};
+  last.rotation = {1, 0, 0, 0};
+  written.parts.push_back({"sparse/1", 20, 3000, "records", 0.25, 0.125, 0.5, "far away"});
+  WriteCalibration(written, folder / "calibration.json");
+  const Calibration read = ReadCalibration(folder / "calibration.json");
+  ASSERT_EQ(read.photos.size(), 4u);
+  for (size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(read.photos[i].state, written.photos[i].state);
+    EXPECT_EQ(IsInModel(read.photos[i].state), i < 2);
+    EXPECT_EQ(read.photos[i].part, i < 3 ? 0 : -1);
+  }
+  EXPECT_EQ(read.photos[3].why, last.why);
+  EXPECT_EQ(read.photos[3].picture_sigma_px, 1.25);
+  EXPECT_EQ(read.photos[3].center, last.center);
+  EXPECT_EQ(read.photos[3].rotation, last.rotation);
+  ASSERT_EQ(read.parts.size(), 1u);
+  EXPECT_EQ(read.parts[0].model, "sparse/1");
+  EXPECT_EQ(read.parts[0].photos, 20);
+  EXPECT_EQ(read.parts[0].points, 3000);
+  EXPECT_EQ(read.parts[0].placed_by, "records");
+  EXPECT_EQ(read.parts[0].position_sigma_m, 0.25);
+  EXPECT_EQ(read.parts[0].rotation_sigma_deg, 0.125);
+  EXPECT_EQ(read.parts[0].shared_surface, 0.5);
+  EXPECT_EQ(read.parts[0].why, "far away");
+  std::string wrong = ReadFile(folder / "calibration.json");
+  EXPECT_NE(wrong.find("\"record-only\""), std::string::npos);
+  wrong.replace(wrong.find("\"state\": \"weak\""), 15, "\"state\": \"fine\"");
+  WriteFile(folder / "calibration.json", wrong);
+  ExpectBadInput([&] { ReadCalibration(folder / "calibration.json"); },
+                 "\"photos[1].state\" is \"fine\", which is no known state");
+}
+
 TEST(Calibration, UsesTheFixedNames) {
   const TemporaryFolder folder;
   WriteCalibration({}, folder / "calibration.json");
