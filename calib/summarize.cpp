@@ -19,8 +19,8 @@ namespace {
 constexpr double kUndetermined = 0.7;
 constexpr int kCoverageCells = 10;
 constexpr double kDegree = M_PI / 180;
-// A pose is weak when so few observations hold it, or when it is this many times less certain than
-// the middle one.
+// A pose is weak when so few observations hold it, when it is this many times less certain than the
+// middle one, or when it and its neighbours' are off their records together.
 constexpr int kFewObservations = 50;
 constexpr double kUncertain = 5;
 // What a photo's keypoints share and its pose takes up shows in no residual: in simulated flights
@@ -77,8 +77,8 @@ CalibratedCamera SummarizeCamera(const CapturedCamera& captured, const SceneCame
 }
 
 // Photos of the scene in the order of `result.photos`.
-void AddSigmas(const std::vector<PoseSigma>& sigmas, const std::vector<int>& photos,
-               Calibration& result) {
+void AddSigmas(const SummaryInput& input, const std::vector<int>& photos, Calibration& result) {
+  const std::vector<PoseSigma>& sigmas = input.sigmas.poses;
   std::vector<double> positions;
   positions.reserve(photos.size());
   for (const int photo : photos) positions.push_back(sigmas[photo].position);
@@ -91,7 +91,8 @@ void AddSigmas(const std::vector<PoseSigma>& sigmas, const std::vector<int>& pho
       photo.rotation_sigma_deg = kSharedErrors * sigma.rotation_rad / kDegree;
     }
     const bool is_weak = sigma.position < 0 || sigma.position > kUncertain * usual ||
-                         photo.observations < kFewObservations;
+                         photo.observations < kFewObservations ||
+                         std::ranges::binary_search(input.off_together, photos[i]);
     photo.state = is_weak ? "weak" : "tied";
   }
 }
@@ -211,7 +212,7 @@ Calibration Summarize(const SummaryInput& input) {
     result.photos.push_back(
         SummarizePhoto(input, reconstruction, registered->second, static_cast<int>(i)));
   }
-  AddSigmas(input.sigmas.poses, posed, result);
+  AddSigmas(input, posed, result);
   if (input.records != nullptr) {
     result.records = SummarizeRecords(*input.records);
     AddFindings(result.records, result);

@@ -30,6 +30,7 @@ struct SummaryInput {
   const std::vector<int>& prior_outliers;
   const RecordErrors* records = nullptr;  // where they hold the frame
   SceneSigmas sigmas = {};                // of the scene
+  std::vector<int> off_together = {};     // photos, ascending: off their records as a group
 };
 
 // Photo ids of the result by photo of the scene: the place in captures.json, counted from 1.
