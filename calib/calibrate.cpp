@@ -39,6 +39,9 @@ namespace stucco {
 namespace {
 
 constexpr double kRadians = M_PI / 180;
+constexpr char kAmbiguous[] =
+    "ambiguous: the walls that it shows repeat themselves, and its recorded position does not tell "
+    "one bay from the next; record positions by RTK, or show a corner, the ground or a roof too";
 
 UsablePhotos ReadPhotos(const StageContext& context) {
   UsablePhotos photos;
@@ -311,7 +314,8 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
       georeference, scene);
   std::map<int, std::string> unregistered = georeference.taken;
   unregistered.merge(ExplainUnregistered(mapper, pairs, scene));
-  for (const auto& [photo, why] : unregistered) {
+  for (auto& [photo, why] : unregistered) {
+    if (repeating.IsMostOf(photo)) why = kAmbiguous;
     context.progress->Warn(fmt::format("{}: not placed: {}", scene.photos[photo].name, why));
   }
   const SummaryInput summary{photos.captures,

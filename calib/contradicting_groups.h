@@ -14,7 +14,8 @@ namespace stucco {
 // position is tested at a level of 1e-4, with half of a record's variance taken to be common to
 // neighbours (receivers drift, compasses depend on the place). Of such a group those count that
 // are off the mean's way by at least half of it. `agrees` are the photos whose poses agree with
-// their records by themselves; others belong to no group. Requires poses in the frame of the priors.
+// their records by themselves; others belong to no group. Requires poses in the frame of the
+// priors.
 std::vector<int> ContradictingGroups(const Scene& scene, const std::vector<bool>& agrees);
 
 }  // namespace stucco

@@ -45,8 +45,7 @@ struct AgainInput {
 void Append(const std::vector<int16_t>& descriptors, size_t row, const OnWall& place,
             int32_t of_photo, Shown& shown) {
   const auto begin = descriptors.begin() + static_cast<std::ptrdiff_t>(row) * kDescriptorSize;
-  shown.on_wall.descriptors.insert(shown.on_wall.descriptors.end(), begin,
-                                   begin + kDescriptorSize);
+  shown.on_wall.descriptors.insert(shown.on_wall.descriptors.end(), begin, begin + kDescriptorSize);
   shown.on_wall.places.push_back(place);
   shown.of_photo.push_back(of_photo);
 }
@@ -86,8 +85,7 @@ ShownWalls ShownBy(const AgainInput& input, int photo) {
   for (auto& [wall, shown] : walls) {
     const PlannedFacade& facade = input.set.guidance.facades[wall];
     const Eigen::Vector2d middle = (facade.a_m + facade.b_m) / 2;
-    shown.distance_m =
-        (input.poses[photo]->cam_from_plan.Center().head<2>() - middle).norm();
+    shown.distance_m = (input.poses[photo]->cam_from_plan.Center().head<2>() - middle).norm();
   }
   return walls;
 }
@@ -142,8 +140,7 @@ std::vector<Match> MatchShown(const AgainInput& input, int first, int second,
     KeepSure(of_first, of_second->second, period_m, ShiftSigma(input, first, second, distance_m),
              on_wall);
     for (const Match& match : on_wall) {
-      matches.push_back(
-          {of_first.of_photo[match.first], of_second->second.of_photo[match.second]});
+      matches.push_back({of_first.of_photo[match.first], of_second->second.of_photo[match.second]});
     }
   }
   return matches;

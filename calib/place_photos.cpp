@@ -20,7 +20,7 @@
 namespace stucco {
 namespace {
 
-constexpr int kMostRounds = 4;
+constexpr int kMostRounds = 2;
 
 // Without tracks.
 Scene MakeScene(const CalibOptions& options, const UsablePhotos& photos,
@@ -138,7 +138,7 @@ Reconstructed ReadRecordsOf(const CalibOptions& options, const UsablePhotos& pho
 // Photos at their records first, corrected by their matches; what has no record, or where records
 // are of no use, one photo after the other.
 void PlaceOnce(MapperOptions mapper, const std::vector<VerifiedPair>& pairs,
-                 const StageContext& context, Reconstructed& from, Scene& scene) {
+               const StageContext& context, Reconstructed& from, Scene& scene) {
   if (from.frame) {
     const RecordsStart start = StartFromRecords(mapper, pairs, from.records, context, scene);
     from.is_in_frame = start.usable;
@@ -173,9 +173,9 @@ void NoteRepeating(const Guidance& guidance, const OnRepeatingWalls& repeating,
   for (const auto& [wall, period] : repeating.period_m) {
     names.push_back(fmt::format("{} every {:.1f} m", guidance.facades[wall].id, period));
   }
-  context.progress->Note(fmt::format(
-      "walls that repeat themselves are matched as far as poses tell bays apart: {}",
-      fmt::join(names, ", ")));
+  context.progress->Note(
+      fmt::format("walls that repeat themselves are matched as far as poses tell bays apart: {}",
+                  fmt::join(names, ", ")));
 }
 
 // Those that hang on what repeats itself are placed once others tell where they are.

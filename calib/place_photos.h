@@ -43,10 +43,10 @@ struct PlaceInput {
   const StageContext& context;
 };
 
-// Makes a scene of poses, cameras and points by the matches and by what photos and plan say of where they
-// were taken. Walls that repeat themselves are matched again as far as poses then tell their bays
-// apart (match_again.h), and photos placed anew, until no more of them have a pose. `matched` holds
-// the pairs that were used in the end.
+// Makes a scene of poses, cameras and points by the matches and by what photos and plan say of
+// where they were taken. Walls that repeat themselves are matched again as far as poses then tell
+// their bays apart (match_again.h), and photos placed anew, until no more of them have a pose.
+// `matched` holds the pairs that were used in the end.
 Reconstructed PlacePhotos(const PlaceInput& input, MatchedPairs& matched, Scene& scene);
 
 }  // namespace stucco

@@ -28,8 +28,8 @@ constexpr double kLikeSize = 2;
 constexpr double kTwinAngle_rad = 0.2;
 constexpr double kSameShift_m = 0.25;
 constexpr int kLeastInCommon = 6;
-// Of the keypoints of a wall. Generated towns whose bays differ have up to 0.04 but for two walls in
-// a hundred, those without a difference 0.1 to 0.6.
+// Of the keypoints of a wall. Generated towns whose bays differ have up to 0.04 but for two walls
+// in a hundred, those without a difference 0.1 to 0.6.
 constexpr double kRepeating = 0.1;
 // A keypoint belongs to a wall this far beyond its edges too, and where something known stands no
 // farther before it.
@@ -48,8 +48,7 @@ struct Twin {
 
 // Of a shift and its opposite the one that leads along the wall.
 Eigen::Vector2d Forwards(const Eigen::Vector2d& shift) {
-  const bool backwards =
-      std::abs(shift.x()) > kSameShift_m ? shift.x() < 0 : shift.y() < 0;
+  const bool backwards = std::abs(shift.x()) > kSameShift_m ? shift.x() < 0 : shift.y() < 0;
   return backwards ? Eigen::Vector2d(-shift) : shift;
 }
 
@@ -117,6 +116,12 @@ int WallOf(const Keypoint& keypoint, const Camera& camera, const std::vector<Wal
 }
 
 }  // namespace
+
+bool OnRepeatingWalls::IsMostOf(int photo) const {
+  const std::vector<int>& walls = wall_of[photo];
+  const auto on_walls = std::ranges::count_if(walls, [](int wall) { return wall >= 0; });
+  return on_walls > 0 && 2 * static_cast<size_t>(on_walls) >= walls.size();
+}
 
 WallRepeats FindRepeats(const WallKeypoints& wall) {
   const std::vector<Twin> twins = TwinsOf(wall);

@@ -18,8 +18,8 @@ struct WallRepeats {
 };
 
 // Keypoints are alike when their descriptors differ less than those of one place in two photos
-// usually do, on a rectified wall, where bays look the same from wherever they are seen. Shifts from
-// one to ten metres are looked at, and count where several keypoints have them in common.
+// usually do, on a rectified wall, where bays look the same from wherever they are seen. Shifts
+// from one to ten metres are looked at, and count where several keypoints have them in common.
 WallRepeats FindRepeats(const WallKeypoints& wall);
 
 // Walls that repeat themselves exactly, with their periods in metres: in the middle one of the
@@ -35,6 +35,8 @@ struct OnRepeatingWalls {
   bool Shows(int photo, int keypoint) const {
     return !wall_of[photo].empty() && wall_of[photo][keypoint] >= 0;
   }
+  // At least half of what is found in the photo lies on such walls.
+  bool IsMostOf(int photo) const;
 };
 
 // From where the photos should be by their records, and a little beyond the walls' edges: these are
