@@ -190,6 +190,7 @@ OnRepeatingWalls FindOnRepeatingWalls(const PhotoSet& set, const DetectedFeature
     const std::vector<int> walls = WallsShown(views, static_cast<int>(i), result.period_m);
     if (walls.empty()) return;
     std::vector<WallView> of_walls;
+    of_walls.reserve(walls.size());
     for (const int wall : walls) {
       of_walls.push_back({set.guidance.facades[wall], {}, {}, *views.poses[i]});
     }

@@ -63,15 +63,15 @@ TEST(KnowPoses, TakesTheRecordWhereNoPoseIsSure) {
   EXPECT_FALSE(known[3]);
   ASSERT_TRUE(known[1] && known[2]);
   EXPECT_LT(known[1]->sigma_m, 0.1);
-  EXPECT_LT((known[1]->cam_from_plan.Center() - scene.photos[1].pose->Center() -
-             Vector3d(100, 0, 0))
-                .norm(),
-            1e-6);
+  EXPECT_LT(
+      (known[1]->cam_from_plan.Center() - scene.photos[1].pose->Center() - Vector3d(100, 0, 0))
+          .norm(),
+      1e-6);
   EXPECT_GE(known[2]->sigma_m, scene.photos[2].prior->sigma_horizontal_m);
-  EXPECT_LT((known[2]->cam_from_plan.Center() - scene.photos[2].prior->position -
-             Vector3d(100, 0, 0))
-                .norm(),
-            1e-6);
+  EXPECT_LT(
+      (known[2]->cam_from_plan.Center() - scene.photos[2].prior->position - Vector3d(100, 0, 0))
+          .norm(),
+      1e-6);
 }
 
 }  // namespace

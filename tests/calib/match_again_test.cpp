@@ -45,8 +45,8 @@ class MatchAgainTest : public testing::Test {
     const Eigen::Quaterniond& rotation = truth_[1].rotation;
     const Pose moved{rotation, -(rotation * (truth_[1].Center() + off))};
     return MatchAgain(options_, {captures_, photos_, guidance_}, features_, repeating_,
-                      {KnownPose{truth_[0], 0.05, 1e-3}, KnownPose{moved, sigma_m, 1e-3}},
-                      context_, matched_);
+                      {KnownPose{truth_[0], 0.05, 1e-3}, KnownPose{moved, sigma_m, 1e-3}}, context_,
+                      matched_);
   }
 
   // Matches that join another bay.

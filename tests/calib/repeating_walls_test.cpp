@@ -99,8 +99,7 @@ TEST_F(OnRepeatingWallsTest, AreNoneWhereBaysDiffer) {
 TEST_F(OnRepeatingWallsTest, AreNoneWithoutAPlan) {
   Find(true);
   guidance_.views.reset();
-  EXPECT_TRUE(
-      FindOnRepeatingWalls({captures_, {}, guidance_}, features_, 1).period_m.empty());
+  EXPECT_TRUE(FindOnRepeatingWalls({captures_, {}, guidance_}, features_, 1).period_m.empty());
 }
 
 }  // namespace
