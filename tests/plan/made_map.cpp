@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "plan/map/crs.h"
 #include "plan/map/internal/ogr.h"
+#include "survey/coordinate_system.h"
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/geometry2d.h"

@@ -6,8 +6,8 @@
 #include <functional>
 #include <random>
 
-#include "plan/map/crs.h"
 #include "plan/map/read_dem.h"
+#include "survey/coordinate_system.h"
 #include "tests/plan/made_map.h"
 
 namespace stucco::plan {
