@@ -34,14 +34,6 @@ struct Shown {
 
 using ShownWalls = std::map<int, Shown>;
 
-struct AgainInput {
-  const CalibOptions& options;
-  const PhotoSet& set;
-  const DetectedFeatures& features;
-  const OnRepeatingWalls& repeating;
-  const std::vector<std::optional<KnownPose>>& poses;
-};
-
 void Append(const std::vector<int16_t>& descriptors, size_t row, const OnWall& place,
             int32_t of_photo, Shown& shown) {
   const auto begin = descriptors.begin() + static_cast<std::ptrdiff_t>(row) * kDescriptorSize;
@@ -152,62 +144,78 @@ std::vector<Eigen::Vector2d> PixelsOf(const DetectedFeatures& features, int phot
   return pixels;
 }
 
+// What the photos show, ready to be matched.
+struct ReadyPhotos {
+  std::vector<ShownWalls> walls;
+  std::vector<std::vector<Eigen::Vector2d>> pixels;  // of photos that show such walls
+  std::vector<std::vector<int32_t>> places;          // as PlacesOfAll gives them
+};
+
+ReadyPhotos ReadyAll(const AgainInput& input) {
+  const size_t count = input.set.photos.size();
+  ReadyPhotos ready{std::vector<ShownWalls>(count),
+                    std::vector<std::vector<Eigen::Vector2d>>(count),
+                    PlacesOfAll(input.options, input.set, input.features)};
+  ParallelFor(count, input.context.threads, [&](size_t i) {
+    ready.walls[i] = ShownBy(input, static_cast<int>(i));
+    if (!ready.walls[i].empty()) ready.pixels[i] = PixelsOf(input.features, static_cast<int>(i));
+  });
+  return ready;
+}
+
+// `matches` are those of the pair so far.
+std::optional<VerifiedPair> VerifyAgain(const AgainInput& input, const ReadyPhotos& ready,
+                                        std::vector<Match> matches, TriedPair& tried) {
+  const auto& [first, second, num_matches, num_verified] = tried;
+  const std::vector<Match> added = MatchShown(input, first, second, ready.walls);
+  if (added.empty()) return std::nullopt;
+  matches.insert(matches.end(), added.begin(), added.end());
+  tried.num_matches += static_cast<int>(added.size());
+  const PlacesOfPair places{ready.places[first], ready.places[second]};
+  DropRepeated(places, matches);
+  auto geometry = VerifyPair(ready.pixels[first], ready.pixels[second], matches,
+                             VerifyOptionsOf(input.options, input.set, first, second));
+  if (!geometry) return std::nullopt;
+  JoinPlaces(places, geometry->inliers);
+  tried.num_verified = static_cast<int>(geometry->inliers.size());
+  VerifiedPair pair;
+  pair.pair = {first, second, geometry->inliers};
+  pair.geometry = std::move(*geometry);
+  return pair;
+}
+
 }  // namespace
 
-int MatchAgain(const CalibOptions& options, const PhotoSet& set, const DetectedFeatures& features,
-               const OnRepeatingWalls& repeating,
-               const std::vector<std::optional<KnownPose>>& poses, const StageContext& context,
-               MatchedPairs& matched) {
-  const AgainInput input{options, set, features, repeating, poses};
-  const size_t count = set.photos.size();
-  std::vector<ShownWalls> shown(count);
-  std::vector<std::vector<Eigen::Vector2d>> pixels(count);
-  ParallelFor(count, context.threads, [&](size_t i) {
-    shown[i] = ShownBy(input, static_cast<int>(i));
-    if (!shown[i].empty()) pixels[i] = PixelsOf(features, static_cast<int>(i));
-  });
-  const std::vector<std::vector<int32_t>> places = PlacesOfAll(options, set, features);
-  std::map<std::pair<int, int>, size_t> verified_of;
-  for (size_t i = 0; i < matched.verified.size(); ++i) {
-    verified_of[{matched.verified[i].pair.first, matched.verified[i].pair.second}] = i;
+int MatchAgain(const AgainInput& input, MatchedPairs& matched) {
+  const StageContext& context = input.context;
+  const ReadyPhotos ready = ReadyAll(input);
+  std::map<std::pair<int, int>, VerifiedPair*> verified;
+  for (VerifiedPair& each : matched.verified) {
+    verified[{each.pair.first, each.pair.second}] = &each;
   }
-  std::vector<std::optional<VerifiedPair>> found(matched.tried.size());
-  std::vector<int> num_added(matched.tried.size(), 0);
+  const auto so_far = [&](const TriedPair& tried) {
+    const auto found = verified.find({tried.first, tried.second});
+    return found == verified.end() ? nullptr : found->second;
+  };
+  std::vector<std::optional<VerifiedPair>> again(matched.tried.size());
   context.progress->Begin("matching what repeats", matched.tried.size());
   ParallelFor(matched.tried.size(), context.threads, [&](size_t i) {
     context.ThrowIfCancelled();
-    const auto& [first, second, num_matches, num_verified] = matched.tried[i];
-    const std::vector<Match> added = MatchShown(input, first, second, shown);
-    if (!added.empty()) {
-      std::vector<Match> matches;
-      const auto before = verified_of.find({first, second});
-      if (before != verified_of.end()) matches = matched.verified[before->second].pair.matches;
-      num_added[i] = static_cast<int>(added.size());
-      matches.insert(matches.end(), added.begin(), added.end());
-      const PlacesOfPair of_pair{places[first], places[second]};
-      DropRepeated(of_pair, matches);
-      if (auto geometry = VerifyPair(pixels[first], pixels[second], matches,
-                                     VerifyOptionsOf(options, set, first, second))) {
-        JoinPlaces(of_pair, geometry->inliers);
-        found[i].emplace();
-        found[i]->pair = {first, second, geometry->inliers};
-        found[i]->geometry = std::move(*geometry);
-      }
-    }
+    TriedPair& tried = matched.tried[i];
+    const VerifiedPair* before = so_far(tried);
+    again[i] = VerifyAgain(input, ready,
+                           before != nullptr ? before->pair.matches : std::vector<Match>(), tried);
     context.progress->Advance();
   });
   std::vector<VerifiedPair> all;
   int num_pairs = 0;
-  for (size_t i = 0; i < matched.tried.size(); ++i) {
-    TriedPair& tried = matched.tried[i];
-    tried.num_matches += num_added[i];
-    const auto before = verified_of.find({tried.first, tried.second});
-    if (found[i]) {
-      ++num_pairs;
-      tried.num_verified = static_cast<int>(found[i]->pair.matches.size());
-      all.push_back(std::move(*found[i]));
-    } else if (before != verified_of.end()) {
-      all.push_back(std::move(matched.verified[before->second]));
+  for (size_t i = 0; i < again.size(); ++i) {
+    VerifiedPair* before = so_far(matched.tried[i]);
+    num_pairs += again[i].has_value();
+    if (again[i]) {
+      all.push_back(std::move(*again[i]));
+    } else if (before != nullptr) {
+      all.push_back(std::move(*before));
     }
   }
   matched.verified = std::move(all);

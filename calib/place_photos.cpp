@@ -191,7 +191,7 @@ Reconstructed PlaceInRounds(const PlaceInput& input, MatchedPairs& matched, Scen
     before = NumRegistered(scene);
     ApplyRecords(placed.records, MeasureRecordErrors(placed.records, scene), scene);
     const auto poses = KnowPoses(input.guidance, placed.records, scene);
-    if (MatchAgain(input.options, set, input.features, input.repeating, poses, input.context,
+    if (MatchAgain({input.options, set, input.features, input.repeating, poses, input.context},
                    all) == 0) {
       break;
     }

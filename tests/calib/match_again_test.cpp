@@ -44,9 +44,10 @@ class MatchAgainTest : public testing::Test {
   int Again(const Vector3d& off, double sigma_m) {
     const Eigen::Quaterniond& rotation = truth_[1].rotation;
     const Pose moved{rotation, -(rotation * (truth_[1].Center() + off))};
-    return MatchAgain(options_, {captures_, photos_, guidance_}, features_, repeating_,
-                      {KnownPose{truth_[0], 0.05, 1e-3}, KnownPose{moved, sigma_m, 1e-3}}, context_,
-                      matched_);
+    const PhotoSet set{captures_, photos_, guidance_};
+    const std::vector<std::optional<KnownPose>> poses = {KnownPose{truth_[0], 0.05, 1e-3},
+                                                         KnownPose{moved, sigma_m, 1e-3}};
+    return MatchAgain({options_, set, features_, repeating_, poses, context_}, matched_);
   }
 
   // Matches that join another bay.
