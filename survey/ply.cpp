@@ -373,8 +373,7 @@ Vertex ReadVertex(Body& body, const Element& element, const std::vector<Meaning>
     }
   }
   std::ranges::sort(vertex.views);
-  const auto repeated = std::ranges::unique(vertex.views);
-  vertex.views.erase(repeated.begin(), repeated.end());
+  vertex.views.erase(std::unique(vertex.views.begin(), vertex.views.end()), vertex.views.end());
   return vertex;
 }
 

@@ -110,6 +110,7 @@ void MovePoints(const std::string& crs, const std::string& file, const Georef& g
 Georef MoveFromMap(const std::string& crs, const std::string& file, Reconstruction& model) {
   const std::vector<Eigen::Vector3d> centres = CentresOf(model);
   std::vector<Eigen::Vector2d> around;
+  around.reserve(centres.size());
   for (const Eigen::Vector3d& centre : centres) around.emplace_back(centre.head<2>());
   const std::vector<Geodetic> places = GeodeticFromCrs(crs, around, file);
   Georef georef = MiddleOf(centres, places, file);
