@@ -83,8 +83,7 @@ std::vector<int> TracksOf(const Scene& scene, const std::vector<int>& photos) {
     }
   }
   std::ranges::sort(tracks);
-  const auto repeated = std::ranges::unique(tracks);
-  tracks.erase(repeated.begin(), repeated.end());
+  tracks.erase(std::unique(tracks.begin(), tracks.end()), tracks.end());
   return tracks;
 }
 

@@ -59,7 +59,7 @@ class ReadDemTest : public testing::TestWithParam<MadeDem> {
     return above;
   }
 
-  TempFolder folder_;
+  test::TemporaryFolder folder_;
   PlanOrigin origin_ = OriginNear(kMadePlace);
   std::vector<float> z_;
   ReadTerrain read_;
