@@ -10,9 +10,11 @@
 
 namespace stucco::plan {
 
-// The definition, which the planner sums up faster: w1 w2 w3 cos(t) of one pair of cameras at c and d; 0 where one of them is behind the surface.
+// The definition, which the planner sums up faster: w1 w2 w3 cos(t) of one pair of cameras at c and
+// d; 0 where one of them is behind the surface.
 inline double PairReconstructability(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
-                              const Eigen::Vector3d& c, const Eigen::Vector3d& d, double d_max_m) {
+                                     const Eigen::Vector3d& c, const Eigen::Vector3d& d,
+                                     double d_max_m) {
   const double c_distance = (c - point).norm();
   const double d_distance = (d - point).norm();
   if (!(c_distance > 0) || !(d_distance > 0)) return 0;
