@@ -60,6 +60,15 @@ def gps_bias(records, _chance):
     return records
 
 
+def gps_noise(sigma):
+    """Of every position anew: what photos say of where they are to each other is as rough."""
+    def add(records, chance):
+        for record in records:
+            record.move(chance.gauss(0, sigma), chance.gauss(0, sigma), chance.gauss(0, sigma))
+        return records
+    return add
+
+
 def gimbal_mount(records, _chance):
     for record in records:
         record.gimbal["pitch_deg"] += 3
@@ -99,8 +108,9 @@ def no_metadata(records, _chance):
     return records
 
 
-FAULTS = {"as-flown": as_flown, "gps-5m": gps_bias, "mount-3deg": gimbal_mount,
-          "gimbal-noise-3deg": gimbal_noise, "compass-25deg": compass,
+FAULTS = {"as-flown": as_flown, "gps-5m": gps_bias,
+          "gps-noise-1m": gps_noise(1), "gps-noise-3m": gps_noise(3),
+          "mount-3deg": gimbal_mount, "gimbal-noise-3deg": gimbal_noise, "compass-25deg": compass,
           "wild-20-percent": wild_positions, "map-3m": as_flown, "no-heights": no_heights,
           "no-metadata": no_metadata}
 

@@ -122,9 +122,7 @@ class Adjustment {
     ceres::Solver::Summary summary;
     ceres::Solve(SolverOptions(), &problem_, &summary);
     report.usable = summary.IsSolutionUsable();
-    report.num_iterations = summary.num_successful_steps;
     const double scale = 2.0 / (2.0 * report.num_observations);
-    report.rms_before = std::sqrt(summary.initial_cost * scale);
     report.rms_after = std::sqrt(summary.final_cost * scale);
     if (report.usable) WriteBack();
     return report;

@@ -37,9 +37,7 @@ struct AdjustOptions {
 struct AdjustReport {
   bool usable = false;
   int num_observations = 0;
-  int num_iterations = 0;
-  double rms_before = -1;  // standard deviations, robust cost included
-  double rms_after = -1;
+  double rms_after = -1;  // standard deviations, robust cost included
 };
 
 // Bundle adjustment (Triggs et al. 2000) of poses, points and shared intrinsics with Ceres.

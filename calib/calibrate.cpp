@@ -14,11 +14,8 @@
 #include <utility>
 
 #include "calib/adjust.h"
-#include "calib/as_model.h"
-#include "calib/contradictions.h"
 #include "calib/covariance.h"
 #include "calib/detect_photos.h"
-#include "calib/focal.h"
 #include "calib/georeference.h"
 #include "calib/ground_control.h"
 #include "calib/hold_by_control.h"
@@ -26,13 +23,13 @@
 #include "calib/match_photos.h"
 #include "calib/panorama.h"
 #include "calib/photos_csv.h"
+#include "calib/place_photos.h"
 #include "calib/records.h"
-#include "calib/start_from_records.h"
+#include "calib/repeating_walls.h"
 #include "calib/summarize.h"
 #include "calib/summarize_control.h"
 #include "calib/summarize_photos.h"
 #include "calib/take_apart.h"
-#include "calib/tracks.h"
 #include "calib/write_results.h"
 #include "calib/wrong_poses.h"
 #include "survey/calibration.h"
@@ -45,15 +42,12 @@ namespace stucco {
 namespace {
 
 constexpr double kRadians = M_PI / 180;
+constexpr char kAmbiguous[] =
+    "ambiguous: the walls that it shows repeat themselves, and its recorded position does not tell "
+    "one bay from the next; record positions by RTK, or show a corner, the ground or a roof too";
 
-struct Photos {
-  Captures captures;
-  std::vector<const CapturedPhoto*> usable;
-  std::vector<int> capture_of_photo;
-};
-
-Photos ReadPhotos(const StageContext& context) {
-  Photos photos;
+UsablePhotos ReadPhotos(const StageContext& context) {
+  UsablePhotos photos;
   photos.captures = ReadCaptures(context.survey / kCapturesFile);
   for (size_t i = 0; i < photos.captures.photos.size(); ++i) {
     if (!photos.captures.photos[i].usable) continue;
@@ -68,80 +62,6 @@ Photos ReadPhotos(const StageContext& context) {
         "add photos to the photo folder; ingest/captures.json says why others were refused");
   }
   return photos;
-}
-
-// Without tracks.
-Scene MakeScene(const CalibOptions& options, const Photos& photos,
-                const DetectedFeatures& features) {
-  Scene scene;
-  for (const CapturedCamera& captured : photos.captures.cameras) {
-    // What was given as the truth keeps its own model; the rest is calibrated with the wished one.
-    CameraModel model = *CameraModelFromName(options.camera_model);
-    if (captured.fixed && captured.intrinsics.params.size() > ParameterNames(model).size()) {
-      model = captured.intrinsics.model;
-    }
-    const Camera camera = AsModel(captured.intrinsics, model);
-    scene.cameras.push_back({camera, camera, FocalSigmaRatio(captured)});
-  }
-  for (size_t i = 0; i < photos.usable.size(); ++i) {
-    ScenePhoto photo;
-    photo.name = photos.usable[i]->path;
-    photo.camera = photos.usable[i]->camera;
-    photo.keypoint_sigma_px = DetectionScale(options, *photos.usable[i]);
-    Features all = features.AllOf(static_cast<int>(i));
-    for (const Keypoint& k : all.keypoints) photo.keypoints.emplace_back(k.x, k.y);
-    photo.colors = std::move(all.colors);
-    scene.photos.push_back(std::move(photo));
-  }
-  return scene;
-}
-
-void AddTracks(const std::vector<VerifiedPair>& pairs, Scene& scene) {
-  std::vector<size_t> num_keypoints;
-  num_keypoints.reserve(scene.photos.size());
-  for (const ScenePhoto& photo : scene.photos) num_keypoints.push_back(photo.keypoints.size());
-  std::vector<PhotoPair> matches;
-  matches.reserve(pairs.size());
-  for (const VerifiedPair& pair : pairs) matches.push_back(pair.pair);
-  scene.tracks = BuildTracks(num_keypoints, std::move(matches));
-  IndexTracks(scene);
-}
-
-void QuestionPairs(const Guidance& guidance, const Scene& scene, const StageContext& context,
-                   std::vector<VerifiedPair>& pairs) {
-  if (!guidance.views) return;
-  const int dropped = DropContradictions(*guidance.views, scene, pairs);
-  if (dropped == 0) return;
-  context.progress->Note(fmt::format(
-      "{} pairs of photos are not used: their matches contradict the plan, as those of something "
-      "that repeats itself do",
-      dropped));
-}
-
-// Cameras whose metadata say nothing get a focal length from the epipolar geometries of their
-// photos.
-void GuessFocalLengths(const Photos& photos, const std::vector<VerifiedPair>& pairs,
-                       const StageContext& context, Scene& scene) {
-  for (size_t c = 0; c < scene.cameras.size(); ++c) {
-    if (photos.captures.cameras[c].focal_source != "default") continue;
-    std::vector<FocalEvidence> evidence;
-    for (const VerifiedPair& pair : pairs) {
-      const bool of_this_camera = scene.photos[pair.pair.first].camera == static_cast<int>(c) &&
-                                  scene.photos[pair.pair.second].camera == static_cast<int>(c);
-      const bool is_plane = pair.geometry.num_homography > 0.7 * pair.geometry.num_fundamental;
-      if (!of_this_camera || is_plane || pair.geometry.num_fundamental < 50) continue;
-      evidence.push_back({pair.geometry.fundamental, pair.geometry.num_fundamental});
-    }
-    SceneCamera& camera = scene.cameras[c];
-    const auto focal =
-        FocalFromFundamentals(evidence, camera.prior.width_px, camera.prior.height_px);
-    if (!focal) continue;
-    context.progress->Note(
-        fmt::format("{}: no focal length in the metadata; {} pairs of photos say {:.0f} px",
-                    photos.captures.cameras[c].label, evidence.size(), *focal));
-    for (Camera* each : {&camera.prior, &camera.intrinsics})
-      each->params[0] = each->params[1] = *focal;
-  }
 }
 
 [[noreturn]] void ThrowNothingRegistered(const std::vector<VerifiedPair>& pairs,
@@ -166,77 +86,10 @@ void GuessFocalLengths(const Photos& photos, const std::vector<VerifiedPair>& pa
       "add photos between the existing ones, taken from clearly different positions");
 }
 
-// How the scene came about, and what its photos' records say.
-struct Reconstructed {
-  std::optional<Georef> frame;  // of the positions; nothing where there are none
-  std::vector<PoseRecord> records;
-  bool is_in_frame = false;  // it began at the records
-  std::string finding;       // of the records, for people; may be empty
-  std::optional<Plan> plan;
-};
-
-// Why the photos' own positions do not hold the frame; empty where nobody needs to know.
-std::string WhyNoFrame(const Photos& photos, bool plan_holds_it) {
-  int positions = 0;
-  int heights = 0;
-  for (const CapturedPhoto* photo : photos.usable) {
-    positions += photo->position.has_value();
-    heights += photo->position && photo->position->has_height;
-  }
-  if (heights > 0) return "";
-  if (positions == 0) {
-    return plan_holds_it
-               ? "the photos do not say where they were taken: they begin where the plan wanted "
-                 "them, and the model lies where the plan's map does, to some metres"
-               : "";
-  }
-  return plan_holds_it
-             ? "the photos' positions have no heights: those of the plan took their place"
-             : "the photos' positions have no heights and are not used; switch heights on in the "
-               "camera, or run with the plan";
-}
-
-Reconstructed ReadRecordsOf(const CalibOptions& options, const Photos& photos,
-                            const Guidance& guidance, const StageContext& context, Scene& scene) {
-  Reconstructed result;
-  const std::optional<Plan>& plan = result.plan = PlanOfSurvey(context);
-  if (options.use_positions) result.frame = FrameFromPositions(photos.usable, scene);
-  const bool by_plan = options.use_positions && !result.frame && guidance.views;
-  if (by_plan) result.frame = FrameFromPlan(plan->origin, guidance.views->poses, scene);
-  if (options.use_positions && (by_plan || !result.frame)) {
-    result.finding = WhyNoFrame(photos, result.frame.has_value());
-  }
-  result.records = ReadRecords(photos.usable, plan ? &*plan : nullptr, scene);
-  for (size_t i = 0; by_plan && i < result.records.size(); ++i) {
-    const std::optional<Pose>& expected = guidance.views->poses[i];
-    if (expected && !result.records[i].gimbal) result.records[i].gimbal = expected->rotation;
-  }
-  return result;
-}
-
-// Photos at their records first, corrected by their matches; what has no record, or where records
-// are of no use, one photo after the other.
-void PlacePhotos(MapperOptions mapper, const std::vector<VerifiedPair>& pairs,
-                 const StageContext& context, Reconstructed& from, Scene& scene) {
-  if (from.frame) {
-    const RecordsStart start = StartFromRecords(mapper, pairs, from.records, context, scene);
-    from.is_in_frame = start.usable;
-    if (!start.why_not.empty()) {
-      context.progress->Note(
-          fmt::format("photos are placed one after the other: {}", start.why_not));
-    }
-  }
-  if (from.is_in_frame) {
-    mapper.use_priors = true;
-    GrowOn(mapper, context, scene);
-  } else {
-    Reconstruct(mapper, pairs, context, scene);
-  }
-}
-
 struct GeoreferenceResult {
   Georef georef;
   std::vector<int> prior_outliers;
+  std::vector<int> off_together;  // photos that are off their records as a group
   PriorResiduals residuals;
   std::map<int, std::string> taken;     // photos whose poses contradict their records
   std::optional<RecordErrors> records;  // where they hold the frame
@@ -288,12 +141,13 @@ GeoreferenceResult RefineWithRecords(const MapperOptions& mapper,
         "these are good to; something that repeats itself looks like that, or a wrong record";
   }
   FilterScene(mapper, scene);
+  result.off_together = OffTogether(scene);
   result.sigmas = SigmasOf(mapper, true, scene);
   for (size_t i = 0; i < records.size(); ++i) scene.photos[i].prior = records[i].position;
   return result;
 }
 
-GeoreferenceResult WithoutPositions(const Photos& photos, Scene& scene) {
+GeoreferenceResult WithoutPositions(const UsablePhotos& photos, Scene& scene) {
   GeoreferenceResult result;
   for (ScenePhoto& photo : scene.photos) photo.prior.reset();
   result.residuals = MeasurePriors(scene, {});
@@ -305,7 +159,8 @@ GeoreferenceResult WithoutPositions(const Photos& photos, Scene& scene) {
 // Fits a scene that did not begin at the records to the positions. Nothing where these hold its
 // frame, else what holds it.
 std::optional<GeoreferenceResult> BringIntoFrame(const Reconstructed& from,
-                                                 const MapperOptions& mapper, const Photos& photos,
+                                                 const MapperOptions& mapper,
+                                                 const UsablePhotos& photos,
                                                  const StageContext& context, Scene& scene) {
   const auto fit_to_priors = [&] {
     return from.frame ? FitToPriors(scene, UpFromGimbal(photos.usable, scene))
@@ -346,7 +201,8 @@ std::optional<GeoreferenceResult> BringIntoFrame(const Reconstructed& from,
 }
 
 GeoreferenceResult Georeference(const Reconstructed& from, const MapperOptions& mapper,
-                                const Photos& photos, const StageContext& context, Scene& scene) {
+                                const UsablePhotos& photos, const StageContext& context,
+                                Scene& scene) {
   std::optional<GeoreferenceResult> without;
   if (!from.is_in_frame) without = BringIntoFrame(from, mapper, photos, context, scene);
   GeoreferenceResult result =
@@ -405,30 +261,40 @@ std::map<int, std::string> Unregistered(const MapperOptions& mapper,
   return why;
 }
 
+// Those of `why` that could stand before any of several bays, ascending.
+std::vector<int> NoteUnregistered(const OnRepeatingWalls& repeating, const Scene& scene,
+                                  const StageContext& context, std::map<int, std::string>& why) {
+  std::vector<int> ambiguous;
+  for (auto& [photo, reason] : why) {
+    if (repeating.IsMostOf(photo)) {
+      ambiguous.push_back(photo);
+      reason = kAmbiguous;
+    }
+    context.progress->Warn(fmt::format("{}: not placed: {}", scene.photos[photo].name, reason));
+  }
+  return ambiguous;
+}
+
 }  // namespace
 
 void RunCalib(const CalibOptions& options, StageContext& context) {
-  const Photos photos = ReadPhotos(context);
+  const UsablePhotos photos = ReadPhotos(context);
   const GroundControl control = ReadGroundControl(options, photos.captures, photos.usable, context);
   const Guidance guidance = GuideByPlan(options, photos.captures, photos.usable, context);
   const PhotoSet set{photos.captures, photos.usable, guidance};
   const DetectedFeatures features = DetectAll(options, set, context);
-  MatchedPairs matched = MatchAll(options, set, features, context);
-  std::vector<VerifiedPair>& pairs = matched.verified;
+  const OnRepeatingWalls repeating = FindOnRepeatingWalls(set, features, context.threads);
+  MatchedPairs matched = MatchAll(options, set, features, repeating, context);
 
-  Scene scene = MakeScene(options, photos, features);
-  GuessFocalLengths(photos, pairs, context, scene);
-  QuestionPairs(guidance, scene, context, pairs);
-  AddTracks(pairs, scene);
   MapperOptions mapper;
   mapper.min_angle_rad = options.min_angle_deg * kRadians;
   mapper.refine_principal_point = options.refine_principal_point;
   mapper.threads = context.threads;
   mapper.adjust_threads = options.fast_adjustment ? context.threads : 1;
-
-  for (VerifiedPair& pair : pairs) ClassifyMotion(scene, mapper.max_error_sigmas, pair);
-  Reconstructed placed = ReadRecordsOf(options, photos, guidance, context, scene);
-  PlacePhotos(mapper, pairs, context, placed, scene);
+  Scene scene;
+  Reconstructed placed = PlacePhotos(
+      {options, mapper, photos, guidance, features, repeating, context}, matched, scene);
+  const std::vector<VerifiedPair>& pairs = matched.verified;
   std::vector<std::string> findings = DescribePanoramas(scene, pairs, photos.usable);
   if (NumRegistered(scene) < 2) ThrowNothingRegistered(pairs, findings);
   if (!placed.finding.empty()) findings.push_back(placed.finding);
@@ -441,18 +307,24 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   const std::vector<PoseRecord>& records =
       held.placed_records.empty() ? placed.records : held.placed_records;
   const RecordErrors* errors = georeference.records ? &*georeference.records : nullptr;
-  const SceneParts parts =
-      TakeApart({mapper, pairs, photos.usable, placed.plan, records, errors, context},
-                georeference.sigmas, scene);
+  const std::optional<Plan> plan = PlanOfSurvey(context);
+  const SceneParts parts = TakeApart({mapper, pairs, photos.usable, plan, records, errors, context},
+                                     georeference.sigmas, scene);
   georeference.residuals = MeasurePriors(scene, georeference.prior_outliers);
-  const std::map<int, std::string> unregistered =
+  std::map<int, std::string> unregistered =
       Unregistered(mapper, pairs, scene, parts, georeference.taken);
-  for (const auto& [photo, why] : unregistered) {
-    context.progress->Warn(fmt::format("{}: not placed: {}", scene.photos[photo].name, why));
-  }
-  const SummaryInput summary{photos.captures, photos.capture_of_photo, scene,
-                             unregistered,    georeference.residuals,  georeference.prior_outliers,
-                             errors,          georeference.sigmas,     &parts};
+  const std::vector<int> ambiguous = NoteUnregistered(repeating, scene, context, unregistered);
+  const SummaryInput summary{photos.captures,
+                             photos.capture_of_photo,
+                             scene,
+                             unregistered,
+                             georeference.residuals,
+                             georeference.prior_outliers,
+                             errors,
+                             georeference.sigmas,
+                             &parts,
+                             georeference.off_together,
+                             ambiguous};
   Calibration calibration = Summarize(summary);
   calibration.findings.insert(calibration.findings.begin(), findings.begin(), findings.end());
   if (errors != nullptr) {

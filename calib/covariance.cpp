@@ -312,6 +312,7 @@ class ReducedSystem {
   }
 
  private:
+  static constexpr double kRounding = 1e-10;  // of what holds an unknown while all others are held
   static constexpr double kLeastCondition = 1e-10;
 
   struct Sight {
@@ -402,6 +403,8 @@ class ReducedSystem {
     const Eigen::VectorXd scale = normal_.diagonal().cwiseSqrt().cwiseInverse();
     if (!scale.allFinite()) return std::nullopt;
     normal_ = scale.asDiagonal() * normal_ * scale.asDiagonal();
+    // Two photos that nothing but poor records tie to the rest are held to no more than rounding.
+    normal_.diagonal().array() += kRounding;
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(normal_);
     if (factors.info() != Eigen::Success) return std::nullopt;
     constexpr int kColumns = 96;

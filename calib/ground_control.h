@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "calib/coordinate_system.h"
 #include "calib/options.h"
 #include "calib/scene.h"
+#include "calib/surveyed_places.h"
 #include "survey/captures.h"
 #include "survey/georef.h"
 #include "survey/ground_control.h"

@@ -58,6 +58,7 @@ Guidance GuideByPlan(const CalibOptions& options, const Captures& captures,
   Guidance guidance;
   const std::optional<Plan> plan = PlanOfSurvey(context);
   if (!plan) return guidance;
+  guidance.facades = plan->facades;
   ExpectInput input{*plan, ExpectedPoses(*plan, photos), {}};
   for (const CapturedPhoto* photo : photos) {
     input.cameras.push_back(&captures.cameras[photo->camera].intrinsics);

@@ -12,6 +12,7 @@
 #include "calib/options.h"
 #include "calib/wall_features.h"
 #include "survey/captures.h"
+#include "survey/plan.h"
 #include "survey/stage.h"
 
 namespace stucco {
@@ -25,6 +26,7 @@ struct ExpectedWall {
 // What the plan lets the search for matches expect.
 struct Guidance {
   std::optional<ExpectedViews> views;                 // nothing without a plan
+  std::vector<PlannedFacade> facades;                 // its walls
   std::vector<std::pair<int, int>> pairs;             // that should overlap
   std::vector<WallPair> wall_pairs;                   // to match on a rectified wall
   std::map<std::pair<int, int>, ExpectedWall> walls;  // of (photo, wall) in wall_pairs

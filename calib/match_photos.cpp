@@ -23,7 +23,7 @@ namespace stucco {
 namespace {
 
 // Raise when the code behind a checkpoint changes what it computes.
-constexpr char kPairVersion[] = "pair-8";
+constexpr char kPairVersion[] = "pair-9";
 // Recorded positions of one flight, gimbal angles and the map are this good together.
 constexpr double kReachOnWall_m = 4;
 // When fewer of the pairs that should overlap do, the photos do not show what the plan says.
@@ -39,11 +39,14 @@ struct Candidate {
   std::vector<int> walls;
 };
 
+// Walls that repeat themselves are not matched.
 std::vector<Candidate> Candidates(const std::vector<std::pair<int, int>>& pairs,
-                                  const std::vector<WallPair>& wall_pairs) {
+                                  const std::vector<WallPair>& wall_pairs,
+                                  const std::map<int, double>& repeating) {
   std::map<std::pair<int, int>, Candidate> by_pair;
   for (const auto& [a, b] : pairs) by_pair[{a, b}].plain = true;
   for (const WallPair& pair : wall_pairs) {
+    if (repeating.contains(pair.wall)) continue;
     by_pair[{pair.first, pair.second}].walls.push_back(pair.wall);
   }
   std::vector<Candidate> candidates;
@@ -54,8 +57,27 @@ std::vector<Candidate> Candidates(const std::vector<std::pair<int, int>>& pairs,
   return candidates;
 }
 
-std::string PairKey(const CalibOptions& options, const PhotoSet& set, const Candidate& pair,
-                    const VerifyOptions& verify) {
+struct MatchInput {
+  const CalibOptions& options;
+  const PhotoSet& set;
+  const DetectedFeatures& features;
+  const OnRepeatingWalls& repeating;
+  std::vector<std::vector<int32_t>> places;  // by photo and keypoint
+  const StageContext& context;
+};
+
+// Which of the photo's keypoints are left out.
+std::string KeyOfLeftOut(const OnRepeatingWalls& repeating, int photo) {
+  const std::vector<int>& walls = repeating.wall_of[photo];
+  std::string bits;
+  bits.reserve(walls.size());
+  for (const int wall : walls) bits.push_back(wall < 0 ? '0' : '1');
+  return bits;
+}
+
+std::string PairKey(const MatchInput& input, const Candidate& pair, const VerifyOptions& verify) {
+  const CalibOptions& options = input.options;
+  const PhotoSet& set = input.set;
   std::vector<std::string> parts = {kPairVersion, FeaturesKey(options, *set.photos[pair.first]),
                                     FeaturesKey(options, *set.photos[pair.second]),
                                     fmt::format("{}", options.match_ratio),
@@ -63,6 +85,11 @@ std::string PairKey(const CalibOptions& options, const PhotoSet& set, const Cand
   if (verify.cameras) {
     parts.push_back(KeyOf(verify.cameras->first) + " " + KeyOf(verify.cameras->second));
     parts.push_back(fmt::format("{}", verify.cameras->focal_sigma_ratio));
+  }
+  for (const int photo : {pair.first, pair.second}) {
+    if (pair.plain && !input.repeating.wall_of[photo].empty()) {
+      parts.push_back(KeyOfLeftOut(input.repeating, photo));
+    }
   }
   if (!pair.walls.empty()) parts.push_back(pair.plain ? "and walls" : "walls");
   for (const int wall : pair.walls) {
@@ -107,14 +134,19 @@ CandidateKeypoints KeypointsOf(const DetectedFeatures& features, const Candidate
 }
 
 // In the candidate's own numbers.
-std::vector<Match> MatchCandidate(const CalibOptions& options, const DetectedFeatures& features,
-                                  const Candidate& pair) {
+std::vector<Match> MatchCandidate(const MatchInput& input, const Candidate& pair) {
+  const CalibOptions& options = input.options;
+  const DetectedFeatures& features = input.features;
   std::vector<Match> matches;
   int32_t begin_first = 0;
   int32_t begin_second = 0;
   if (pair.plain) {
     matches = MatchDescriptors(UnitDescriptors(features.plain[pair.first]),
                                UnitDescriptors(features.plain[pair.second]), options.match_ratio);
+    std::erase_if(matches, [&](const Match& match) {
+      return input.repeating.Shows(pair.first, match.first) ||
+             input.repeating.Shows(pair.second, match.second);
+    });
     begin_first = static_cast<int32_t>(features.plain[pair.first].size());
     begin_second = static_cast<int32_t>(features.plain[pair.second].size());
   }
@@ -132,14 +164,6 @@ std::vector<Match> MatchCandidate(const CalibOptions& options, const DetectedFea
   }
   return matches;
 }
-
-struct MatchInput {
-  const CalibOptions& options;
-  const PhotoSet& set;
-  const DetectedFeatures& features;
-  std::vector<std::vector<int32_t>> places;  // by photo and keypoint
-  const StageContext& context;
-};
 
 // What matching a candidate gave, in its own numbers: this is kept.
 struct Outcome {
@@ -172,7 +196,7 @@ Outcome MatchAndVerify(const MatchInput& input, const Candidate& pair,
     return FindPlaces(of.keypoints, of.num_plain,
                       SamePlace_px(input.options, *input.set.photos[photo]));
   };
-  std::vector<Match> matches = MatchCandidate(input.options, input.features, pair);
+  std::vector<Match> matches = MatchCandidate(input, pair);
   // What is found twice in both photos is one piece of evidence.
   DropRepeated({places_of(first, pair.first), places_of(second, pair.second)}, matches);
   return {static_cast<int32_t>(matches.size()),
@@ -180,9 +204,9 @@ Outcome MatchAndVerify(const MatchInput& input, const Candidate& pair,
 }
 
 // Nothing where a focal length is a guess.
-std::optional<PairCameras> CamerasOf(const PhotoSet& set, const Candidate& pair) {
-  const CapturedCamera& first = set.captures.cameras[set.photos[pair.first]->camera];
-  const CapturedCamera& second = set.captures.cameras[set.photos[pair.second]->camera];
+std::optional<PairCameras> CamerasOf(const PhotoSet& set, int first_photo, int second_photo) {
+  const CapturedCamera& first = set.captures.cameras[set.photos[first_photo]->camera];
+  const CapturedCamera& second = set.captures.cameras[set.photos[second_photo]->camera];
   const double sigma = std::max(FocalSigmaRatio(first), FocalSigmaRatio(second));
   if (sigma > kKnownFocal) return std::nullopt;
   return PairCameras{first.intrinsics, second.intrinsics, sigma};
@@ -190,14 +214,11 @@ std::optional<PairCameras> CamerasOf(const PhotoSet& set, const Candidate& pair)
 
 // In the numbers of the photos' keypoints.
 Outcome VerifyCandidate(const MatchInput& input, const Candidate& pair) {
-  const double scale = std::max(DetectionScale(input.options, *input.set.photos[pair.first]),
-                                DetectionScale(input.options, *input.set.photos[pair.second]));
-  VerifyOptions verify;
-  verify.max_error_px = 4 * scale;
-  verify.cameras = CamerasOf(input.set, pair);
-  Outcome outcome = DeserializeOutcome(
-      ComputeUnit(input.context, "pairs", PairKey(input.options, input.set, pair, verify),
-                  [&] { return Serialize(MatchAndVerify(input, pair, verify)); }));
+  const VerifyOptions verify = VerifyOptionsOf(input.options, input.set, pair.first, pair.second);
+  Outcome outcome =
+      DeserializeOutcome(ComputeUnit(input.context, "pairs", PairKey(input, pair, verify), [&] {
+        return Serialize(MatchAndVerify(input, pair, verify));
+      }));
   if (!outcome.geometry) return outcome;
   const CandidateKeypoints first = KeypointsOf(input.features, pair, pair.first);
   const CandidateKeypoints second = KeypointsOf(input.features, pair, pair.second);
@@ -240,11 +261,24 @@ size_t NumVerified(const PhotoPairs& pairs, const std::vector<VerifiedPair>& ver
 
 }  // namespace
 
+VerifyOptions VerifyOptionsOf(const CalibOptions& options, const PhotoSet& set, int first,
+                              int second) {
+  const double scale = std::max(DetectionScale(options, *set.photos[first]),
+                                DetectionScale(options, *set.photos[second]));
+  VerifyOptions verify;
+  verify.max_error_px = 4 * scale;
+  verify.cameras = CamerasOf(set, first, second);
+  return verify;
+}
+
 MatchedPairs MatchAll(const CalibOptions& options, const PhotoSet& set,
-                      const DetectedFeatures& features, const StageContext& context) {
-  const MatchInput input{options, set, features, PlacesOfAll(options, set, features), context};
+                      const DetectedFeatures& features, const OnRepeatingWalls& repeating,
+                      const StageContext& context) {
+  const MatchInput input{options, set, features, repeating, PlacesOfAll(options, set, features),
+                         context};
   const PairChoice choice = ChoosePairs(options, set, features.plain);
-  MatchedPairs matched = Verify(input, Candidates(choice.pairs, set.guidance.wall_pairs));
+  MatchedPairs matched =
+      Verify(input, Candidates(choice.pairs, set.guidance.wall_pairs, repeating.period_m));
   if (!choice.by_plan) return matched;
   const size_t expected = set.guidance.pairs.size();
   const size_t found = NumVerified(set.guidance.pairs, matched.verified);
@@ -256,7 +290,7 @@ MatchedPairs MatchAll(const CalibOptions& options, const PhotoSet& set,
       "are chosen by position and appearance too");
   PhotoPairs all;  // those done already come from their checkpoints
   std::ranges::set_union(choice.pairs, choice.otherwise, std::back_inserter(all));
-  return Verify(input, Candidates(all, set.guidance.wall_pairs));
+  return Verify(input, Candidates(all, set.guidance.wall_pairs, repeating.period_m));
 }
 
 }  // namespace stucco

@@ -8,6 +8,8 @@
 #include "calib/initial_pair.h"
 #include "calib/options.h"
 #include "calib/photo_set.h"
+#include "calib/repeating_walls.h"
+#include "calib/verify.h"
 #include "survey/stage.h"
 
 namespace stucco {
@@ -27,8 +29,13 @@ struct MatchedPairs {
 
 // Verified pairs among the photos, by their indices, checkpointed by the content of both. Where a
 // plan chose the pairs and most of those do not match, the photos show something else: then others
-// are tried too, with a warning.
+// are tried too, with a warning. What shows a wall that repeats itself is left out.
 MatchedPairs MatchAll(const CalibOptions& options, const PhotoSet& set,
-                      const DetectedFeatures& features, const StageContext& context);
+                      const DetectedFeatures& features, const OnRepeatingWalls& repeating,
+                      const StageContext& context);
+
+// What verification knows of a pair of the photos.
+VerifyOptions VerifyOptionsOf(const CalibOptions& options, const PhotoSet& set, int first,
+                              int second);
 
 }  // namespace stucco

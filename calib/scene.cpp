@@ -42,6 +42,12 @@ bool IsIndexed(const Scene& scene) {
 
 }  // namespace
 
+std::optional<Pose> RecordedPose(const ScenePhoto& photo) {
+  if (!photo.prior || !photo.attitude) return std::nullopt;
+  const Eigen::Quaterniond& rotation = photo.attitude->cam_from_world;
+  return Pose{rotation, -(rotation * photo.prior->position)};
+}
+
 double ReprojectionError(const Scene& scene, const SceneElement& element,
                          const Eigen::Vector3d& point) {
   const ScenePhoto& photo = scene.photos[element.photo];
@@ -77,8 +83,7 @@ std::vector<int> TracksOf(const Scene& scene, const std::vector<int>& photos) {
     }
   }
   std::ranges::sort(tracks);
-  const auto repeated = std::ranges::unique(tracks);
-  tracks.erase(repeated.begin(), repeated.end());
+  tracks.erase(std::unique(tracks.begin(), tracks.end()), tracks.end());
   return tracks;
 }
 

@@ -48,6 +48,9 @@ struct ScenePhoto {
   std::optional<AttitudePrior> attitude;
 };
 
+// Where its priors put the photo: nothing unless it has both.
+std::optional<Pose> RecordedPose(const ScenePhoto& photo);
+
 struct SceneElement {
   int photo = 0;
   int keypoint = 0;

@@ -32,6 +32,8 @@ struct SummaryInput {
   const RecordErrors* records = nullptr;  // where they hold the frame
   SceneSigmas sigmas = {};                // of the scene
   const SceneParts* parts = nullptr;      // where the scene was taken apart
+  std::vector<int> off_together = {};     // photos, ascending: off their records as a group
+  std::vector<int> ambiguous = {};        // of `unregistered`, ascending: fit more than one place
 };
 
 // Photo ids of the result by photo of the scene: the place in captures.json, counted from 1.

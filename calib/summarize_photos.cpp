@@ -70,6 +70,7 @@ std::string WhyWeak(const CalibratedPhoto& photo, double usual) {
   return fmt::format("{:.0f} times less sure than the middle photo", photo.position_sigma / usual);
 }
 
+// What has a reason already is weak.
 void JudgePart(int part, std::vector<CalibratedPhoto>& photos) {
   std::vector<double> positions;
   for (const CalibratedPhoto& photo : photos) {
@@ -78,7 +79,7 @@ void JudgePart(int part, std::vector<CalibratedPhoto>& photos) {
   const double usual = Median(std::move(positions)).value_or(0);
   for (CalibratedPhoto& photo : photos) {
     if (photo.part != part) continue;
-    photo.why = WhyWeak(photo, usual);
+    if (photo.why.empty()) photo.why = WhyWeak(photo, usual);
     photo.state = photo.why.empty() ? PhotoState::kTied : PhotoState::kWeak;
   }
 }
@@ -114,6 +115,9 @@ std::vector<CalibratedPhoto> SummarizePhotos(const SummaryInput& input,
     CalibratedPhoto& photo = photos[next++];
     photo.prior_residual_m = input.priors.distance_m[i];
     photo.prior_outlier = std::ranges::count(input.prior_outliers, static_cast<int>(i)) > 0;
+    if (std::ranges::binary_search(input.off_together, static_cast<int>(i))) {
+      photo.why = "it and photos around it are off their records together";
+    }
   }
   if (input.parts == nullptr) {
     JudgePart(0, photos);
@@ -167,7 +171,8 @@ std::vector<CalibratedPhoto> SummarizeRecordOnly(const SummaryInput& input,
     if (is_placed || !recorded.prior || !recorded.attitude) continue;
     CalibratedPhoto& photo = photos.emplace_back();
     photo.path = input.scene.photos[index].name;
-    photo.state = PhotoState::kRecordOnly;
+    photo.state = std::ranges::binary_search(input.ambiguous, index) ? PhotoState::kAmbiguous
+                                                                     : PhotoState::kRecordOnly;
     photo.why = why;
     photo.part = -1;
     photo.position_sigma = std::sqrt(2 * std::pow(recorded.prior->sigma_horizontal_m, 2) +

@@ -264,26 +264,39 @@ Features DetectOnWall(const Image& image, const Camera& camera, const WallView& 
   return features;
 }
 
-std::vector<OnWall> PlacesOnWall(const Features& features, const Camera& camera,
-                                 const WallView& view) {
+std::optional<OnWall> PlaceOnWall(const Keypoint& keypoint, const Camera& camera,
+                                  const WallView& view) {
+  const auto ray = camera.Unproject({keypoint.x, keypoint.y});
+  if (!ray) return std::nullopt;
   const Eigen::Vector3d along = Level(view.wall.along());
   const Eigen::Vector3d normal = Level(view.wall.outwards());
   const Eigen::Vector3d foot(view.wall.a_m.x(), view.wall.a_m.y(), 0);
   const Pose plan_from_cam = view.cam_from_plan.Inverse();
-  const double distance = (plan_from_cam.translation - foot).dot(normal);
+  const Eigen::Vector3d& center = plan_from_cam.translation;
+  const Eigen::Vector3d way = plan_from_cam.rotation * ray->homogeneous();
+  const double reach = -(center - foot).dot(normal) / way.dot(normal);  // in lengths of `way`
+  if (!(reach > 0) || !std::isfinite(reach)) return std::nullopt;
+  const Eigen::Vector3d in_plan = center + reach * way;
+  const double scale = keypoint.scale / camera.FocalX() * (in_plan - center).norm();
+  return OnWall{static_cast<float>((in_plan - foot).dot(along)), static_cast<float>(in_plan.z()),
+                static_cast<float>(scale)};
+}
+
+std::vector<OnWall> PlacesOnWall(const Features& features, const Camera& camera,
+                                 const WallView& view) {
   std::vector<OnWall> places;
+  places.reserve(features.size());
   for (const Keypoint& k : features.keypoints) {
-    OnWall place;
-    if (const auto ray = camera.Unproject({k.x, k.y})) {
-      const Eigen::Vector3d way = plan_from_cam.rotation * ray->homogeneous();
-      const Eigen::Vector3d in_plan = plan_from_cam.translation - distance / way.dot(normal) * way;
-      const double scale = k.scale / camera.FocalX() * (in_plan - plan_from_cam.translation).norm();
-      place = {static_cast<float>((in_plan - foot).dot(along)), static_cast<float>(in_plan.z()),
-               static_cast<float>(scale)};
-    }
-    places.push_back(place);
+    places.push_back(PlaceOnWall(k, camera, view).value_or(OnWall{}));
   }
   return places;
+}
+
+std::vector<Match> MatchWithin(const WallKeypoints& first, const WallKeypoints& second,
+                               double reach_m, double ratio) {
+  assert(IsWhole(first) && IsWhole(second));
+  return SureMatches(FindNearest(first, second, SortAlong(second), {{0, 0}, reach_m, reach_m}),
+                     ratio);
 }
 
 std::vector<Match> MatchOnWall(const WallKeypoints& first, const WallKeypoints& second,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,7 +38,12 @@ struct OnWall {
 Features DetectOnWall(const Image& image, const Camera& camera, const WallView& view,
                       int max_features);
 
-// Where the keypoints lie on the wall, if they come from DetectOnWall with the same view.
+// Where a keypoint lies on the plane of the wall as the view has it; nothing where the camera looks
+// away from it.
+std::optional<OnWall> PlaceOnWall(const Keypoint& keypoint, const Camera& camera,
+                                  const WallView& view);
+
+// Of keypoints that DetectOnWall found with the same view.
 std::vector<OnWall> PlacesOnWall(const Features& features, const Camera& camera,
                                  const WallView& view);
 
@@ -46,6 +52,11 @@ struct WallKeypoints {
   std::vector<int16_t> descriptors;  // as UnitDescriptors gives them
   std::vector<OnWall> places;
 };
+
+// Mutual nearest neighbours among keypoints of like size within `reach_m` of each other on the
+// wall, which pass the ratio test among these.
+std::vector<Match> MatchWithin(const WallKeypoints& first, const WallKeypoints& second,
+                               double reach_m, double ratio);
 
 // Mutual nearest neighbours among keypoints of like size within `reach_m` of each other on the
 // wall, which pass the ratio test among those within 2.5 times as much: what repeats along the wall

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <random>
 
 #include "calib/adjust.h"
+#include "calib/contradicting_groups.h"
 #include "calib/points.h"
 #include "calib/triangulate.h"
 
@@ -70,13 +72,6 @@ int NumTrustedPartners(const Scene& scene, int photo) {
     count += AttitudeSquare(other) <= kUnlikely && PositionSquare(other) <= kUnlikely;
   }
   return count;
-}
-
-// Where a record puts a photo: nothing unless it says both.
-std::optional<Pose> RecordedPose(const ScenePhoto& photo) {
-  if (!photo.prior || !photo.attitude) return std::nullopt;
-  const Eigen::Quaterniond& rotation = photo.attitude->cam_from_world;
-  return Pose{rotation, -(rotation * photo.prior->position)};
 }
 
 // Standard deviation of where the record puts a point in the picture, pixels.
@@ -201,8 +196,20 @@ std::vector<int> ContradictingPoses(const Scene& scene) {
   return photos;
 }
 
+std::vector<int> OffTogether(const Scene& scene) {
+  std::vector<bool> agrees(scene.photos.size());
+  for (int i = 0; i < static_cast<int>(agrees.size()); ++i) {
+    agrees[i] = scene.photos[i].pose && JudgePose(scene, i) == RecordVerdict::kAgrees;
+  }
+  return ContradictingGroups(scene, agrees);
+}
+
 WrongPoses MendWrongPoses(const MapperOptions& options, const StageContext& context, Scene& scene) {
-  const std::vector<int> wrong = ContradictingPoses(scene);
+  std::vector<int> wrong = ContradictingPoses(scene);
+  const size_t single = wrong.size();
+  std::ranges::copy(OffTogether(scene), std::back_inserter(wrong));
+  std::inplace_merge(wrong.begin(), wrong.begin() + static_cast<std::ptrdiff_t>(single),
+                     wrong.end());
   WrongPoses result;
   if (wrong.empty()) return result;
   Mending(options, wrong, scene).Run(context);

@@ -32,12 +32,16 @@ bool SeesSeveralPlanes(const Scene& scene, int photo);
 // poses do: then it is the records that are wrong.
 std::vector<int> ContradictingPoses(const Scene& scene);
 
+// Photos whose poses each agree with their records, but not together (contradicting_groups.h).
+std::vector<int> OffTogether(const Scene& scene);
+
 struct WrongPoses {
   std::vector<int> corrected;  // posed anew from their records
   std::vector<int> taken;      // without a pose now
 };
 
-// Poses that contradict their records (ContradictingPoses) begin again where the record
+// Poses that contradict their records, alone (ContradictingPoses) or together (OffTogether), begin
+// again where the record
 // says: matches that cannot be, as far as the record is good, are taken out for good, the others
 // correct the record. What then still contradicts stays without a pose.
 WrongPoses MendWrongPoses(const MapperOptions& options, const StageContext& context, Scene& scene);

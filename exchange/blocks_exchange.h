@@ -16,7 +16,7 @@ namespace stucco {
 
 // Of several blocks the one with the most posed photos counts. Throws Error (kBadInput) with the
 // element.
-ExchangedModel ReadBlocksExchange(const std::filesystem::path& file, const PhotoIndex& photos);
+ExchangedModel ReadBlocksExchange(const std::filesystem::path& path, const PhotoIndex& photos);
 
 // Version 2.1, which most programs read. Paths of photos are relative to the file. An "enu" frame
 // is written as "ENU:latitude,longitude", heights above the zero of the georef's; any other without

@@ -138,6 +138,7 @@ PhotoOfName ReadShots(const JsonPlace& reconstruction, const PhotoIndex& photos,
   };
   const auto shots = reconstruction.At("shots").Members();
   std::vector<std::string> names;
+  names.reserve(shots.size());
   for (const auto& [name, shot] : shots) names.push_back(name);
   const std::vector<std::string> paths = photos.Require(names);
   PhotoOfName photo_of_name;
@@ -191,14 +192,14 @@ void AddPoints(const JsonPlace& reconstruction, const fs::path& tracks,
 
 }  // namespace
 
-ExchangedModel ReadOpenSfm(const fs::path& path, const PhotoIndex& photos) {
-  const JsonFile file(path);
+ExchangedModel ReadOpenSfm(const fs::path& file, const PhotoIndex& photos) {
+  const JsonFile json(file);
   ExchangedModel result;
   result.format = "OpenSfM";
-  const JsonPlace reconstruction = LargestOf(file.root(), result.notes);
+  const JsonPlace reconstruction = LargestOf(json.root(), result.notes);
   const PhotoOfName photo_of_name = ReadShots(reconstruction, photos, result.model);
-  result.georef = FindReference(reconstruction, path);
-  AddPoints(reconstruction, path.parent_path() / "tracks.csv", photo_of_name, result);
+  result.georef = FindReference(reconstruction, file);
+  AddPoints(reconstruction, file.parent_path() / "tracks.csv", photo_of_name, result);
   return result;
 }
 

@@ -174,6 +174,7 @@ RecognizedModel RecognizeModel(const fs::path& path) {
                 kWhatIsRead);
   }
   std::vector<std::string> names;
+  names.reserve(models.size());
   for (const RecognizedModel& model : models) names.push_back(model.path.string());
   throw Error(ErrorKind::kBadInput,
               fmt::format("{}: holds several models: {}", path.string(), fmt::join(names, ", ")),

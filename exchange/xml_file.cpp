@@ -83,9 +83,9 @@ std::string XmlFile::Where(const pugi::xml_node& of) const {
       ++number;
     }
     const bool is_one_of_many = number > 1 || node.next_sibling(node.name());
-    const std::string step =
-        is_one_of_many ? fmt::format("{} {}", node.name(), number) : std::string(node.name());
-    place = place.empty() ? step : step + "/" + place;
+    std::string step = is_one_of_many ? fmt::format("{} {}", node.name(), number) : node.name();
+    if (!place.empty()) step += "/" + place;
+    place = std::move(step);
   }
   return fmt::format("{}: {}", path_.string(), place);
 }

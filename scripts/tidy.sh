@@ -1,14 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 the Stucco authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs clang-tidy on the sources that changed: since the branch left its upstream or, where nothing is
-# ahead of it, in the last commit, and what is not committed; of a changed header the sources of its
-# name. With --all on every source. Needs a configured build/dev; where clang-tidy is not installed
-# (Debian package clang-tidy), it says so and is done.
+# Runs clang-tidy on the sources that changed, the newest first: what is not committed, then what was
+# committed since the branch left its upstream or, where nothing is ahead of it (a fresh clone), in
+# the last commits; of a changed header the sources of its name. With --all on every source. Needs a
+# configured build/dev; where clang-tidy is not installed (Debian package clang-tidy), it says so and
+# is done.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 readonly most=40 # about five minutes on two cores
-readonly modules='survey|site|plan|capture_ingest|calib|dense|proxy|texture|report|pipeline|simulate|evaluate|cli'
+readonly last_commits=50 # a landing, as a rule
+modules=$(ls -d */CMakeLists.txt | sed 's,/.*,,' | grep -vx tests | paste -sd '|')
+readonly modules
 
 usage="usage: ${0##*/} [--all]"
 if (($# > 1)) || [[ ${1:---all} != --all ]]; then
@@ -24,12 +27,13 @@ fi
 git_here() { git -c safe.directory="$PWD" "$@"; }
 
 changed() {
-  local base
+  local base commits
   base=$(git_here merge-base HEAD '@{upstream}' 2>/dev/null || true)
-  [[ -n $base && $base != "$(git_here rev-parse HEAD)" ]] ||
-    base=$(git_here rev-parse --quiet --verify HEAD~1 || git_here rev-parse HEAD)
-  git_here diff --name-only --diff-filter=d "$base"
+  commits=("$base..HEAD")
+  [[ -n $base && $base != "$(git_here rev-parse HEAD)" ]] || commits=("-$last_commits" HEAD)
   git_here ls-files --others --exclude-standard
+  git_here diff --name-only HEAD
+  git_here log --name-only --format= "${commits[@]}"
 }
 
 sources() {
@@ -37,14 +41,14 @@ sources() {
     git_here ls-files
   elif git_here rev-parse HEAD >/dev/null 2>&1; then
     changed | sed 's/\.h$/.cpp/; s,internal/,,'
-  fi | grep -E "^($modules)/.*\.cpp$" | sort -u | while read -r file; do
+  fi | grep -E "^($modules)/.*\.cpp$" | awk '!seen[$0]++' | while read -r file; do
     [[ ! -f $file ]] || echo "$file"
   done
 }
 
 mapfile -t files < <(sources "${1:-}" || true)
 if ((${#files[@]} > most)) && [[ ${1:-} != --all ]]; then
-  echo "tidy: ${#files[@]} sources changed; the first $most are checked, scripts/tidy.sh --all checks all"
+  echo "tidy: ${#files[@]} sources changed; the newest $most are checked, scripts/tidy.sh --all checks all"
   files=("${files[@]:0:most}")
 fi
 ((${#files[@]} > 0)) || { echo "tidy: no source changed"; exit 0; }

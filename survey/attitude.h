@@ -15,4 +15,8 @@ Eigen::Quaterniond CamFromEnu(const GimbalAngles& angles);
 // Turn about the up axis, counter-clockwise as seen from above.
 Eigen::Quaterniond AboutUp(double angle_rad);
 
+// Axis times angle, radians; of the two that give the rotation the shorter.
+Eigen::Vector3d RotationVector(const Eigen::Quaterniond& rotation);
+Eigen::Quaterniond FromRotationVector(const Eigen::Vector3d& vector);
+
 }  // namespace stucco

@@ -245,7 +245,7 @@ class Body {
   size_t NextLength(const Property& list) {
     const double length = Next(list.count_type);
     if (!(length >= 0) || length != std::floor(length) ||
-        length > static_cast<double>(source_.Left() / MinBytes(list.type))) {
+        length * static_cast<double>(MinBytes(list.type)) > static_cast<double>(source_.Left())) {
       Fail(file_, fmt::format("list \"{}\" is of length {}", list.name, length));
     }
     return static_cast<size_t>(length);
@@ -373,8 +373,7 @@ Vertex ReadVertex(Body& body, const Element& element, const std::vector<Meaning>
     }
   }
   std::ranges::sort(vertex.views);
-  const auto repeated = std::ranges::unique(vertex.views);
-  vertex.views.erase(repeated.begin(), repeated.end());
+  vertex.views.erase(std::unique(vertex.views.begin(), vertex.views.end()), vertex.views.end());
   return vertex;
 }
 

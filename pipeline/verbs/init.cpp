@@ -45,7 +45,7 @@ PhotoFolder InitSurvey(const fs::path& survey, const fs::path& photos, const Sta
     throw Error(ErrorKind::kBadInput, fmt::format("{}: is a file, not a folder", survey.string()),
                 "choose another name for the survey");
   }
-  const PhotoFolder found = InspectPhotos(photos, AvailableCores());
+  PhotoFolder found = InspectPhotos(photos, AvailableCores());
   RequireApart(survey, photos, table);
   RequireNoStageNames(survey, table);
   const fs::path real_survey = RealPath(survey), real_photos = RealPath(photos);

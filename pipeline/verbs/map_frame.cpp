@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "plan/map/crs.h"
+#include "survey/coordinate_system.h"
 #include "survey/error.h"
 
 namespace stucco {
@@ -20,15 +20,6 @@ constexpr char kRemedy[] = "export it in WGS 84 (EPSG:4326), in UTM, or in local
 constexpr int kPlacesOfCamera = 5;
 constexpr double kStep_m = 1;
 constexpr double kStep_deg = 1e-5;
-
-std::vector<Geodetic> GeodeticOf(const std::string& crs, const std::string& file,
-                                 const std::vector<Eigen::Vector2d>& places) {
-  try {
-    return plan::GeodeticFromCrs(crs, places, file);
-  } catch (const Error& e) {
-    throw Error(e.kind(), e.what(), kRemedy);
-  }
-}
 
 std::vector<Eigen::Vector3d> CentresOf(const Reconstruction& model) {
   std::vector<Eigen::Vector3d> centres;
@@ -86,7 +77,7 @@ void MoveCameras(const std::string& crs, const std::string& file, const Georef& 
     const Eigen::Vector2d north(0, step);
     around.insert(around.end(), {at, at + east, at - east, at + north, at - north});
   }
-  const std::vector<Geodetic> places = GeodeticOf(crs, file, around);
+  const std::vector<Geodetic> places = GeodeticFromCrs(crs, around, file);
   const Geodetic* next = places.data();
   for (auto& [id, photo] : model.photos) {
     const double height_m = photo.cam_from_world.Center().z();
@@ -103,7 +94,7 @@ void MovePoints(const std::string& crs, const std::string& file, const Georef& g
                 Reconstruction& model) {
   std::vector<Eigen::Vector2d> around;
   for (const auto& [id, point] : model.points) around.emplace_back(point.position.head<2>());
-  const std::vector<Geodetic> places = GeodeticOf(crs, file, around);
+  const std::vector<Geodetic> places = GeodeticFromCrs(crs, around, file);
   auto place = places.begin();
   for (auto& [id, point] : model.points) {
     point.position = EnuOf(georef, *place++, point.position.z());
@@ -119,10 +110,11 @@ void MovePoints(const std::string& crs, const std::string& file, const Georef& g
 Georef MoveFromMap(const std::string& crs, const std::string& file, Reconstruction& model) {
   const std::vector<Eigen::Vector3d> centres = CentresOf(model);
   std::vector<Eigen::Vector2d> around;
+  around.reserve(centres.size());
   for (const Eigen::Vector3d& centre : centres) around.emplace_back(centre.head<2>());
-  const std::vector<Geodetic> places = GeodeticOf(crs, file, around);
+  const std::vector<Geodetic> places = GeodeticFromCrs(crs, around, file);
   Georef georef = MiddleOf(centres, places, file);
-  MoveCameras(crs, file, georef, plan::IsCrsGeographic(crs) ? kStep_deg : kStep_m, model);
+  MoveCameras(crs, file, georef, IsCrsGeographic(crs) ? kStep_deg : kStep_m, model);
   MovePoints(crs, file, georef, model);
   return georef;
 }

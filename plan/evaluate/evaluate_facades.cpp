@@ -119,7 +119,6 @@ FacadeReport ReportOn(const FacadeSight& sight, int facade) {
   out.views = static_cast<int>(meant.size());
   out.covered = by_meant.share();
   out.meant = QualityOfFacade(meant, out.covered, d_min, sight.d_max_m());
-  out.views_all = static_cast<int>(all.size());
   out.covered_all = by_all.share();
   out.all = QualityOfFacade(all, out.covered_all, d_min, sight.d_max_m());
   return out;

@@ -29,7 +29,6 @@ struct FacadeReport {
   int views = 0;        // of these, that see some of it
   double covered = 0;   // share of the facade
   FacadeQuality all;    // of all photos that see it, each counted for all it sees
-  int views_all = 0;
   double covered_all = 0;
 };
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "plan/map/crs.h"
+#include "survey/coordinate_system.h"
 #include "survey/error.h"
 
 namespace stucco::plan {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plan/map/internal/ogr.h"
 
-#include <cpl_error.h>
 #include <cpl_string.h>
 #include <fmt/format.h>
 
@@ -12,6 +11,7 @@
 
 #include "survey/error.h"
 #include "survey/geometry2d.h"
+#include "survey/quiet_gdal.h"
 
 namespace stucco::plan::internal {
 namespace {
@@ -54,19 +54,6 @@ std::vector<Polygon> PolygonsOrNone(const std::unique_ptr<OGRGeometry>& geometry
 }
 
 }  // namespace
-
-QuietGdal::QuietGdal() {
-  CPLPushErrorHandler(CPLQuietErrorHandler);
-  CPLErrorReset();
-}
-
-QuietGdal::~QuietGdal() {
-  CPLPopErrorHandler();
-}
-
-std::string QuietGdal::Message() {
-  return CPLGetLastErrorMsg();
-}
 
 GDALDatasetUniquePtr OpenDataset(const std::filesystem::path& path, unsigned flags,
                                  const std::vector<std::string>& options) {

@@ -8,6 +8,7 @@
 #include "plan/map/internal/ogr.h"
 #include "site/facades.h"
 #include "survey/geometry2d.h"
+#include "survey/quiet_gdal.h"
 
 namespace stucco::plan::internal {
 namespace {

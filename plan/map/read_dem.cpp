@@ -9,9 +9,10 @@
 #include <cmath>
 #include <limits>
 
-#include "plan/map/crs.h"
 #include "plan/map/internal/ogr.h"
+#include "survey/coordinate_system.h"
 #include "survey/error.h"
+#include "survey/quiet_gdal.h"
 
 namespace stucco::plan {
 namespace {
@@ -157,11 +158,11 @@ void ReadWindow(GDALDataset& dataset, const std::vector<Eigen::Vector2d>& pixels
   raster.height = std::clamp(static_cast<int>(box.max().y()) + 3, 1, raster.rows) - raster.top;
   raster.z_m.resize(static_cast<size_t>(raster.width) * raster.height);
   GDALRasterBand& band = *dataset.GetRasterBand(1);
-  const internal::QuietGdal quiet;
+  const QuietGdal quiet;
   if (band.RasterIO(GF_Read, raster.left, raster.top, raster.width, raster.height,
                     raster.z_m.data(), raster.width, raster.height, GDT_Float32, 0, 0,
                     nullptr) != CE_None) {
-    Fail(path, fmt::format("cannot be read: {}", internal::QuietGdal::Message()),
+    Fail(path, fmt::format("cannot be read: {}", QuietGdal::Message()),
          "check the file with gdalinfo -checksum");
   }
   int has_gap_value = 0;

@@ -15,6 +15,7 @@
 #include "plan/map/internal/ogr.h"
 #include "plan/map/internal/read_cityjson.h"
 #include "survey/error.h"
+#include "survey/quiet_gdal.h"
 
 namespace stucco::plan {
 namespace {
@@ -304,7 +305,7 @@ std::string CrsOf(OGRLayer& layer) {
 // Whether features have numbers of their own beside their attributes, as GeoJSON allows; GDAL
 // counts from 0 where they have none.
 bool HasOwnFids(OGRLayer& layer) {
-  const internal::QuietGdal quiet;
+  const QuietGdal quiet;
   layer.ResetReading();
   GIntBig place = 0;
   for (; const OGRFeatureUniquePtr feature{layer.GetNextFeature()}; ++place) {
@@ -331,10 +332,10 @@ class LayerReader {
   }
 
   void Read() {
-    const internal::QuietGdal quiet;
+    const QuietGdal quiet;
     layer_.ResetReading();
     while (const OGRFeatureUniquePtr feature{layer_.GetNextFeature()}) ReadFeature(*feature);
-    const std::string message = internal::QuietGdal::Message();
+    const std::string message = QuietGdal::Message();
     if (CPLGetLastErrorType() == CE_Failure) {
       throw Error(
           ErrorKind::kBadInput,

@@ -15,52 +15,36 @@ constexpr float kLeastCosine = 0.02F;
 constexpr double kHalfTilt = 3;
 constexpr double kHalfScale = 4;
 
-// A warp by its tilt and the square of its scale.
-struct WarpSquare {
-  double tilt = 1;
-  double scale = 1;
-};
-
-// With the tangential parts t1 and t2 of the lines of sight, the pictures stretch the patch by
-// G = I - t t^T; the eigenvalues of G1^-1 G2 are the squares of the stretches from one to the
-// other, and the tilt is their sum and its root over twice the root of their product. `c1` and `c2`
-// are the cosines at the patch.
-WarpSquare WarpSquareBetween(const Sight& one, double c1, const Sight& other, double c2) {
-  const double cosines = c1 * c2;
-  const double t1_t2 = one.way.dot(other.way) - cosines;
-  const double trace = 1 + cosines * cosines - t1_t2 * t1_t2;  // times c1 squared, as the root
-  const double root = std::sqrt(std::max(0.0, trace * trace - 4 * cosines * cosines));
-  const double size = c2 * one.distance_m * one.distance_m;
-  const double other_size = c1 * other.distance_m * other.distance_m;
-  return {(trace + root) / (2 * cosines), std::max(size, other_size) / std::min(size, other_size)};
-}
-
 float CosineOf(const Eigen::Vector3f& normal, const Sight& sight) {
   return std::max(kLeastCosine, sight.way.dot(normal));
-}
-
-double LikenessOf(const WarpSquare& warp) {
-  const double tilt = warp.tilt * warp.tilt / (kHalfTilt * kHalfTilt);
-  const double scale = warp.scale / (kHalfScale * kHalfScale);
-  return 1 / ((1 + tilt * tilt) * (1 + scale * scale * scale));
 }
 
 // What a patch adds to the strength of a pair.
 float Common(const Sight& one, double cosine, const Sight& other, double other_cosine) {
   return std::min(one.share, other.share) *
-         static_cast<float>(LikenessOf(WarpSquareBetween(one, cosine, other, other_cosine)));
+         static_cast<float>(Likeness(WarpBetween(one, cosine, other, other_cosine)));
 }
 
 }  // namespace
 
-Warp WarpBetween(const Eigen::Vector3f& normal, const Sight& one, const Sight& other) {
-  const WarpSquare warp =
-      WarpSquareBetween(one, CosineOf(normal, one), other, CosineOf(normal, other));
-  return {warp.tilt, std::sqrt(warp.scale)};
+// With the tangential parts t1 and t2 of the lines of sight, the pictures stretch the patch by
+// G = I - t t^T; the eigenvalues of G1^-1 G2 are the squares of the stretches from one to the
+// other, and the tilt is their sum and its root over twice the root of their product.
+Warp WarpBetween(const Sight& one, double cosine, const Sight& other, double other_cosine) {
+  const double cosines = cosine * other_cosine;
+  const double t1_t2 = one.way.dot(other.way) - cosines;
+  const double trace =
+      1 + cosines * cosines - t1_t2 * t1_t2;  // times the first cosine squared, as root
+  const double root = std::sqrt(std::max(0.0, trace * trace - 4 * cosines * cosines));
+  const double size = other_cosine * one.distance_m * one.distance_m;
+  const double other_size = cosine * other.distance_m * other.distance_m;
+  return {(trace + root) / (2 * cosines), std::max(size, other_size) / std::min(size, other_size)};
 }
 
 double Likeness(const Warp& warp) {
-  return LikenessOf({warp.tilt, warp.scale * warp.scale});
+  const double tilt = warp.tilt * warp.tilt / (kHalfTilt * kHalfTilt);
+  const double scale = warp.scale_squared / (kHalfScale * kHalfScale);
+  return 1 / ((1 + tilt * tilt) * (1 + scale * scale * scale));
 }
 
 bool IsClose(const Sight& one, const Sight& other) {

@@ -14,14 +14,14 @@ namespace stucco::plan {
 
 // How a surface looks from two places: what an affine map from one picture to the other does to it.
 struct Warp {
-  double tilt = 1;   // ratio of its two stretches, at least 1: the transition tilt
-  double scale = 1;  // their geometric mean, at least 1 (either way)
+  double tilt = 1;           // ratio of its two stretches, at least 1: the transition tilt
+  double scale_squared = 1;  // their product, at least 1 (either way)
 };
 
-// Of a patch with this normal; lines of sight are unit vectors to the cameras, on the side of the
-// normal. Morel and Yu, "ASIFT: A New Framework for Fully Affine Invariant Image Comparison"
-// (2009), section 2: two oblique views may differ by far more than the angle between them.
-Warp WarpBetween(const Eigen::Vector3f& normal, const Sight& one, const Sight& other);
+// Of a patch that the lines of sight, unit vectors to the cameras, see at these cosines. Morel and
+// Yu, "ASIFT: A New Framework for Fully Affine Invariant Image Comparison" (2009), section 2: two
+// oblique views may differ by far more than the angle between them.
+Warp WarpBetween(const Sight& one, double cosine, const Sight& other, double other_cosine);
 
 // How surely features of a patch match: 1 where they do, towards 0 where they do not.
 double Likeness(const Warp& warp);

@@ -13,7 +13,6 @@
 #include "plan/path/flight_work.h"
 #include "plan/path/split.h"
 #include "survey/error.h"
-#include "survey/median.h"
 #include "survey/parallel.h"
 
 namespace stucco::plan {
@@ -291,11 +290,6 @@ double ReserveOf(const SplitHome& home, const Stretch& stretch) {
   return reserve;
 }
 
-struct Flown {
-  PlannedFlight flight;
-  std::vector<double> reached_min;  // each stop, after take-off
-};
-
 Route RouteBetween(const Task& task, const Vector3d& from, const Vector3d& to) {
   const auto route = task.space.ShortestRoute(from, to);
   if (!route) throw Error(ErrorKind::kStageFailed, "a hovering position has no safe way home");
@@ -310,7 +304,8 @@ void Append(const Route& route, PlannedFlight& flight) {
 }
 
 // `number`: the index in order of capture of the stretch's first hover.
-Flown MakeFlight(const Task& task, const Cuttable& tour, const Stretch& stretch, int number) {
+PlannedFlight MakeFlight(const Task& task, const Cuttable& tour, const Stretch& stretch,
+                         int number) {
   const Place& place = tour.places[stretch.home];
   const PlannedPace& pace = task.pace();
   const int last = stretch.first + stretch.count - 1;
@@ -318,8 +313,7 @@ Flown MakeFlight(const Task& task, const Cuttable& tour, const Stretch& stretch,
   Route back = RouteBetween(task, place.start, tour.At(last).position);
   std::reverse(back.points.begin(), back.points.end());
   const double climb_m = place.start.z() - place.ground.z();
-  Flown flown;
-  PlannedFlight& flight = flown.flight;
+  PlannedFlight flight;
   flight.waypoints.push_back({place.start, -1});
   flight.length_m = 2 * climb_m;
   Append(out, flight);
@@ -327,7 +321,6 @@ Flown MakeFlight(const Task& task, const Cuttable& tour, const Stretch& stretch,
                     FirstTiltWork(tour.At(stretch.first), pace);
   for (int k = stretch.first; k <= last; ++k) {
     flight.waypoints.back().hover = number + k - stretch.first;
-    flown.reached_min.push_back(work.seconds() / 60);
     work += StopWork(tour.At(k), pace);
     if (k == last) break;
     Append(tour.LegFrom(k), flight);
@@ -340,48 +333,21 @@ Flown MakeFlight(const Task& task, const Cuttable& tour, const Stretch& stretch,
   flight.reserve_percent = ReserveOf(tour.homes[stretch.home], stretch);
   flight.parts = TimeParts(work);
   flight.home_m = place.ground;
-  return flown;
-}
-
-// `times`: when each hover is reached, in minutes of flight from the first take-off.
-double MedianFacadeSpan(const FlightPlan& plan, const std::vector<double>& times, size_t facades) {
-  struct Span {
-    double from = 0;
-    double to = 0;
-    int hovers = 0;
-  };
-  std::vector<Span> spans(facades);
-  for (size_t h = 0; h < plan.hovers.size(); ++h) {
-    for (const Shot& shot : plan.hovers[h].shots) {
-      for (const Target& target : shot.targets) {
-        Span& span = spans[target.facade];
-        if (span.hovers++ == 0) span.from = times[h];
-        span.to = times[h];  // hovers are in order of time
-      }
-    }
-  }
-  std::vector<double> lengths;
-  for (const Span& span : spans) {
-    if (span.to > span.from) lengths.push_back(span.to - span.from);
-  }
-  return Median(std::move(lengths)).value_or(0);
+  return flight;
 }
 
 FlightPlan Fly(const Task& task, const Cuttable& tour, const std::vector<Stretch>& stretches,
                const TourReport& report) {
   FlightPlan plan;
   plan.tour = report;
-  std::vector<double> times;
   for (const Stretch& stretch : stretches) {
-    Flown flown = MakeFlight(task, tour, stretch, static_cast<int>(plan.hovers.size()));
-    for (const double reached : flown.reached_min) times.push_back(plan.time_min + reached);
+    PlannedFlight flight = MakeFlight(task, tour, stretch, static_cast<int>(plan.hovers.size()));
     for (int k = 0; k < stretch.count; ++k) plan.hovers.push_back(tour.At(stretch.first + k));
-    plan.length_m += flown.flight.length_m;
-    plan.time_min += flown.flight.time_min;
-    plan.battery_percent += flown.flight.battery_percent;
-    plan.flights.push_back(std::move(flown.flight));
+    plan.length_m += flight.length_m;
+    plan.time_min += flight.time_min;
+    plan.battery_percent += flight.battery_percent;
+    plan.flights.push_back(std::move(flight));
   }
-  plan.median_facade_span_min = MedianFacadeSpan(plan, times, task.site.facades.size());
   return plan;
 }
 

@@ -21,9 +21,6 @@ struct FlightPlan {
   double length_m = 0;  // of all flights
   double time_min = 0;
   double battery_percent = 0;  // of one battery: 250 is two and a half
-  // Between the first and the last photo of a facade, batteries changed in no time; of those with
-  // two hovers or more.
-  double median_facade_span_min = 0;
 };
 
 struct Battery {

@@ -30,20 +30,6 @@ double MatchWeight(double angle_rad) {
   return 1 - 1 / (1 + std::exp(-kMatchSlope * (angle_rad - kMatchAngle)));
 }
 
-double PairReconstructability(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
-                              const Eigen::Vector3d& c, const Eigen::Vector3d& d, double d_max_m) {
-  const double c_distance = (c - point).norm();
-  const double d_distance = (d - point).norm();
-  if (!(c_distance > 0) || !(d_distance > 0)) return 0;
-  const Eigen::Vector3d to_c = (c - point) / c_distance;
-  const Eigen::Vector3d to_d = (d - point) / d_distance;
-  const double angle = std::acos(std::clamp(to_c.dot(to_d), -1.0, 1.0));
-  const double cosine = std::min(to_c.dot(normal), to_d.dot(normal));
-  if (!(cosine > 0)) return 0;
-  return ParallaxWeight(angle) * ResolutionWeight(std::max(c_distance, d_distance), d_max_m) *
-         MatchWeight(angle) * cosine;
-}
-
 double GoodPair(double distance_m, double d_max_m) {
   return ParallaxWeight(2 * kGoodIncidence) * ResolutionWeight(distance_m, d_max_m) *
          MatchWeight(2 * kGoodIncidence) * std::cos(kGoodIncidence);

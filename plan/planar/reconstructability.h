@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
-
 namespace stucco::plan {
 
 // How well a point of a surface can be reconstructed from the photos that see it. Paper: Smith et
@@ -15,10 +13,6 @@ double ParallaxWeight(double angle_rad);
 double ResolutionWeight(double distance_m, double d_max_m);
 // w3: still alike enough to be matched. Half at pi/4.
 double MatchWeight(double angle_rad);
-
-// w1 w2 w3 cos(t) of one pair of cameras at c and d; 0 where one of them is behind the surface.
-double PairReconstructability(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
-                              const Eigen::Vector3d& c, const Eigen::Vector3d& d, double d_max_m);
 
 // One good pair at this distance: rays 17.3 degrees apart, the normal between them. Thresholds are
 // multiples of it (Zhou et al., "Offsite Aerial Path Planning for Efficient Urban Scene

@@ -15,6 +15,7 @@ import re
 import sys
 
 import include_graph
+import link_lists
 
 STAGES = {"plan", "capture_ingest", "calib", "dense", "proxy", "texture", "report"}
 
@@ -175,8 +176,10 @@ def problems(root):
         if is_source:
             found += include_problems(path, text)
             includes |= includes_of(path, text)
-        elif path.name == "CMakeLists.txt" and path.parts[0] in MODULES:
-            exported |= include_graph.exported_headers(path, text)
+        elif path.name == "CMakeLists.txt":
+            found += link_lists.problems(path, text, may_include(path) or MODULES, MODULES)
+            if path.parts[0] in MODULES:
+                exported |= include_graph.exported_headers(path, text)
         for name in sorted(types_of(path, text)):
             if name in header_of:
                 found.append(f"{path}: {name} is a type of {header_of[name]}, too")

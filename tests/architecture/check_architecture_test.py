@@ -45,6 +45,24 @@ class CheckArchitectureTest(unittest.TestCase):
         self.assert_problem(path, *parts)
         (self.root / path).unlink()
 
+    def test_link_lists_follow_the_arrows(self):
+        self.write("calib/CMakeLists.txt", "add_module(calib SOURCES plan.cpp PUBLIC survey site"
+                   " PRIVATE Ceres::ceres)", SPDX.replace("// ", "# "))
+        self.write("calib/README.md", "")
+        self.assert_clean()
+        self.write("calib/CMakeLists.txt", "add_module(calib PUBLIC survey PRIVATE plan)",
+                   SPDX.replace("// ", "# "))
+        self.assert_problem("calib/CMakeLists.txt", "may not link plan")
+
+    def test_nothing_counts_on_the_virtual_drone(self):
+        comment = SPDX.replace("// ", "# ")
+        linked = "target_link_libraries(calib_test PRIVATE simulate)"
+        self.write("tests/calib/CMakeLists.txt", f"if(STUCCO_SIMULATE)\n{linked}\nendif()", comment)
+        self.write("tests/simulate/CMakeLists.txt", "add_module_test(simulate LINK simulate)", comment)
+        self.assert_clean()
+        self.write("tests/calib/CMakeLists.txt", linked, comment)
+        self.assert_problem("tests/calib/CMakeLists.txt", "simulate", "STUCCO_SIMULATE")
+
     def test_a_good_tree_is_clean(self):
         self.include("survey/pose.h", "<Eigen/Core>", "<vector>", '"survey/ids.h"')
         self.include("calib/adjust.h", "<opencv2/core.hpp>", "<opencv2/core/types.hpp>")

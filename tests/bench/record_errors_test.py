@@ -29,6 +29,11 @@ class Faults(unittest.TestCase):
         for record in record_errors.gps_bias(records(3), random.Random(1)):
             self.assertAlmostEqual(moved_m(record), 5, delta=0.01)
 
+    def test_noise_moves_every_position_by_itself(self):
+        moved = [moved_m(r) for r in record_errors.gps_noise(3)(records(1000), random.Random(1))]
+        self.assertAlmostEqual(sum(m * m for m in moved) / 1000, 18, delta=2)
+        self.assertEqual(len(set(moved)), 1000)
+
     def test_a_fifth_of_the_positions_is_wild(self):
         far = [moved_m(r) for r in record_errors.wild_positions(records(1000), random.Random(1))]
         self.assertAlmostEqual(sum(d > 29 for d in far), 200, delta=40)

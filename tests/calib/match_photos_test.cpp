@@ -84,7 +84,9 @@ class MatchPhotos : public testing::Test {
   std::vector<VerifiedPair> Matched() {
     photos_.clear();
     for (const CapturedPhoto& photo : captures_.photos) photos_.push_back(&photo);
-    return MatchAll(options_, {captures_, photos_, guidance_}, features_, context_).verified;
+    repeating_.wall_of.resize(photos_.size());
+    return MatchAll(options_, {captures_, photos_, guidance_}, features_, repeating_, context_)
+        .verified;
   }
 
   // What joins what: (photo, pixel) to (photo, pixel).
@@ -107,6 +109,7 @@ class MatchPhotos : public testing::Test {
   Captures captures_;
   Guidance guidance_;
   DetectedFeatures features_;
+  OnRepeatingWalls repeating_;
   std::vector<Pose> poses_;
   MemoryUnits units_;
   Listener listener_;
@@ -127,6 +130,26 @@ TEST_F(MatchPhotos, JoinsWhatIsFoundInPhotosAndOnTheirWalls) {
   SeeOnWall(b, 0, 100, 160);
   guidance_.wall_pairs = {{a, b, 0}};
   EXPECT_GT(Joins(Matched()).size(), plain + 40);
+}
+
+TEST_F(MatchPhotos, LeavesWallsOutThatRepeatThemselves) {
+  const int a = AddPhoto(SitePose({6, -15, 6}, 5, 0));
+  const int b = AddPhoto(SitePose({13, -15, 6}, -5, 0));
+  SeePlain(a, 0, 60);
+  SeePlain(b, 0, 60);
+  SeeOnWall(a, 0, 100, 160);
+  SeeOnWall(b, 0, 100, 160);
+  guidance_.wall_pairs = {{a, b, 0}};
+  const size_t all = Joins(Matched()).size();
+  repeating_.period_m[0] = 3;
+  const size_t plain = Joins(Matched()).size();
+  EXPECT_LT(plain, all - 40);
+  // The first twenty of one photo lie on it.
+  repeating_.wall_of = {std::vector<int>(features_.plain[a].size(), -1), {}};
+  std::fill_n(repeating_.wall_of[0].begin(), 20, 0);
+  EXPECT_LE(Joins(Matched()).size(), plain - 15);
+  repeating_.wall_of[0].assign(features_.plain[a].size(), 0);
+  EXPECT_TRUE(Matched().empty());
 }
 
 TEST_F(MatchPhotos, CountsAPointOnceThatIsFoundInThePhotoAndOnItsWall) {

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <exiv2/exiv2.hpp>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -117,21 +116,10 @@ std::string MakeDjiPhoto(int seed, double latitude_deg, double longitude_deg, do
        {"drone-dji:RelativeAltitude", "+40.00"}});
 }
 
-TempFolder::TempFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "stucco-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TempFolder::~TempFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 void TempFolder::Write(const std::string& name, const std::string& bytes) const {
-  const std::filesystem::path path = path_ / name;
-  std::filesystem::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary) << bytes;
+  const std::filesystem::path file = path() / name;
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << bytes;
 }
 
 }  // namespace stucco

@@ -6,6 +6,8 @@
 #include <map>
 #include <string>
 
+#include "tests/survey/temporary_folder.h"
+
 namespace stucco {
 
 // A JPEG of blocks whose pattern depends on `seed`, so that different seeds are different photos.
@@ -22,20 +24,10 @@ std::string WithXmpPacket(const std::string& jpeg, const std::string& packet);
 // What a DJI drone writes: position, height, gimbal and camera.
 std::string MakeDjiPhoto(int seed, double latitude_deg, double longitude_deg, double height_m);
 
-// A folder that is removed at the end of the test.
-class TempFolder {
+class TempFolder : public test::TemporaryFolder {
  public:
-  TempFolder();
-  ~TempFolder();
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
   // Writes a file, creating folders on the way.
   void Write(const std::string& name, const std::string& bytes) const;
-
- private:
-  std::filesystem::path path_;
 };
 
 }  // namespace stucco

@@ -10,6 +10,7 @@
 #include "exchange/exchanged_model.h"
 #include "exchange/photo_index.h"
 #include "survey/error.h"
+#include "tests/survey/temporary_folder.h"
 
 namespace stucco {
 
@@ -23,15 +24,16 @@ namespace stucco {
 class RowOfPhotos {
  public:
   RowOfPhotos();
-  ~RowOfPhotos();
-  RowOfPhotos(const RowOfPhotos&) = delete;
-  RowOfPhotos& operator=(const RowOfPhotos&) = delete;
 
   void AddPhoto(const std::string& path, int width_px, int height_px) const;  // below root
   std::filesystem::path Write(const std::string& path, const std::string& text) const;
   PhotoIndex Index() const { return PhotoIndex(root / "photos"); }
 
-  std::filesystem::path root;
+ private:
+  test::TemporaryFolder folder_;
+
+ public:
+  std::filesystem::path root = folder_.path();
 };
 
 inline const Eigen::Vector3d kSeen(11, 1, 5);

@@ -127,18 +127,9 @@ Stage MakeStage(FakeSurvey* owner, const std::string& name, std::vector<std::str
   return stage;
 }
 
-fs::path MakeTemporaryFolder() {
-  std::string name = (fs::temp_directory_path() / "stucco-pipeline-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) {
-    throw std::runtime_error("no temporary folder");
-  }
-  return name;
-}
-
 }  // namespace
 
-FakeSurvey::FakeSurvey()
-    : root(MakeTemporaryFolder()), survey(root / "survey"), photos(root / "photos") {
+FakeSurvey::FakeSurvey() : root(folder.path()), survey(root / "survey"), photos(root / "photos") {
   table = {MakeStage(this, "ingest", {}, {}),
            MakeStage(this, "calib", {"ingest"}, {"ingest/list.txt"}),
            MakeStage(this, "side", {"ingest"}, {"ingest/list.txt"}),
@@ -152,11 +143,6 @@ FakeSurvey::FakeSurvey()
   }
   WriteSettings();
   platform.interrupted = [this] { return interrupted.load(); };
-}
-
-FakeSurvey::~FakeSurvey() {
-  std::error_code ignored;
-  fs::remove_all(root, ignored);
 }
 
 void FakeSurvey::AddPhoto(const std::string& name, int seed) {

@@ -16,6 +16,7 @@
 #include "pipeline/engine/run.h"
 #include "pipeline/engine/stages.h"
 #include "pipeline/engine/status.h"
+#include "tests/survey/temporary_folder.h"
 
 namespace stucco {
 
@@ -27,9 +28,6 @@ namespace stucco {
 class FakeSurvey {
  public:
   FakeSurvey();
-  ~FakeSurvey();
-  FakeSurvey(const FakeSurvey&) = delete;
-  FakeSurvey& operator=(const FakeSurvey&) = delete;
 
   // A JPEG photo whose content depends on `seed`.
   void AddPhoto(const std::string& name, int seed);
@@ -46,6 +44,7 @@ class FakeSurvey {
   std::map<std::string, int> ComputedUnits() const;
   std::vector<std::string> Events(const std::string& event) const;  // raw lines of one kind
 
+  test::TemporaryFolder folder;
   std::filesystem::path root, survey, photos;
   StageTable table;
   // Called in a running stage after its units and before it returns.

@@ -6,14 +6,13 @@
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "plan/map/crs.h"
 #include "plan/map/internal/ogr.h"
+#include "survey/coordinate_system.h"
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/geometry2d.h"
@@ -96,17 +95,6 @@ std::string Block(const std::string& type, const std::string& content) {
 }
 
 }  // namespace
-
-TempFolder::TempFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "stucco_map_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TempFolder::~TempFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
 
 void WriteGeoJson(const std::filesystem::path& path, const std::vector<MadeBuilding>& buildings) {
   Json features = Json::array();

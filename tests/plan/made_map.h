@@ -10,22 +10,11 @@
 
 #include "site/site.h"
 #include "survey/plan_frame.h"
+#include "tests/survey/temporary_folder.h"
 
 namespace stucco::plan {
 
 // A folder of its own for the files of one test, removed with it.
-class TempFolder {
- public:
-  TempFolder();
-  ~TempFolder();
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
 // Where made maps lie: metres east and north of it are positions in the frame of OriginNear.
 inline constexpr Geodetic kMadePlace{50.1, 14.4};
 

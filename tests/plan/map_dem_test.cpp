@@ -6,8 +6,8 @@
 #include <functional>
 #include <random>
 
-#include "plan/map/crs.h"
 #include "plan/map/read_dem.h"
+#include "survey/coordinate_system.h"
 #include "tests/plan/made_map.h"
 
 namespace stucco::plan {
@@ -59,7 +59,7 @@ class ReadDemTest : public testing::TestWithParam<MadeDem> {
     return above;
   }
 
-  TempFolder folder_;
+  test::TemporaryFolder folder_;
   PlanOrigin origin_ = OriginNear(kMadePlace);
   std::vector<float> z_;
   ReadTerrain read_;

@@ -43,7 +43,7 @@ class ObstaclesTest : public testing::Test {
     return {p.x(), p.y(), z};
   }
 
-  TempFolder folder_;
+  test::TemporaryFolder folder_;
   PlanOptions options_;
 };
 

@@ -88,7 +88,7 @@ std::vector<std::string> Described(const Site& site) {
 }
 
 TEST(ReadMap, EveryFormatGivesTheSameSite) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   WriteGeoJson(folder / "map.geojson", Hamlet());
   WriteWithOgr(folder / "map.gpkg", "GPKG", "EPSG:3857", Hamlet());
   WriteWithOgr(folder / "map.shp", "ESRI Shapefile", "EPSG:5514", Hamlet());
@@ -113,7 +113,7 @@ std::vector<std::string> Ids(const RawMap& map) {
 }
 
 TEST(ReadMap, OsmReadsBuildingsAndTheirPartsOnly) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   WriteOsm(folder / "map.osm",
            {{{{Rectangle(0, 0, 20, 10)}}, {{"building", "house"}, {"building:levels", "3"}}},
             {{{Rectangle(0, 0, 10, 10)}},
@@ -137,7 +137,7 @@ TEST(ReadMap, OsmReadsBuildingsAndTheirPartsOnly) {
 }
 
 TEST(ReadMap, OsmAsPbf) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   std::vector<MadeBuilding> buildings = Hamlet();
   buildings[1].outline.rings.resize(1);
   WriteOsm(folder / "map.osm", buildings);
@@ -148,7 +148,7 @@ TEST(ReadMap, OsmAsPbf) {
 }
 
 TEST(ReadMap, HeightAttributesInTheirOrder) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   const Polygon square{{Rectangle(0, 0, 10, 10)}};
   WriteGeoJson(folder / "a.geojson", {{square, {{"hoehe", "7,5"}}},
                                       {square, {{"H", "8"}, {"Height", "9 m"}}},
@@ -181,7 +181,7 @@ TEST(ReadMap, HeightAttributesInTheirOrder) {
 }
 
 TEST(ReadMap, StoreysAndRoofsAreGuesses) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   const Polygon square{{Rectangle(0, 0, 10, 10)}};
   WriteGeoJson(folder / "a.geojson",
                {{square, {{"building:levels", "5"}, {"roof:levels", "1"}}},
@@ -211,7 +211,7 @@ TEST(ReadMap, StoreysAndRoofsAreGuesses) {
 }
 
 TEST(ReadMap, OsmHasRoofs) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   WriteOsm(folder / "map.osm",
            {{{{Rectangle(0, 0, 20, 10)}},
              {{"building", "yes"}, {"building:levels", "3"}, {"roof:height", "5"}}}});
@@ -219,7 +219,7 @@ TEST(ReadMap, OsmHasRoofs) {
 }
 
 TEST(ReadObstacleMap, TakesPointsLinesAndPolygons) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   WriteFile(folder / "a.geojson", R"({"type":"FeatureCollection","features":[
     {"type":"Feature","properties":{"height":"12"},"geometry":{"type":"Point","coordinates":[14,50]}},
     {"type":"Feature","properties":{"height":"8","diameter_crown":"10"},
@@ -245,7 +245,7 @@ TEST(ReadObstacleMap, TakesPointsLinesAndPolygons) {
 }
 
 TEST(ReadMap, NamedAttributesAndLayersMustExist) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   WriteWithOgr(folder / "a.gpkg", "GPKG", "EPSG:32633", Hamlet());
   PlanOptions options;
   options.id_field = "nummer";
@@ -260,7 +260,7 @@ TEST(ReadMap, NamedAttributesAndLayersMustExist) {
 }
 
 TEST(ReadMap, WithoutIdsCountsOrUsesTheRowNumbersOfTheFile) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   const Polygon square{{Rectangle(0, 0, 10, 10)}};
   WriteGeoJson(folder / "a.geojson", {{square, {}}, {square, {}}});
   EXPECT_THAT(Ids(ReadMap(folder / "a.geojson", {})), ElementsAre("B0001", "B0002"));
@@ -276,7 +276,7 @@ TEST(ReadMap, WithoutIdsCountsOrUsesTheRowNumbersOfTheFile) {
 }
 
 TEST(ReadMap, SaysWhatIsNoMapOfAreas) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THAT(Complaint([&] { ReadMap(folder / "none.geojson", {}); }),
               HasSubstr("there is no such file"));
   WriteFile(folder / "text.geojson", "hello");
@@ -303,7 +303,7 @@ TEST(ReadMap, SaysWhatIsNoMapOfAreas) {
 }
 
 TEST(ReadMap, DamagedFilesAreRefused) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   WriteOsm(folder / "a.osm", Hamlet());
   const std::string text = ReadFile(folder / "a.osm");
   WriteFile(folder / "cut.osm", text.substr(0, text.size() / 2));
@@ -331,7 +331,7 @@ constexpr char kParts[] = R"({"type":"CityJSON","version":"1.0",
     [457000,5550010,210],[457010,5550010,210],[457010,5550012,210],[457000,5550012,210]]})";
 
 TEST(ReadCityJson, PartsMakeOneBuilding) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   WriteFile(folder / "a.json", kParts);
   const RawMap map = ReadMap(folder / "a.json", {});
   EXPECT_EQ(map.crs, "EPSG:32633");
@@ -351,7 +351,7 @@ TEST(ReadCityJson, PartsMakeOneBuilding) {
 }
 
 TEST(ReadCityJson, MeasuredHeightUnlessItIsAnElevation) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   const auto with = [&](const std::string& height) {
     std::string text = kParts;
     const std::string parts = "\"children\":[\"tower\",\"wing\",\"bay\"]";
@@ -371,7 +371,7 @@ TEST(ReadCityJson, MeasuredHeightUnlessItIsAnElevation) {
 
 // As in 3D BAG: elevations, of the ground and of shares of the points on the roof.
 TEST(ReadCityJson, TakesTheHighestOfTheHeights) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   const auto heights = [&](const std::string& attributes) {
     std::string text = kParts;
     const std::string house = "\"house\":{";
@@ -388,7 +388,7 @@ TEST(ReadCityJson, TakesTheHighestOfTheHeights) {
 }
 
 TEST(ReadCityJson, RefusesWhatIsNone) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   const auto complaint = [&](const std::string& text) {
     WriteFile(folder / "c.json", text);
     return Complaint([&] { ReadMap(folder / "c.json", {}); });

@@ -64,7 +64,7 @@ class ReadSiteTest : public testing::Test {
     return folder_ / name;
   }
 
-  TempFolder folder_;
+  test::TemporaryFolder folder_;
   SiteInputs inputs_;
   PlanOptions options_;
 };

@@ -4,11 +4,10 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <ogr_spatialref.h>
-#include <stdlib.h>
 
-#include <memory>
 #include <sstream>
+
+#include "survey/coordinate_system.h"
 
 namespace stucco::plan::test {
 namespace {
@@ -94,13 +93,6 @@ void FlyTwo(Plan& plan) {
   plan.flights.back().parts = {0.5, 0.25, 0.5, 0.25};
 }
 
-OGRSpatialReference Reference(const std::string& proj) {
-  OGRSpatialReference reference;
-  reference.importFromProj4(proj.c_str());
-  reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  return reference;
-}
-
 }  // namespace
 
 Plan MakePlan() {
@@ -132,31 +124,14 @@ Plan MakePlan(double home_z_m) {
 }
 
 Eigen::Vector2d PlanFromLonLat(const Plan& plan, double longitude_deg, double latitude_deg) {
-  const OGRSpatialReference geodetic = Reference("+proj=longlat +datum=WGS84");
-  const OGRSpatialReference frame = Reference(plan.crs);
-  const std::unique_ptr<OGRCoordinateTransformation> transformation(
-      OGRCreateCoordinateTransformation(&geodetic, &frame));
-  double x = longitude_deg;
-  double y = latitude_deg;
-  EXPECT_TRUE(transformation->Transform(1, &x, &y));
-  return {x, y};
+  const std::vector<Geodetic> place = {{latitude_deg, longitude_deg}};
+  return CrsFromGeodetic(plan.crs, place, "plan").front();
 }
 
 MissionOptions Mavic3E() {
   MissionOptions options;
   options.dji = {77, 0, 66};
   return options;
-}
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "stucco-test-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 std::vector<std::vector<std::string>> Table(const std::string& text, char separator) {

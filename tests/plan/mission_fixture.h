@@ -9,6 +9,7 @@
 
 #include "plan/mission/wpml.h"
 #include "survey/plan.h"
+#include "tests/survey/temporary_folder.h"
 
 namespace stucco::plan::test {
 
@@ -23,19 +24,7 @@ Eigen::Vector2d PlanFromLonLat(const Plan& plan, double longitude_deg, double la
 
 MissionOptions Mavic3E();
 
-// A folder of its own, removed afterwards.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using stucco::test::TemporaryFolder;
 
 // Fields of lines separated by `separator`, without quoting.
 std::vector<std::vector<std::string>> Table(const std::string& text, char separator);

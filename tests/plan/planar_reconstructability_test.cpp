@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "plan/planar/reconstructability.h"
+#include "tests/plan/pair_reconstructability.h"
 
 namespace stucco::plan {
 namespace {
@@ -39,16 +39,6 @@ TEST(Reconstructability, ResolutionFallsToNothingAtTheLargestDistance) {
   EXPECT_EQ(ResolutionWeight(200, 80), 0);
 }
 
-TEST(Reconstructability, APairIsTheProductOfItsWeights) {
-  const double angle = 0.35;
-  const double expected =
-      ParallaxWeight(angle) * (1 - 40.0 / 100) * MatchWeight(angle) * std::cos(0.25);
-  EXPECT_NEAR(PairReconstructability(kOrigin, kUp, At(40, -0.1), At(30, 0.25), 100), expected,
-              1e-12);
-  EXPECT_NEAR(PairReconstructability(kOrigin, kUp, At(30, 0.25), At(40, -0.1), 100), expected,
-              1e-12);
-}
-
 TEST(Reconstructability, IsBestAtAboutTwentyDegreesOfParallax) {
   double best = 0, best_angle = 0;
   for (double angle = 0; angle < kPi / 2; angle += 0.005) {
@@ -60,13 +50,6 @@ TEST(Reconstructability, IsBestAtAboutTwentyDegreesOfParallax) {
     }
   }
   EXPECT_NEAR(best_angle * 180 / kPi, 20, 3);
-}
-
-TEST(Reconstructability, IsNothingBehindTheSurfaceTooFarOrAtThePoint) {
-  EXPECT_EQ(PairReconstructability(kOrigin, -kUp, At(30, 0), At(30, 0.3), 100), 0);
-  EXPECT_EQ(PairReconstructability(kOrigin, kUp, At(30, kPi / 2 + 0.01), At(30, 1.3), 100), 0);
-  EXPECT_EQ(PairReconstructability(kOrigin, kUp, At(30, 0), At(100.1, 0.3), 100), 0);
-  EXPECT_EQ(PairReconstructability(kOrigin, kUp, kOrigin, At(30, 0.3), 100), 0);
 }
 
 TEST(GoodPair, IsAPairWithTheNormalBetweenItsRays) {

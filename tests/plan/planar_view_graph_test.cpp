@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "plan/planar/grid_hovers.h"
-#include "plan/planar/reconstructability.h"
 #include "plan/planar/view_graph.h"
+#include "tests/plan/pair_reconstructability.h"
 #include "tests/site/made_site.h"
 
 namespace stucco::plan {

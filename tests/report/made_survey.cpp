@@ -6,9 +6,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <cstdlib>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 
 #include "survey/colmap_io.h"
 #include "survey/image.h"
@@ -260,17 +258,6 @@ void WriteSurvey(const MadeSurvey& made, const std::filesystem::path& survey) {
     if (!texture.image.empty()) WritePictures(texture, kind, survey / "texture");
     ++kind;
   }
-}
-
-TempFolder::TempFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "stucco-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TempFolder::~TempFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace stucco

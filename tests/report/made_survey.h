@@ -12,6 +12,7 @@
 #include "survey/proxy.h"
 #include "survey/reconstruction.h"
 #include "survey/texture_set.h"
+#include "tests/survey/temporary_folder.h"
 
 namespace stucco {
 
@@ -35,18 +36,5 @@ MadeSurvey MakeSurvey(const MadeSurveyOptions& options = {});
 
 // Writes every result, and pictures of walls with windows and label maps for the textures.
 void WriteSurvey(const MadeSurvey& made, const std::filesystem::path& survey);
-
-// A folder that is removed at the end of the test.
-class TempFolder {
- public:
-  TempFolder();
-  ~TempFolder();
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace stucco

@@ -30,7 +30,7 @@ class Outputs : public testing::Test {
     return Json::parse(ReportJson(data_, rows_, options));
   }
 
-  TempFolder folder_;
+  test::TemporaryFolder folder_;
   SurveyData data_;
   std::vector<FacetRow> rows_;
 };

@@ -27,7 +27,7 @@ class Pictures : public testing::Test {
     return MakeFacetPictures(row_, folder_.path() / "texture", picture_px);
   }
 
-  TempFolder folder_;
+  test::TemporaryFolder folder_;
   MadeSurvey made_ = MakeSurvey();
   FacetRow row_;
 };

@@ -35,7 +35,7 @@ class Report : public testing::Test {
   std::string Page() { return Output("report.html"); }
   nlohmann::json Json() { return nlohmann::json::parse(Output("report.json")); }
 
-  TempFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 size_t CountOf(const std::string& text, const std::string& part) {
@@ -361,7 +361,7 @@ TEST_F(Report, BytesDependOnTheSurveyAlone) {
   EXPECT_FALSE(Has(page, folder_.path().string()));
   Run({}, {}, 4);
   EXPECT_EQ(Page(), page);
-  const TempFolder elsewhere;
+  const test::TemporaryFolder elsewhere;
   WriteSurvey(made, elsewhere.path());
   StageContext context;
   context.survey = context.out = elsewhere.path();

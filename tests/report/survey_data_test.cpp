@@ -28,7 +28,7 @@ StageStatus Status(std::string stage, std::string state, std::string why = {}) {
 }
 
 TEST(LoadSurvey, ReadsEverything) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   WriteSurvey(MakeSurvey(), folder.path());
   const SurveyData data = LoadSurvey(folder.path(), {Status("ingest", "done")});
   EXPECT_TRUE(data.captures && data.calibration && data.georef && data.proxy && data.textures);
@@ -39,7 +39,7 @@ TEST(LoadSurvey, ReadsEverything) {
 }
 
 TEST(LoadSurvey, AnEmptyFolderIsASurveyThatHasNotRun) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   const SurveyData data = LoadSurvey(folder.path(), {});
   EXPECT_FALSE(data.captures || data.calibration || data.proxy || data.textures);
   EXPECT_FALSE(data.metric);
@@ -51,7 +51,7 @@ TEST(LoadSurvey, AnEmptyFolderIsASurveyThatHasNotRun) {
 }
 
 TEST(LoadSurvey, DamagedResultsAreNamedWithoutTheFolder) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   WriteSurvey(MakeSurvey(), folder.path());
   std::ofstream(folder.path() / kFacetsFile) << "{ \"version\": 1, \"buil";
   std::ofstream(folder.path() / kSparseFolder / "images.bin") << "x";
@@ -70,7 +70,7 @@ TEST(LoadSurvey, DamagedResultsAreNamedWithoutTheFolder) {
 TEST(LoadSurvey, IsMetricOnlyWhenNothingContradicts) {
   for (const bool georef : {false, true}) {
     for (const bool proxy : {false, true}) {
-      const TempFolder folder;
+      const test::TemporaryFolder folder;
       MadeSurvey made = MakeSurvey();
       made.georef.metric = georef;
       made.proxy.metric = proxy;
@@ -93,7 +93,7 @@ TEST(FindAttention, FailuresComeFirst) {
 }
 
 TEST(LoadSurvey, TheReportDoesNotReportItself) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   const SurveyData data = LoadSurvey(folder.path(), {Status("report", "missing")});
   EXPECT_THAT(data.statuses, IsEmpty());
 }

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/texture/synthetic.h"
 
-#include <stdlib.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -156,17 +154,6 @@ double Psnr(const Image& a, const Image& b, const std::vector<uint8_t>& mask) {
     ++count;
   }
   return 10 * std::log10(255.0 * 255.0 * count / std::max(1e-9, sum));
-}
-
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "stucco-texture-XXXXXX").string();
-  if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
-  path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace stucco::testing

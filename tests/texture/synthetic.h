@@ -12,6 +12,7 @@
 #include "survey/image.h"
 #include "survey/proxy.h"
 #include "survey/survey_photo.h"
+#include "tests/survey/temporary_folder.h"
 #include "texture/grid.h"
 
 namespace stucco::testing {
@@ -52,15 +53,6 @@ Image WallPicture(const TexelGrid& grid);
 // Peak signal-to-noise ratio in decibels over texels whose `mask` is not zero (all without one).
 double Psnr(const Image& a, const Image& b, const std::vector<uint8_t>& mask = {});
 
-// A folder that is removed with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using test::TemporaryFolder;
 
 }  // namespace stucco::testing

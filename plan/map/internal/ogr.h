@@ -14,16 +14,6 @@
 
 namespace stucco::plan::internal {
 
-// While it lives, GDAL keeps what it has to say to itself; Message() is the last of it.
-class QuietGdal {
- public:
-  QuietGdal();
-  ~QuietGdal();
-  QuietGdal(const QuietGdal&) = delete;
-  QuietGdal& operator=(const QuietGdal&) = delete;
-  static std::string Message();
-};
-
 // Opens with GDAL_OF_* flags and "KEY=VALUE" options of the driver. Throws Error (kBadInput).
 GDALDatasetUniquePtr OpenDataset(const std::filesystem::path& path, unsigned flags,
                                  const std::vector<std::string>& options = {});

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "plan/map/crs.h"
+#include "survey/coordinate_system.h"
 #include "survey/error.h"
 
 namespace stucco {
@@ -22,7 +22,7 @@ Reconstruction OnMap(const std::string& crs, double metre) {
   Reconstruction model;
   const std::vector<Geodetic> places = {{kLatitude_deg, kLongitude_deg},
                                         {kLatitude_deg + 0.001, kLongitude_deg + 0.002}};
-  const auto at = plan::CrsFromGeodetic(crs, places, "test");
+  const auto at = CrsFromGeodetic(crs, places, "test");
   Eigen::Matrix3d rotation;
   rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   for (uint32_t i = 0; i < 2; ++i) {

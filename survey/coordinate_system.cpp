@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plan/map/crs.h"
+#include "survey/coordinate_system.h"
 
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <memory>
 
-#include "plan/map/internal/ogr.h"
 #include "survey/error.h"
+#include "survey/quiet_gdal.h"
 
-namespace stucco::plan {
+namespace stucco {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -23,10 +24,16 @@ struct DestroyTransformation {
   }
 };
 
-// Heights are dropped: footprints have none of their own.
 bool Read(const std::string& crs, OGRSpatialReference& reference) {
-  const internal::QuietGdal quiet;
-  if (reference.SetFromUserInput(crs.c_str()) != OGRERR_NONE) return false;
+  const QuietGdal quiet;
+  return reference.SetFromUserInput(crs.c_str(),
+                                    OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) ==
+         OGRERR_NONE;
+}
+
+// Heights are dropped: what a geoid model would add depends on the grids that a machine has.
+bool ReadHorizontal(const std::string& crs, OGRSpatialReference& reference) {
+  if (!Read(crs, reference)) return false;
   reference.DemoteTo2D(nullptr);
   reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return true;
@@ -37,15 +44,15 @@ void Transform(const std::string& from, const std::string& to, const std::string
                std::vector<double>& x, std::vector<double>& y) {
   OGRSpatialReference source;
   OGRSpatialReference target;
-  const internal::QuietGdal quiet;
-  const bool known = Read(from, source) && Read(to, target);
+  const QuietGdal quiet;
+  const bool known = ReadHorizontal(from, source) && ReadHorizontal(to, target);
   const std::unique_ptr<OGRCoordinateTransformation, DestroyTransformation> transformation(
       known ? OGRCreateCoordinateTransformation(&source, &target) : nullptr);
   if (!transformation) {
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: its coordinate system cannot be used: {}", file,
-                            internal::QuietGdal::Message()),
-                "name another with --map-crs, or save the map in WGS 84 (EPSG:4326)");
+    throw Error(
+        ErrorKind::kBadInput,
+        fmt::format("{}: its coordinate system cannot be used: {}", file, QuietGdal::Message()),
+        "export it in another, such as WGS 84 (EPSG:4326) or UTM");
   }
   std::vector<int> succeeded(x.size(), FALSE);
   transformation->Transform(static_cast<int>(x.size()), x.data(), y.data(), nullptr,
@@ -69,6 +76,18 @@ bool IsCrsOnEarth(const std::string& crs) {
 bool IsCrsGeographic(const std::string& crs) {
   OGRSpatialReference reference;
   return Read(crs, reference) && reference.IsGeographic();
+}
+
+CrsUnits UnitsOfCrs(const std::string& crs) {
+  assert(IsCrsOnEarth(crs));
+  OGRSpatialReference reference;
+  Read(crs, reference);
+  CrsUnits units;
+  if (reference.IsProjected()) units.horizontal_m = reference.GetLinearUnits();
+  if (reference.GetAxesCount() < 3) return units;
+  units.vertical_m =
+      reference.IsCompound() ? reference.GetTargetLinearUnits("VERT_CS") : units.horizontal_m;
+  return units;
 }
 
 std::vector<Geodetic> GeodeticFromCrs(const std::string& crs,
@@ -101,4 +120,4 @@ std::vector<Eigen::Vector2d> CrsFromGeodetic(const std::string& crs,
   return result;
 }
 
-}  // namespace stucco::plan
+}  // namespace stucco

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/coordinate_system.h"
+#include "calib/surveyed_places.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ void ExpectGraz(const std::string& crs, const Eigen::Vector3d& point, double hei
   EXPECT_NEAR(places.places[0]->height_m, height_m, 1e-6);
 }
 
-TEST(CoordinateSystem, KnowsTheUsualNames) {
+TEST(SurveyedPlaces, KnowsTheUsualNames) {
   const Eigen::Vector3d utm(533181.4, 5213780.2, 470);
   ExpectGraz("EPSG:32633", utm, 470);
   ExpectGraz("EPSG:25833", utm, 470);
@@ -35,14 +35,14 @@ TEST(CoordinateSystem, KnowsTheUsualNames) {
   ExpectGraz("EPSG:4979", {15.4371, 47.0767, 470}, 470);
 }
 
-TEST(CoordinateSystem, SouthernZones) {
+TEST(SurveyedPlaces, SouthernZones) {
   const PlacesOnEarth places = Places("WGS84 UTM 56S", {334368.6, 6252084.0, 5});
   ASSERT_TRUE(places.places[0]);
   EXPECT_NEAR(places.places[0]->latitude_deg, -33.857, 1e-2);
   EXPECT_NEAR(places.places[0]->longitude_deg, 151.21, 1e-2);
 }
 
-TEST(CoordinateSystem, HeightsStayAsTheyAre) {
+TEST(SurveyedPlaces, HeightsStayAsTheyAre) {
   // A height above the sea is not made one above the ellipsoid, whatever grids there are.
   const PlacesOnEarth places = Places("EPSG:25832+7837", {500000, 5500000, 312.5});
   ASSERT_TRUE(places.places[0]);
@@ -50,7 +50,7 @@ TEST(CoordinateSystem, HeightsStayAsTheyAre) {
   EXPECT_TRUE(places.doubt.empty());
 }
 
-TEST(CoordinateSystem, FeetOfAVerticalAxisBecomeMetres) {
+TEST(SurveyedPlaces, FeetOfAVerticalAxisBecomeMetres) {
   const PlacesOnEarth places = Places("EPSG:2263+6360", {981000, 200000, 100});
   ASSERT_TRUE(places.places[0]);
   EXPECT_NEAR(places.places[0]->height_m, 30.48, 0.001);
@@ -58,13 +58,13 @@ TEST(CoordinateSystem, FeetOfAVerticalAxisBecomeMetres) {
   EXPECT_TRUE(places.doubt.empty());
 }
 
-TEST(CoordinateSystem, DoubtsHeightsBesideFeet) {
+TEST(SurveyedPlaces, DoubtsHeightsBesideFeet) {
   const PlacesOnEarth places = Places("EPSG:2263", {981000, 200000, 100});
   EXPECT_EQ(places.places[0]->height_m, 100);
   EXPECT_NE(places.doubt.find("taken as metres"), std::string::npos);
 }
 
-TEST(CoordinateSystem, RefusesWhatIsNone) {
+TEST(SurveyedPlaces, RefusesWhatIsNone) {
   for (const char* crs :
        {"UTM zone 33", "EPSG:1", "WGS84 UTM 61N", "WGS84 UTM 33X", "hello", "/etc/passwd",
         "http://localhost/crs", "LOCAL_CS[\"plant\",UNIT[\"metre\",1]]"}) {
@@ -73,7 +73,7 @@ TEST(CoordinateSystem, RefusesWhatIsNone) {
   }
 }
 
-TEST(CoordinateSystem, PointsOfNoPlaceAreNone) {
+TEST(SurveyedPlaces, PointsOfNoPlaceAreNone) {
   EXPECT_FALSE(Places("EPSG:4326", {47.0, 154.0, 1}).places[0]);  // latitude of 154 degrees
   EXPECT_FALSE(Places("EPSG:32633", {1e12, 1e12, 1}).places[0]);
 }

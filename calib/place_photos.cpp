@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/place_photos.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+
+#include "calib/as_model.h"
+#include "calib/contradictions.h"
+#include "calib/focal.h"
+#include "calib/georeference.h"
+#include "calib/known_poses.h"
+#include "calib/match_again.h"
+#include "calib/start_from_records.h"
+#include "calib/tracks.h"
+#include "survey/plan_of_survey.h"
+
+namespace stucco {
+namespace {
+
+constexpr int kMostRounds = 2;
+
+// Without tracks.
+Scene MakeScene(const CalibOptions& options, const UsablePhotos& photos,
+                const DetectedFeatures& features) {
+  Scene scene;
+  for (const CapturedCamera& captured : photos.captures.cameras) {
+    // What was given as the truth keeps its own model; the rest is calibrated with the wished one.
+    CameraModel model = *CameraModelFromName(options.camera_model);
+    if (captured.fixed && captured.intrinsics.params.size() > ParameterNames(model).size()) {
+      model = captured.intrinsics.model;
+    }
+    const Camera camera = AsModel(captured.intrinsics, model);
+    scene.cameras.push_back({camera, camera, FocalSigmaRatio(captured)});
+  }
+  for (size_t i = 0; i < photos.usable.size(); ++i) {
+    ScenePhoto photo;
+    photo.name = photos.usable[i]->path;
+    photo.camera = photos.usable[i]->camera;
+    photo.keypoint_sigma_px = DetectionScale(options, *photos.usable[i]);
+    Features all = features.AllOf(static_cast<int>(i));
+    for (const Keypoint& k : all.keypoints) photo.keypoints.emplace_back(k.x, k.y);
+    photo.colors = std::move(all.colors);
+    scene.photos.push_back(std::move(photo));
+  }
+  return scene;
+}
+
+void AddTracks(const std::vector<VerifiedPair>& pairs, Scene& scene) {
+  std::vector<size_t> num_keypoints;
+  num_keypoints.reserve(scene.photos.size());
+  for (const ScenePhoto& photo : scene.photos) num_keypoints.push_back(photo.keypoints.size());
+  std::vector<PhotoPair> matches;
+  matches.reserve(pairs.size());
+  for (const VerifiedPair& pair : pairs) matches.push_back(pair.pair);
+  scene.tracks = BuildTracks(num_keypoints, std::move(matches));
+  IndexTracks(scene);
+}
+
+void QuestionPairs(const Guidance& guidance, const Scene& scene, const StageContext& context,
+                   std::vector<VerifiedPair>& pairs) {
+  if (!guidance.views) return;
+  const int dropped = DropContradictions(*guidance.views, scene, pairs);
+  if (dropped == 0) return;
+  context.progress->Note(fmt::format(
+      "{} pairs of photos are not used: their matches contradict the plan, as those of something "
+      "that repeats itself do",
+      dropped));
+}
+
+// Cameras whose metadata say nothing get a focal length from the epipolar geometries of their
+// photos.
+void GuessFocalLengths(const UsablePhotos& photos, const std::vector<VerifiedPair>& pairs,
+                       const StageContext& context, Scene& scene) {
+  for (size_t c = 0; c < scene.cameras.size(); ++c) {
+    if (photos.captures.cameras[c].focal_source != "default") continue;
+    std::vector<FocalEvidence> evidence;
+    for (const VerifiedPair& pair : pairs) {
+      const bool of_this_camera = scene.photos[pair.pair.first].camera == static_cast<int>(c) &&
+                                  scene.photos[pair.pair.second].camera == static_cast<int>(c);
+      const bool is_plane = pair.geometry.num_homography > 0.7 * pair.geometry.num_fundamental;
+      if (!of_this_camera || is_plane || pair.geometry.num_fundamental < 50) continue;
+      evidence.push_back({pair.geometry.fundamental, pair.geometry.num_fundamental});
+    }
+    SceneCamera& camera = scene.cameras[c];
+    const auto focal =
+        FocalFromFundamentals(evidence, camera.prior.width_px, camera.prior.height_px);
+    if (!focal) continue;
+    context.progress->Note(
+        fmt::format("{}: no focal length in the metadata; {} pairs of photos say {:.0f} px",
+                    photos.captures.cameras[c].label, evidence.size(), *focal));
+    for (Camera* each : {&camera.prior, &camera.intrinsics})
+      each->params[0] = each->params[1] = *focal;
+  }
+}
+
+// Why the photos' own positions do not hold the frame; empty where nobody needs to know.
+std::string WhyNoFrame(const UsablePhotos& photos, bool plan_holds_it) {
+  int positions = 0;
+  int heights = 0;
+  for (const CapturedPhoto* photo : photos.usable) {
+    positions += photo->position.has_value();
+    heights += photo->position && photo->position->has_height;
+  }
+  if (heights > 0) return "";
+  if (positions == 0) {
+    return plan_holds_it
+               ? "the photos do not say where they were taken: they begin where the plan wanted "
+                 "them, and the model lies where the plan's map does, to some metres"
+               : "";
+  }
+  return plan_holds_it
+             ? "the photos' positions have no heights: those of the plan took their place"
+             : "the photos' positions have no heights and are not used; switch heights on in the "
+               "camera, or run with the plan";
+}
+
+Reconstructed ReadRecordsOf(const CalibOptions& options, const UsablePhotos& photos,
+                            const Guidance& guidance, const StageContext& context, Scene& scene) {
+  Reconstructed result;
+  const std::optional<Plan> plan = PlanOfSurvey(context);
+  if (options.use_positions) result.frame = FrameFromPositions(photos.usable, scene);
+  const bool by_plan = options.use_positions && !result.frame && guidance.views;
+  if (by_plan) result.frame = FrameFromPlan(plan->origin, guidance.views->poses, scene);
+  if (options.use_positions && (by_plan || !result.frame)) {
+    result.finding = WhyNoFrame(photos, result.frame.has_value());
+  }
+  result.records = ReadRecords(photos.usable, plan ? &*plan : nullptr, scene);
+  for (size_t i = 0; by_plan && i < result.records.size(); ++i) {
+    const std::optional<Pose>& expected = guidance.views->poses[i];
+    if (expected && !result.records[i].gimbal) result.records[i].gimbal = expected->rotation;
+  }
+  return result;
+}
+
+// Photos at their records first, corrected by their matches; what has no record, or where records
+// are of no use, one photo after the other.
+void PlaceOnce(MapperOptions mapper, const std::vector<VerifiedPair>& pairs,
+               const StageContext& context, Reconstructed& from, Scene& scene) {
+  if (from.frame) {
+    const RecordsStart start = StartFromRecords(mapper, pairs, from.records, context, scene);
+    from.is_in_frame = start.usable;
+    if (!start.why_not.empty()) {
+      context.progress->Note(
+          fmt::format("photos are placed one after the other: {}", start.why_not));
+    }
+  }
+  if (from.is_in_frame) {
+    mapper.use_priors = true;
+    GrowOn(mapper, context, scene);
+  } else {
+    Reconstruct(mapper, pairs, context, scene);
+  }
+}
+
+// Chooses what the pairs say, and gives photos poses by it. Requires a scene without tracks.
+Reconstructed PlaceMatched(const PlaceInput& input, std::vector<VerifiedPair>& pairs,
+                           Scene& scene) {
+  QuestionPairs(input.guidance, scene, input.context, pairs);
+  AddTracks(pairs, scene);
+  for (VerifiedPair& pair : pairs) ClassifyMotion(scene, input.mapper.max_error_sigmas, pair);
+  Reconstructed placed =
+      ReadRecordsOf(input.options, input.photos, input.guidance, input.context, scene);
+  PlaceOnce(input.mapper, pairs, input.context, placed, scene);
+  return placed;
+}
+
+void NoteRepeating(const Guidance& guidance, const OnRepeatingWalls& repeating,
+                   const StageContext& context) {
+  std::vector<std::string> names;
+  for (const auto& [wall, period] : repeating.period_m) {
+    names.push_back(fmt::format("{} every {:.1f} m", guidance.facades[wall].id, period));
+  }
+  context.progress->Note(
+      fmt::format("walls that repeat themselves are matched as far as poses tell bays apart: {}",
+                  fmt::join(names, ", ")));
+}
+
+// Those that hang on what repeats itself are placed once others tell where they are.
+Reconstructed PlaceInRounds(const PlaceInput& input, MatchedPairs& matched, Scene& scene) {
+  const Scene start = scene;
+  MatchedPairs all = matched;
+  Reconstructed placed = PlaceMatched(input, matched.verified, scene);
+  if (!placed.is_in_frame) return placed;
+  NoteRepeating(input.guidance, input.repeating, input.context);
+  const PhotoSet set{input.photos.captures, input.photos.usable, input.guidance};
+  int before = 0;
+  for (int round = 0; round < kMostRounds && NumRegistered(scene) > before; ++round) {
+    before = NumRegistered(scene);
+    ApplyRecords(placed.records, MeasureRecordErrors(placed.records, scene), scene);
+    const auto poses = KnowPoses(input.guidance, placed.records, scene);
+    if (MatchAgain({input.options, set, input.features, input.repeating, poses, input.context},
+                   all) == 0) {
+      break;
+    }
+    matched = all;
+    scene = start;
+    placed = PlaceMatched(input, matched.verified, scene);
+  }
+  return placed;
+}
+
+}  // namespace
+
+Reconstructed PlacePhotos(const PlaceInput& input, MatchedPairs& matched, Scene& scene) {
+  scene = MakeScene(input.options, input.photos, input.features);
+  GuessFocalLengths(input.photos, matched.verified, input.context, scene);
+  if (!input.repeating.period_m.empty()) return PlaceInRounds(input, matched, scene);
+  return PlaceMatched(input, matched.verified, scene);
+}
+
+}  // namespace stucco

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/known_poses.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/calib/made_records.h"
+#include "tests/site/made_plan.h"
+
+namespace stucco::test {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// On both houses' walls and, a tenth of them, anywhere before these.
+std::vector<Vector3d> PointsOnWalls(const Vector2d& off) {
+  std::vector<Vector3d> points;
+  Random random(3);
+  for (const PlannedFacade& wall : TwoHouses().facades) {
+    for (int i = 0; i < 100; ++i) {
+      Vector2d level = wall.a_m + random.Uniform(0, wall.length_m()) * wall.along();
+      if (i % 10 == 0) level += random.Uniform(0, 5) * wall.outwards();
+      level += off;
+      points.emplace_back(level.x(), level.y(), random.Uniform(0, 12));
+    }
+  }
+  return points;
+}
+
+TEST(ShiftOntoWalls, BringsPointsBack) {
+  const std::vector<PlannedFacade> walls = TwoHouses().facades;
+  for (const Vector2d& off : {Vector2d(1.3, -0.7), Vector2d(-4.1, 3.2), Vector2d(0, 0)}) {
+    const Vector2d shift = ShiftOntoWalls(PointsOnWalls(off), walls);
+    EXPECT_LT((shift + off).norm(), 0.1);
+  }
+}
+
+TEST(ShiftOntoWalls, LeavesPointsThatLieOnNone) {
+  std::vector<Vector3d> points = PointsOnWalls({0, 0});
+  for (Vector3d& point : points) point.x() += 200;
+  EXPECT_EQ(ShiftOntoWalls(points, TwoHouses().facades), Vector2d(0, 0));
+  EXPECT_EQ(ShiftOntoWalls({}, TwoHouses().facades), Vector2d(0, 0));
+}
+
+TEST(KnowPoses, TakesTheRecordWhereNoPoseIsSure) {
+  Scene scene = MakeScene({.num_photos = 6, .num_points = 400});
+  const std::vector<PoseRecord> records = MakeRecords(scene, {});
+  ApplyRecords(records, MeasureRecordErrors(records, scene), scene);
+  Guidance guidance;
+  // The plan's frame is the records', 100 m east.
+  std::vector<std::optional<Pose>> expected;
+  for (const PoseRecord& record : records) {
+    const Vector3d center = record.position->position + Vector3d(100, 0, 0);
+    expected.emplace_back(Pose{*record.gimbal, -(*record.gimbal * center)});
+  }
+  guidance.views.emplace(ExpectedViews{expected, {}, {}, Occluders({}, {})});
+  scene.photos[2].pose.reset();
+  scene.photos[3].pose.reset();
+  scene.photos[3].prior.reset();
+  const auto known = KnowPoses(guidance, records, scene);
+  ASSERT_EQ(known.size(), 6U);
+  EXPECT_FALSE(known[3]);
+  ASSERT_TRUE(known[1] && known[2]);
+  EXPECT_LT(known[1]->sigma_m, 0.1);
+  EXPECT_LT(
+      (known[1]->cam_from_plan.Center() - scene.photos[1].pose->Center() - Vector3d(100, 0, 0))
+          .norm(),
+      1e-6);
+  EXPECT_GE(known[2]->sigma_m, scene.photos[2].prior->sigma_horizontal_m);
+  EXPECT_LT(
+      (known[2]->cam_from_plan.Center() - scene.photos[2].prior->position - Vector3d(100, 0, 0))
+          .norm(),
+      1e-6);
+}
+
+}  // namespace
+}  // namespace stucco::test

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/match_again.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/calib/expect/made_site.h"
+#include "tests/calib/made_bays.h"
+#include "tests/site/made_plan.h"
+#include "tests/survey/stage_support.h"
+
+namespace stucco::test {
+namespace {
+
+using Eigen::Vector3d;
+
+// Two photos of a wall whose bays all look the same.
+class MatchAgainTest : public testing::Test {
+ protected:
+  MatchAgainTest() {
+    captures_.cameras.push_back({"key", "Made", SiteCamera(), "option"});
+    guidance_.facades = TwoHouses().facades;
+    context_.progress = &SilentProgress();
+    context_.units = &NoUnits();
+    context_.threads = 2;
+    options_.max_image_px = 1000;
+    repeating_.period_m[0] = 3;
+    for (const Pose& pose : truth_) {
+      CapturedPhoto photo;
+      photo.width_px = SiteCamera().width_px;
+      photo.height_px = SiteCamera().height_px;
+      photo.camera = 0;
+      captures_.photos.push_back(photo);
+      features_.plain.push_back(SeeBays(pose, true));
+      repeating_.wall_of.emplace_back(features_.plain.back().size(), 0);
+    }
+    for (const CapturedPhoto& photo : captures_.photos) photos_.push_back(&photo);
+    matched_.tried = {{0, 1, 0, 0}};
+  }
+
+  // With the second photo known to stand `off` from where it does.
+  int Again(const Vector3d& off, double sigma_m) {
+    const Eigen::Quaterniond& rotation = truth_[1].rotation;
+    const Pose moved{rotation, -(rotation * (truth_[1].Center() + off))};
+    const PhotoSet set{captures_, photos_, guidance_};
+    const std::vector<std::optional<KnownPose>> poses = {KnownPose{truth_[0], 0.05, 1e-3},
+                                                         KnownPose{moved, sigma_m, 1e-3}};
+    return MatchAgain({options_, set, features_, repeating_, poses, context_}, matched_);
+  }
+
+  // Matches that join another bay.
+  int NumWrong() const {
+    int wrong = 0;
+    for (const Match& match : matched_.verified.at(0).pair.matches) {
+      const auto at = [&](int photo, int keypoint) {
+        const WallView view{guidance_.facades[0], {}, {}, truth_[photo]};
+        return PlaceOnWall(features_.plain[photo].keypoints[keypoint], SiteCamera(), view)->along_m;
+      };
+      wrong += std::abs(at(0, match.first) - at(1, match.second)) > 0.1;
+    }
+    return wrong;
+  }
+
+  std::vector<Pose> truth_ = {SitePose({8, -18, 6}, 0, 0), SitePose({13, -15, 8}, -10, -5)};
+  CalibOptions options_;
+  Captures captures_;
+  Guidance guidance_;
+  DetectedFeatures features_;
+  OnRepeatingWalls repeating_;
+  MatchedPairs matched_;
+  StageContext context_;
+
+ private:
+  std::vector<const CapturedPhoto*> photos_;
+};
+
+TEST_F(MatchAgainTest, JoinsTheRightBayWherePosesTellIt) {
+  EXPECT_EQ(Again({0.6, 0, 0.3}, 0.4), 1);
+  ASSERT_EQ(matched_.verified.size(), 1U);
+  EXPECT_GT(matched_.verified[0].pair.matches.size(), 60U);
+  EXPECT_EQ(NumWrong(), 0);
+  EXPECT_GT(matched_.tried[0].num_verified, 60);
+}
+
+TEST_F(MatchAgainTest, ChoosesNoBayWherePosesDoNotTellIt) {
+  EXPECT_EQ(Again({0.6, 0, 0.3}, 2), 0);
+  EXPECT_EQ(Again({1.4, 0, 0}, 0.6), 0);  // about as far from the next
+  EXPECT_TRUE(matched_.verified.empty());
+}
+
+TEST_F(MatchAgainTest, KeepsWhatAPairHas) {
+  Again({0, 0, 0}, 0.1);
+  const std::vector<Match> before = matched_.verified.at(0).pair.matches;
+  EXPECT_EQ(Again({0, 0, 0}, 5), 0);
+  EXPECT_EQ(matched_.verified.at(0).pair.matches, before);
+}
+
+}  // namespace
+}  // namespace stucco::test

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/repeating_walls.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "calib/descriptors.h"
+#include "tests/calib/expect/made_site.h"
+#include "tests/calib/made_bays.h"
+#include "tests/site/made_plan.h"
+#include "tests/survey/stage_support.h"
+
+namespace stucco::test {
+namespace {
+
+const Pose kBefore = SitePose({10, -18, 6}, 0, 0);
+
+WallView ViewFrom(const Pose& pose) {
+  return {TwoHouses().facades[0], {0, 20}, {0, 12}, pose};
+}
+
+WallKeypoints OnWallFrom(const Pose& pose, bool alike) {
+  const Features features = SeeBays(pose, alike);
+  return {UnitDescriptors(features), PlacesOnWall(features, SiteCamera(), ViewFrom(pose))};
+}
+
+TEST(FindRepeats, TellsBaysThatLookTheSame) {
+  const WallRepeats repeats = FindRepeats(OnWallFrom(kBefore, true));
+  EXPECT_GT(repeats.share, 0.9);
+  EXPECT_NEAR(repeats.period_m, 3, 0.05);
+}
+
+TEST(FindRepeats, SeesNothingInBaysThatDiffer) {
+  const WallRepeats repeats = FindRepeats(OnWallFrom(kBefore, false));
+  EXPECT_EQ(repeats.share, 0);
+  EXPECT_EQ(repeats.period_m, 0);
+  EXPECT_EQ(FindRepeats({}).share, 0);
+}
+
+class OnRepeatingWallsTest : public testing::Test {
+ protected:
+  OnRepeatingWallsTest() {
+    captures_.cameras.push_back({"key", "Made", SiteCamera(), "option"});
+    guidance_.facades = TwoHouses().facades;
+  }
+
+  // Three photos that show the wall, plain and rectified.
+  OnRepeatingWalls Find(bool alike) {
+    ExpectInput input{TwoHouses(), {}, {}};
+    for (const double x : {8.0, 10.0, 12.0}) {
+      CapturedPhoto photo;
+      photo.camera = 0;
+      captures_.photos.push_back(photo);
+      const Pose pose = SitePose({x, -18, 6}, 0, 0);
+      input.poses.push_back(pose);
+      input.cameras.push_back(&captures_.cameras[0].intrinsics);
+      features_.plain.push_back(SeeBays(pose, alike));
+      WallRun& run = features_.walls[{static_cast<int>(features_.plain.size()) - 1, 0}];
+      run.features = features_.plain.back();
+      run.places = PlacesOnWall(run.features, SiteCamera(), ViewFrom(pose));
+    }
+    StageContext context;
+    context.threads = 2;
+    guidance_.views = ExpectViews(std::move(input), context);
+    for (const CapturedPhoto& photo : captures_.photos) photos_.push_back(&photo);
+    return FindOnRepeatingWalls({captures_, photos_, guidance_}, features_, 2);
+  }
+
+  Captures captures_;
+  Guidance guidance_;
+  DetectedFeatures features_;
+
+ private:
+  std::vector<const CapturedPhoto*> photos_;
+};
+
+TEST_F(OnRepeatingWallsTest, KnowWhichKeypointsLieOnThem) {
+  const OnRepeatingWalls found = Find(true);
+  ASSERT_EQ(found.period_m.size(), 1U);
+  EXPECT_NEAR(found.period_m.at(0), 3, 0.05);
+  for (int photo = 0; photo < 3; ++photo) {
+    ASSERT_EQ(found.wall_of[photo].size(), features_.plain[photo].size());
+    EXPECT_TRUE(std::ranges::all_of(found.wall_of[photo], [](int wall) { return wall == 0; }));
+    EXPECT_TRUE(found.Shows(photo, 0));
+    EXPECT_TRUE(found.IsMostOf(photo));
+  }
+}
+
+TEST_F(OnRepeatingWallsTest, AreNoneWhereBaysDiffer) {
+  const OnRepeatingWalls found = Find(false);
+  EXPECT_TRUE(found.period_m.empty());
+  ASSERT_EQ(found.wall_of.size(), 3U);
+  EXPECT_FALSE(found.Shows(0, 0));
+  EXPECT_FALSE(found.IsMostOf(0));
+}
+
+TEST_F(OnRepeatingWallsTest, AreNoneWithoutAPlan) {
+  Find(true);
+  guidance_.views.reset();
+  EXPECT_TRUE(FindOnRepeatingWalls({captures_, {}, guidance_}, features_, 1).period_m.empty());
+}
+
+}  // namespace
+}  // namespace stucco::test
