@@ -332,6 +332,7 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   calibration.findings.insert(calibration.findings.begin(), findings.begin(), findings.end());
   SummarizeControl(control, held, surveyed_sigma_m, calibration);
   Write(summary, georeference.georef, std::move(calibration), context);
+  const auto keypoints = CountKeypoints(features, PlacesOfAll(options, set, features));
   WriteFile(context.out / "photos.csv", PhotosCsv(summary, {keypoints, matched.tried, pairs}));
 }
 

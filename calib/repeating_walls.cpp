@@ -170,8 +170,8 @@ std::map<int, double> FindRepeatingWalls(const DetectInput& input,
     std::vector<double> shares;
     std::vector<double> of_photos;
     for (const auto& [photo, run] : runs) {
-      const WallRepeats repeats = FindRepeats(
-          {UnitDescriptors(FeaturesOnWall(input, features, photo, wall)), run->places});
+      const WallRepeats repeats =
+          FindRepeats({UnitDescriptors(FeaturesOnWall(input, features, photo, wall)), run->places});
       shares.push_back(repeats.share);
       if (repeats.period_m > 0) of_photos.push_back(repeats.period_m);
     }
@@ -185,8 +185,7 @@ std::map<int, double> FindRepeatingWalls(const DetectInput& input,
   return repeating;
 }
 
-OnRepeatingWalls FindOnRepeatingWalls(const DetectInput& input,
-                                      const DetectedFeatures& features) {
+OnRepeatingWalls FindOnRepeatingWalls(const DetectInput& input, const DetectedFeatures& features) {
   const PhotoSet& set = input.set;
   OnRepeatingWalls result;
   result.wall_of.resize(set.photos.size());
