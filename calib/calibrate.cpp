@@ -282,9 +282,10 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   const GroundControl control = ReadGroundControl(options, photos.captures, photos.usable, context);
   const Guidance guidance = GuideByPlan(options, photos.captures, photos.usable, context);
   const PhotoSet set{photos.captures, photos.usable, guidance};
-  const DetectedFeatures features = DetectAll(options, set, context);
-  const OnRepeatingWalls repeating = FindOnRepeatingWalls(set, features, context.threads);
+  DetectedFeatures features = DetectAll(options, set, context);
+  const OnRepeatingWalls repeating = FindOnRepeatingWalls({options, set, context}, features);
   MatchedPairs matched = MatchAll(options, set, features, repeating, context);
+  DropDescriptors(features);  // what is matched again reads its own
 
   MapperOptions mapper;
   mapper.min_angle_rad = options.min_angle_deg * kRadians;

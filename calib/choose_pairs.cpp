@@ -3,19 +3,19 @@
 #include "calib/choose_pairs.h"
 
 #include <algorithm>
-#include <cassert>
 #include <optional>
 #include <set>
 
-#include "calib/descriptors.h"
 #include "calib/pairs.h"
 #include "survey/georef.h"
+#include "survey/parallel.h"
 
 namespace stucco {
 namespace {
 
 constexpr int kVocabularyWords = 64;
 constexpr int kSamplesPerPhoto = 200;
+constexpr int kMostSamples = 100000;  // of all photos, enough for so few words
 // Up to this many photos every pair is matched even when a plan says which overlap.
 constexpr int kExhaustiveWithPlan = 20;
 constexpr int kAlikeWithPlan = 5;
@@ -41,19 +41,21 @@ std::vector<std::optional<Eigen::Vector3d>> RoughPositions(
   return positions;
 }
 
-std::vector<std::vector<float>> Signatures(const std::vector<Features>& features) {
+std::vector<std::vector<float>> Signatures(int count,
+                                           const std::function<Features(int)>& features_of,
+                                           int threads) {
+  const int of_photo = std::clamp(kMostSamples / std::max(count, 1), 1, kSamplesPerPhoto);
+  std::vector<std::vector<int16_t>> samples_of(count);
+  ParallelFor(count, threads, [&](size_t i) {
+    samples_of[i] = SampleDescriptors(features_of(static_cast<int>(i)), of_photo);
+  });
   std::vector<int16_t> samples;
-  for (const Features& f : features) {
-    const std::vector<int16_t> rows = UnitDescriptors(f);
-    for (int s = 0; s < kSamplesPerPhoto && f.size() > 0; ++s) {
-      const size_t row = f.size() * s / kSamplesPerPhoto * kDescriptorSize;
-      samples.insert(samples.end(), rows.begin() + row, rows.begin() + row + kDescriptorSize);
-    }
-  }
-  const std::vector<float> words = TrainVocabulary(samples, kVocabularyWords);
-  std::vector<std::vector<float>> signatures;
-  signatures.reserve(features.size());
-  for (const Features& f : features) signatures.push_back(Signature(f, words));
+  for (const auto& rows : samples_of) samples.insert(samples.end(), rows.begin(), rows.end());
+  const std::vector<float> words = TrainVocabulary(samples, kVocabularyWords, threads);
+  std::vector<std::vector<float>> signatures(count);
+  ParallelFor(count, threads, [&](size_t i) {
+    signatures[i] = Signature(features_of(static_cast<int>(i)), words);
+  });
   return signatures;
 }
 
@@ -70,18 +72,22 @@ std::vector<int> PairsPerPhoto(const PhotoPairs& pairs, size_t num_photos) {
 }  // namespace
 
 PairChoice ChoosePairs(const CalibOptions& options, const PhotoSet& set,
-                       const std::vector<Features>& features) {
-  assert(features.size() == set.photos.size());
+                       const std::function<Features(int)>& features_of, int threads) {
   const PhotoPairs& guided = set.guidance.pairs;
   const int count = static_cast<int>(set.photos.size());
   const bool by_plan = !guided.empty() && count > kExhaustiveWithPlan;
   std::vector<std::vector<float>> signatures(count);
-  if (by_plan || count > options.exhaustive_below) signatures = Signatures(features);
-  PhotoPairs likely = SelectPairs({options.exhaustive_below, options.neighbours},
+  if (by_plan || count > options.exhaustive_below) {
+    signatures = Signatures(count, features_of, threads);
+  }
+  PhotoPairs likely = SelectPairs({.exhaustive_below = options.exhaustive_below,
+                                   .neighbours = options.neighbours,
+                                   .threads = threads},
                                   RoughPositions(set.photos), signatures);
   if (!by_plan) return {std::move(likely), false, {}};
   // The plan knows better than nearness what overlaps; looks are there for where it is wrong.
-  const PhotoPairs alike = MostAlike(signatures, std::min(options.neighbours, kAlikeWithPlan));
+  const PhotoPairs alike =
+      MostAlike(signatures, std::min(options.neighbours, kAlikeWithPlan), threads);
   std::set<std::pair<int, int>> pairs(guided.begin(), guided.end());
   pairs.insert(alike.begin(), alike.end());
   const std::vector<int> by_photo = PairsPerPhoto(guided, set.photos.size());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -23,8 +24,9 @@ struct PairChoice {
 
 // All pairs of a small set. Else by the plan, where there is one: those that should overlap, the
 // most similar in appearance, and those near in position of photos of which the plan says little.
-// Without a plan by nearness and appearance (see SelectPairs). `features` are by photo.
+// Without a plan by nearness and appearance (see SelectPairs). `features_of` gives a photo's
+// features with their descriptors, on several threads.
 PairChoice ChoosePairs(const CalibOptions& options, const PhotoSet& set,
-                       const std::vector<Features>& features);
+                       const std::function<Features(int)>& features_of, int threads);
 
 }  // namespace stucco

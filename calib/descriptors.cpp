@@ -13,28 +13,35 @@ int32_t Dot(const int16_t* a, const int16_t* b) {
   return sum;
 }
 
+// One row of any numbers, scaled to unit length. Halves are rounded away from zero, in a way that
+// becomes vector code.
+template <typename T>
+void RoundUnitRow(const T* row, int16_t* out) {
+  double squares = 0;
+  for (int d = 0; d < kDescriptorSize; ++d) squares += static_cast<double>(row[d]) * row[d];
+  const double scale = squares > 0 ? kDescriptorUnit / std::sqrt(squares) : 0;
+  for (int d = 0; d < kDescriptorSize; ++d) {
+    const double value = row[d] * scale;
+    out[d] = static_cast<int16_t>(static_cast<int>(value + (value < 0 ? -0.5 : 0.5)));
+  }
+}
+
 }  // namespace
 
 std::vector<int16_t> UnitRows(const std::vector<float>& rows) {
   std::vector<int16_t> result(rows.size());
   for (size_t row = 0; row < rows.size(); row += kDescriptorSize) {
-    double squares = 0;
-    for (int d = 0; d < kDescriptorSize; ++d) squares += double{rows[row + d]} * rows[row + d];
-    const double scale = squares > 0 ? kDescriptorUnit / std::sqrt(squares) : 0;
-    for (int d = 0; d < kDescriptorSize; ++d) {
-      result[row + d] = static_cast<int16_t>(std::lround(rows[row + d] * scale));
-    }
+    RoundUnitRow(rows.data() + row, result.data() + row);
   }
   return result;
 }
 
 std::vector<int16_t> UnitDescriptors(const Features& features) {
-  std::vector<float> rows;
-  rows.reserve(features.size() * kDescriptorSize);
-  for (const auto& descriptor : features.descriptors) {
-    rows.insert(rows.end(), descriptor.begin(), descriptor.end());
+  std::vector<int16_t> result(features.descriptors.size() * kDescriptorSize);
+  for (size_t i = 0; i < features.descriptors.size(); ++i) {
+    RoundUnitRow(features.descriptors[i].data(), result.data() + i * kDescriptorSize);
   }
-  return UnitRows(rows);
+  return result;
 }
 
 // Compiled for 256-bit vectors too. The compiler turns the inner sums into 16-bit multiply-adds.

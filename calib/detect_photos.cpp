@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <opencv2/core/utility.hpp>
 
 #include "calib/same_place.h"
@@ -19,6 +20,8 @@ constexpr char kFeaturesVersion[] = "features-1";
 constexpr char kWallVersion[] = "wall-2";
 // A rectified wall gets at most this part of the features of a photo.
 constexpr int kWallShare = 4;
+// Descriptors that are kept for matching take at most this part of the memory.
+constexpr int kDescriptorShare = 4;
 // Keypoints this near to each other show the same, pixels of the picture they were detected in: as
 // far as one is off.
 constexpr double kSamePlace_px = 1;
@@ -59,29 +62,54 @@ class LazyPhoto {
   std::optional<Image> image_;
 };
 
-struct WallInput {
-  const CalibOptions& options;
-  const PhotoSet& set;
-  const StageContext& context;
+std::string PlainUnit(const DetectInput& input, int photo, LazyPhoto& pixels) {
+  return ComputeUnit(input.context, "features",
+                     FeaturesKey(input.options, *input.set.photos[photo]),
+                     [&] { return Serialize(pixels.Detect()); });
+}
+
+std::string WallUnit(const DetectInput& input, int photo, int wall, LazyPhoto& pixels) {
+  const Camera& camera = input.set.captures.cameras[input.set.photos[photo]->camera].intrinsics;
+  const WallView& view = input.set.guidance.walls.at({photo, wall}).view;
+  return ComputeUnit(
+      input.context, "features", WallKey(input.options, input.set, photo, wall), [&] {
+        return Serialize(
+            DetectOnWall(pixels.Pixels(), camera, view, input.options.max_features / kWallShare));
+      });
+}
+
+// How much of the memory descriptors may take as long as pairs are matched.
+class Budget {
+ public:
+  explicit Budget(uint64_t bytes) : bytes_(static_cast<int64_t>(bytes)) {}
+
+  void Keep(Features& features) {
+    const auto bytes = static_cast<int64_t>(features.size() * sizeof(features.descriptors[0]));
+    if (bytes_.fetch_sub(bytes) < bytes) features.descriptors = {};
+  }
+
+ private:
+  std::atomic<int64_t> bytes_;
 };
 
 // Fills the photo's runs in `detected`, which must be there already.
-void DetectOnWalls(const WallInput& input, int photo, LazyPhoto& pixels,
+void DetectOnWalls(const DetectInput& input, int photo, LazyPhoto& pixels, Budget& budget,
                    DetectedFeatures& detected) {
   const Camera& camera = input.set.captures.cameras[input.set.photos[photo]->camera].intrinsics;
   size_t begin = detected.plain[photo].size();
   for (auto run = detected.walls.lower_bound({photo, 0});
        run != detected.walls.end() && run->first.first == photo; ++run) {
+    Features features = DeserializeFeatures(WallUnit(input, photo, run->first.second, pixels));
     const WallView& view = input.set.guidance.walls.at(run->first).view;
-    const std::string key = WallKey(input.options, input.set, photo, run->first.second);
-    Features features = DeserializeFeatures(ComputeUnit(input.context, "features", key, [&] {
-      return Serialize(
-          DetectOnWall(pixels.Pixels(), camera, view, input.options.max_features / kWallShare));
-    }));
     std::vector<OnWall> places = PlacesOnWall(features, camera, view);
+    budget.Keep(features);
     run->second = {begin, std::move(features), std::move(places)};
     begin += run->second.places.size();
   }
+}
+
+bool HasDescriptors(const Features& features) {
+  return features.descriptors.size() == features.size();
 }
 
 }  // namespace
@@ -133,20 +161,41 @@ DetectedFeatures DetectAll(const CalibOptions& options, const PhotoSet& set,
                            const StageContext& context) {
   cv::setNumThreads(1);  // photos run side by side instead
   const size_t count = set.photos.size();
+  const DetectInput input{options, set, context};
   DetectedFeatures detected;
   detected.plain.resize(count);
   for (const auto& [photo_and_wall, expected] : set.guidance.walls) detected.walls[photo_and_wall];
+  Budget budget(context.memory_limit_bytes / kDescriptorShare);
   context.progress->Begin("detecting features", count);
   ParallelFor(count, ThreadsWithinMemory(options, set.photos, context), [&](size_t i) {
     context.ThrowIfCancelled();
-    LazyPhoto photo(options, *set.photos[i], context);
-    detected.plain[i] =
-        DeserializeFeatures(ComputeUnit(context, "features", FeaturesKey(options, *set.photos[i]),
-                                        [&] { return Serialize(photo.Detect()); }));
-    DetectOnWalls({options, set, context}, static_cast<int>(i), photo, detected);
+    const int photo = static_cast<int>(i);
+    LazyPhoto pixels(options, *set.photos[i], context);
+    detected.plain[i] = DeserializeFeatures(PlainUnit(input, photo, pixels));
+    budget.Keep(detected.plain[i]);
+    DetectOnWalls(input, photo, pixels, budget, detected);
     context.progress->Advance();
   });
   return detected;
+}
+
+void DropDescriptors(DetectedFeatures& detected) {
+  for (Features& features : detected.plain) features.descriptors = {};
+  for (auto& [photo_and_wall, run] : detected.walls) run.features.descriptors = {};
+}
+
+Features FeaturesOfPhoto(const DetectInput& input, const DetectedFeatures& detected, int photo) {
+  if (HasDescriptors(detected.plain[photo])) return detected.plain[photo];
+  LazyPhoto pixels(input.options, *input.set.photos[photo], input.context);
+  return DeserializeFeatures(PlainUnit(input, photo, pixels));
+}
+
+Features FeaturesOnWall(const DetectInput& input, const DetectedFeatures& detected, int photo,
+                        int wall) {
+  const Features& kept = detected.walls.at({photo, wall}).features;
+  if (HasDescriptors(kept)) return kept;
+  LazyPhoto pixels(input.options, *input.set.photos[photo], input.context);
+  return DeserializeFeatures(WallUnit(input, photo, wall, pixels));
 }
 
 }  // namespace stucco

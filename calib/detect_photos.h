@@ -18,6 +18,13 @@
 
 namespace stucco {
 
+// What is needed to detect features.
+struct DetectInput {
+  const CalibOptions& options;
+  const PhotoSet& set;
+  const StageContext& context;
+};
+
 // What was found in one rectified wall.
 struct WallRun {
   size_t begin = 0;  // index of the first among all keypoints of the photo
@@ -27,6 +34,8 @@ struct WallRun {
 
 // Keypoints of a photo are numbered through: those found in the photo itself, then those of its
 // rectified walls.
+// Descriptors are left out where all of them would take too much memory; FeaturesOfPhoto and
+// FeaturesOnWall read them again.
 struct DetectedFeatures {
   std::vector<Features> plain;                   // by photo
   std::map<std::pair<int, int>, WallRun> walls;  // by (photo, wall)
@@ -38,6 +47,13 @@ struct DetectedFeatures {
 // Features of every photo, checkpointed by content.
 DetectedFeatures DetectAll(const CalibOptions& options, const PhotoSet& set,
                            const StageContext& context);
+
+void DropDescriptors(DetectedFeatures& detected);
+
+// With descriptors, which come from the checkpoint where they were left out.
+Features FeaturesOfPhoto(const DetectInput& input, const DetectedFeatures& detected, int photo);
+Features FeaturesOnWall(const DetectInput& input, const DetectedFeatures& detected, int photo,
+                        int wall);
 
 // By photo and keypoint: the keypoint that stands for its place (FindPlaces). What a rectified wall
 // shows where the photo itself shows it too is one place, and so are the finds of several walls.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 #include "calib/choose_tracks.h"
 #include "calib/points.h"
@@ -35,20 +36,67 @@ TriangulateOptions ForTriangulation(const MapperOptions& options) {
   return {.max_error_sigmas = options.max_error_sigmas, .min_angle_rad = options.min_angle_rad};
 }
 
-void Reset(const Scene& start, Scene& scene) {
-  for (size_t i = 0; i < scene.photos.size(); ++i) scene.photos[i].pose.reset();
-  for (size_t i = 0; i < scene.cameras.size(); ++i) scene.cameras[i] = start.cameras[i];
+void Reset(const std::vector<SceneCamera>& cameras, Scene& scene) {
+  for (ScenePhoto& photo : scene.photos) photo.pose.reset();
+  scene.cameras = cameras;
   for (SceneTrack& track : scene.tracks) ClearPoint(track);
 }
 
+// What of a scene changes while it grows: a small part of it.
+struct Grown {
+  int num_registered = 0;
+  std::vector<SceneCamera> cameras;
+  std::vector<std::optional<Pose>> poses;              // by photo
+  std::vector<std::optional<Eigen::Vector3d>> points;  // by track
+  std::vector<bool> used;                              // elements of all tracks
+};
+
+Grown Remember(const Scene& scene) {
+  Grown grown{NumRegistered(scene), scene.cameras, {}, {}, {}};
+  for (const ScenePhoto& photo : scene.photos) grown.poses.push_back(photo.pose);
+  for (const SceneTrack& track : scene.tracks) {
+    grown.points.push_back(track.position);
+    for (const SceneElement& element : track.elements) grown.used.push_back(element.used);
+  }
+  return grown;
+}
+
+void Recall(const Grown& grown, Scene& scene) {
+  scene.cameras = grown.cameras;
+  for (size_t i = 0; i < scene.photos.size(); ++i) scene.photos[i].pose = grown.poses[i];
+  auto used = grown.used.begin();
+  for (size_t t = 0; t < scene.tracks.size(); ++t) {
+    scene.tracks[t].position = grown.points[t];
+    for (SceneElement& element : scene.tracks[t].elements) element.used = *used++;
+  }
+}
+
+// How many points each photo's keypoints belong to, as NumVisiblePoints counts them. Counted on
+// while photos are added: counting anew for each makes the time grow with the square of photos.
+class VisiblePoints {
+ public:
+  explicit VisiblePoints(const Scene& scene) : count_(scene.photos.size(), 0) {
+    for (const SceneTrack& track : scene.tracks) {
+      if (track.position) Add(track);
+    }
+  }
+  void Add(const SceneTrack& track) {
+    for (const SceneElement& element : track.elements) ++count_[element.photo];
+  }
+  int Of(int photo) const { return count_[photo]; }
+
+ private:
+  std::vector<int> count_;
+};
+
 // Lets a newly registered photo take part: its keypoints join the points they agree with, and
 // tracks that had too few photos so far are triangulated.
-void ConnectPhoto(const MapperOptions& options, int photo, Scene& scene) {
+void ConnectPhoto(const MapperOptions& options, int photo, VisiblePoints& visible, Scene& scene) {
   for (const int index : scene.tracks_of_photo[photo]) {
     if (index < 0) continue;
     SceneTrack& track = scene.tracks[index];
     if (!track.position) {
-      TriangulateTrack(scene, ForTriangulation(options), track);
+      if (TriangulateTrack(scene, ForTriangulation(options), track)) visible.Add(track);
       continue;
     }
     for (SceneElement& element : track.elements) {
@@ -166,11 +214,12 @@ struct Attempts {
 
 // The photo without a pose that has the best view of the points so far; -1 when none sees enough.
 // Only the photos that see most points are compared by how these spread over the picture.
-int NextPhoto(const MapperOptions& options, const Scene& scene, const Attempts& attempts) {
+int NextPhoto(const MapperOptions& options, const Scene& scene, const Attempts& attempts,
+              const VisiblePoints& visible) {
   std::vector<std::pair<int, int>> candidates;  // (-points, photo)
   for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
     if (scene.photos[i].pose || !attempts.MayTry(i)) continue;
-    const int points = NumVisiblePoints(scene, i);
+    const int points = visible.Of(i);
     if (points >= options.min_inliers) candidates.emplace_back(-points, i);
   }
   const size_t count = std::min(candidates.size(), kCompared);
@@ -189,35 +238,38 @@ int NextPhoto(const MapperOptions& options, const Scene& scene, const Attempts& 
 }
 
 // Gives a photo a pose when enough of what it should see agrees on one.
-bool Register(const MapperOptions& options, int photo, Scene& scene) {
+bool Register(const MapperOptions& options, int photo, VisiblePoints& visible, Scene& scene) {
   const double limit_px = 2 * options.max_error_sigmas * scene.photos[photo].keypoint_sigma_px;
   const auto resection = Resect(scene, photo, limit_px, options.min_inliers);
   // A pose that explains only a small part of what the photo should see is a wrong one.
   if (!resection || resection->num_inliers < 0.2 * resection->num_points) return false;
   scene.photos[photo].pose = resection->cam_from_world;
-  ConnectPhoto(options, photo, scene);
+  ConnectPhoto(options, photo, visible, scene);
   return true;
 }
 
 void Grow(const MapperOptions& options, const StageContext& context, Scene& scene) {
   int registered_at_last_global = NumRegistered(scene);
   Attempts attempts(scene.photos.size());
+  VisiblePoints visible(scene);
   bool grew = false;  // since photos were last forgiven
   while (true) {
     context.ThrowIfCancelled();
-    const int photo = NextPhoto(options, scene, attempts);
+    const int photo = NextPhoto(options, scene, attempts, visible);
     if (photo < 0) {
       if (!grew) return;
       attempts.ForgiveRefused();
       grew = false;
       AdjustEverything(options, scene);
+      visible = VisiblePoints(scene);
       continue;
     }
     ++attempts.count[photo];
-    if (Register(options, photo, scene)) {
+    if (Register(options, photo, visible, scene)) {
       const int registered = NumRegistered(scene);
       if (registered <= 6 || registered >= registered_at_last_global * kGlobalGrowth) {
         AdjustEverything(options, scene);
+        visible = VisiblePoints(scene);
         registered_at_last_global = NumRegistered(scene);
       } else {
         AdjustAround(options, photo, scene);
@@ -353,27 +405,28 @@ std::vector<Component> Components(size_t num_photos, const std::vector<VerifiedP
 struct GrowInput {
   const MapperOptions& options;
   const StageContext& context;
-  const Scene& start;
+  const std::vector<SceneCamera>& cameras;  // at the start
 };
 
 // Grows from initial pairs of a component until one explains most of it. Keeps the largest result
 // in `best`; returns the number of pairs tried.
-int GrowComponent(const GrowInput& input, const Component& component, Scene& scene, Scene& best) {
+int GrowComponent(const GrowInput& input, const Component& component, Scene& scene, Grown& best) {
   const MapperOptions& options = input.options;
   std::vector<bool> registered(scene.photos.size(), false);  // from any pair so far
   int num_tried = 0;
-  for (const InitialPair& pair : FindInitialPairs(
-           input.start, component.pairs, options.max_error_sigmas, options.max_initial_pairs)) {
+  Reset(input.cameras, scene);
+  for (const InitialPair& pair : FindInitialPairs(scene, component.pairs, options.max_error_sigmas,
+                                                  options.max_initial_pairs)) {
     if (registered[pair.first] && registered[pair.second])
       continue;  // it would give the same again
     ++num_tried;
-    Reset(input.start, scene);
+    Reset(input.cameras, scene);
     if (!StartFrom(options, pair, scene)) continue;
     Grow(options, input.context, scene);
     for (size_t i = 0; i < registered.size(); ++i) {
       registered[i] = registered[i] || scene.photos[i].pose;
     }
-    if (NumRegistered(scene) > NumRegistered(best)) best = scene;
+    if (NumRegistered(scene) > best.num_registered) best = Remember(scene);
     if (NumRegistered(scene) >= 0.9 * component.num_photos) break;
   }
   return num_tried;
@@ -400,16 +453,16 @@ void GrowOn(const MapperOptions& options, const StageContext& context, Scene& sc
 MapReport Reconstruct(const MapperOptions& options, const std::vector<VerifiedPair>& pairs,
                       const StageContext& context, Scene& scene) {
   assert(IsConsistent(scene) && scene.tracks_of_photo.size() == scene.photos.size());
-  const Scene start = scene;
-  Scene best = scene;
+  const std::vector<SceneCamera> cameras = scene.cameras;
+  Grown best = Remember(scene);
   MapReport report;
   context.progress->Begin("placing photos", scene.photos.size());
   for (const Component& component : Components(scene.photos.size(), pairs)) {
-    if (component.num_photos <= NumRegistered(best)) break;  // the largest comes first
+    if (component.num_photos <= best.num_registered) break;  // the largest comes first
     report.num_initial_pairs_tried +=
-        GrowComponent({options, context, start}, component, scene, best);
+        GrowComponent({options, context, cameras}, component, scene, best);
   }
-  scene = std::move(best);
+  Recall(best, scene);
   if (NumRegistered(scene) >= 2) {
     Settle(options, options.use_priors, context, scene);
     Grow(options, context, scene);  // photos that only fit now

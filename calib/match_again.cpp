@@ -52,7 +52,8 @@ ShownWalls ShownBy(const AgainInput& input, int photo) {
   const std::vector<int>& wall_of = input.repeating.wall_of[photo];
   if (!input.poses[photo] || wall_of.empty()) return walls;
   const Camera& camera = input.set.captures.cameras[input.set.photos[photo]->camera].intrinsics;
-  const Features& plain = input.features.plain[photo];
+  const DetectInput detect{input.options, input.set, input.context};
+  const Features plain = FeaturesOfPhoto(detect, input.features, photo);
   const std::vector<int16_t> descriptors = UnitDescriptors(plain);
   for (size_t k = 0; k < wall_of.size(); ++k) {
     if (wall_of[k] < 0) continue;
@@ -63,7 +64,7 @@ ShownWalls ShownBy(const AgainInput& input, int photo) {
        run != input.features.walls.end() && run->first.first == photo; ++run) {
     const int wall = run->first.second;
     if (!input.repeating.period_m.contains(wall)) continue;
-    const Features& features = run->second.features;
+    const Features features = FeaturesOnWall(detect, input.features, photo, wall);
     const std::vector<int16_t> rows = UnitDescriptors(features);
     for (size_t k = 0; k < features.size(); ++k) {
       const auto place = PlaceOnWall(features.keypoints[k], camera, ViewOf(input, photo, wall));

@@ -135,14 +135,16 @@ CandidateKeypoints KeypointsOf(const DetectedFeatures& features, const Candidate
 
 // In the candidate's own numbers.
 std::vector<Match> MatchCandidate(const MatchInput& input, const Candidate& pair) {
-  const CalibOptions& options = input.options;
+  const DetectInput detect{input.options, input.set, input.context};
   const DetectedFeatures& features = input.features;
+  const double ratio = input.options.match_ratio;
   std::vector<Match> matches;
   int32_t begin_first = 0;
   int32_t begin_second = 0;
   if (pair.plain) {
-    matches = MatchDescriptors(UnitDescriptors(features.plain[pair.first]),
-                               UnitDescriptors(features.plain[pair.second]), options.match_ratio);
+    matches =
+        MatchDescriptors(UnitDescriptors(FeaturesOfPhoto(detect, features, pair.first)),
+                         UnitDescriptors(FeaturesOfPhoto(detect, features, pair.second)), ratio);
     std::erase_if(matches, [&](const Match& match) {
       return input.repeating.Shows(pair.first, match.first) ||
              input.repeating.Shows(pair.second, match.second);
@@ -153,9 +155,10 @@ std::vector<Match> MatchCandidate(const MatchInput& input, const Candidate& pair
   for (const int wall : pair.walls) {
     const WallRun& first = features.walls.at({pair.first, wall});
     const WallRun& second = features.walls.at({pair.second, wall});
-    const auto on_wall = MatchOnWall({UnitDescriptors(first.features), first.places},
-                                     {UnitDescriptors(second.features), second.places},
-                                     kReachOnWall_m, options.match_ratio);
+    const auto on_wall = MatchOnWall(
+        {UnitDescriptors(FeaturesOnWall(detect, features, pair.first, wall)), first.places},
+        {UnitDescriptors(FeaturesOnWall(detect, features, pair.second, wall)), second.places},
+        kReachOnWall_m, ratio);
     for (const Match& match : on_wall) {
       matches.push_back({begin_first + match.first, begin_second + match.second});
     }
@@ -245,7 +248,7 @@ MatchedPairs Verify(const MatchInput& input, const std::vector<Candidate>& candi
     if (!outcomes[i].geometry) continue;
     matched.tried.back().num_verified = static_cast<int>(outcomes[i].geometry->inliers.size());
     VerifiedPair pair;
-    pair.pair = {first, second, outcomes[i].geometry->inliers};
+    pair.pair = {first, second, std::move(outcomes[i].geometry->inliers)};
     pair.geometry = std::move(*outcomes[i].geometry);
     matched.verified.push_back(std::move(pair));
   }
@@ -276,7 +279,12 @@ MatchedPairs MatchAll(const CalibOptions& options, const PhotoSet& set,
                       const StageContext& context) {
   const MatchInput input{options, set, features, repeating, PlacesOfAll(options, set, features),
                          context};
-  const PairChoice choice = ChoosePairs(options, set, features.plain);
+  const PairChoice choice = ChoosePairs(
+      options, set,
+      [&](int photo) {
+        return FeaturesOfPhoto({options, set, context}, features, photo);
+      },
+      context.threads);
   MatchedPairs matched =
       Verify(input, Candidates(choice.pairs, set.guidance.wall_pairs, repeating.period_m));
   if (!choice.by_plan) return matched;

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <set>
 #include <tuple>
 
 #include "calib/descriptors.h"
+#include "survey/parallel.h"
 
 namespace stucco {
 namespace {
@@ -17,16 +17,21 @@ constexpr int kLloydRounds = 10;
 constexpr size_t kSignatureDescriptors = 1000;
 
 // Index of the word most similar to each row.
-std::vector<int> NearestWords(const std::vector<int16_t>& rows, const std::vector<float>& words) {
+std::vector<int> NearestWords(const std::vector<int16_t>& rows, const std::vector<float>& words,
+                              int threads) {
+  constexpr size_t kRowsAtOnce = 1000;
   const std::vector<int16_t> unit_words = UnitRows(words);
   const int num_words = static_cast<int>(words.size() / kDescriptorSize);
-  std::vector<int32_t> products(num_words);
   std::vector<int> nearest(rows.size() / kDescriptorSize);
-  for (size_t r = 0; r < nearest.size(); ++r) {
-    DotProducts(rows.data() + r * kDescriptorSize, unit_words.data(), num_words, products.data());
-    nearest[r] =
-        static_cast<int>(std::max_element(products.begin(), products.end()) - products.begin());
-  }
+  ParallelFor((nearest.size() + kRowsAtOnce - 1) / kRowsAtOnce, threads, [&](size_t block) {
+    std::vector<int32_t> products(num_words);
+    const size_t end = std::min(nearest.size(), (block + 1) * kRowsAtOnce);
+    for (size_t r = block * kRowsAtOnce; r < end; ++r) {
+      DotProducts(rows.data() + r * kDescriptorSize, unit_words.data(), num_words, products.data());
+      nearest[r] =
+          static_cast<int>(std::max_element(products.begin(), products.end()) - products.begin());
+    }
+  });
   return nearest;
 }
 
@@ -38,35 +43,71 @@ void Normalize(float* values, int count) {
   for (int i = 0; i < count; ++i) values[i] *= scale;
 }
 
+using Pairs = std::vector<std::pair<int, int>>;
+
 // The `count` others with the smallest value of `distance`; of equal ones (a GPS that stood still)
 // those nearest in the order of photos.
 template <typename Distance>
-void AddNearest(int photo, int num_photos, int count, const Distance& distance,
-                std::set<std::pair<int, int>>& pairs) {
+void AddNearest(int photo, int num_photos, int count, const Distance& distance, Pairs& pairs) {
   std::vector<std::tuple<double, int, int>> order;
   for (int other = 0; other < num_photos; ++other) {
     if (other == photo) continue;
     const double d = distance(other);
     if (std::isfinite(d)) order.emplace_back(d, std::abs(other - photo), other);
   }
-  std::sort(order.begin(), order.end());
-  for (size_t i = 0; i < order.size() && static_cast<int>(i) < count; ++i) {
-    const int other = std::get<2>(order[i]);
-    pairs.emplace(std::min(photo, other), std::max(photo, other));
+  const auto end = order.begin() + std::min<std::ptrdiff_t>(std::ssize(order), count);
+  if (end != order.end()) std::nth_element(order.begin(), end, order.end());
+  for (auto near = order.begin(); near != end; ++near) {
+    const int other = std::get<2>(*near);
+    pairs.emplace_back(std::min(photo, other), std::max(photo, other));
   }
 }
 
-void AddMostAlike(int photo, const std::vector<std::vector<float>>& signatures, int count,
-                  std::set<std::pair<int, int>>& pairs) {
-  const auto distance = [&](int other) -> double {
-    if (signatures[photo].empty() || signatures[other].empty()) return INFINITY;
-    double product = 0;
-    for (size_t i = 0; i < signatures[photo].size(); ++i) {
-      product += signatures[photo][i] * signatures[other][i];
+__attribute__((target_clones("avx2", "default"))) int32_t Product(const int16_t* a,
+                                                                  const int16_t* b, size_t count) {
+  int32_t sum = 0;
+  for (size_t i = 0; i < count; ++i) sum += int32_t{a[i]} * b[i];
+  return sum;
+}
+
+// Signatures in whole numbers, so that products of all of them are fast and exact.
+class Appearances {
+ public:
+  explicit Appearances(const std::vector<std::vector<float>>& signatures) {
+    for (const std::vector<float>& signature : signatures) {
+      std::vector<int16_t>& rounded = rounded_.emplace_back();
+      for (const float value : signature) {
+        rounded.push_back(static_cast<int16_t>(std::lround(value * kUnit)));
+      }
     }
-    return -product;
-  };
-  AddNearest(photo, static_cast<int>(signatures.size()), count, distance, pairs);
+  }
+
+  void AddMostAlike(int photo, int count, Pairs& pairs) const {
+    const auto distance = [&](int other) -> double {
+      if (rounded_[photo].empty() || rounded_[other].empty()) return INFINITY;
+      return -Product(rounded_[photo].data(), rounded_[other].data(), rounded_[photo].size());
+    };
+    AddNearest(photo, static_cast<int>(rounded_.size()), count, distance, pairs);
+  }
+
+ private:
+  // Products of vectors of this length, and parts of them, fit into 32 bits.
+  static constexpr float kUnit = 32000;
+
+  std::vector<std::vector<int16_t>> rounded_;
+};
+
+// What fn(photo, pairs) adds for each photo; ascending, each pair once.
+template <typename Fn>
+Pairs OfAllPhotos(size_t num_photos, int threads, const Fn& fn) {
+  std::vector<Pairs> of_photo(num_photos);
+  ParallelFor(num_photos, threads,
+              [&](size_t photo) { fn(static_cast<int>(photo), of_photo[photo]); });
+  Pairs all;
+  for (const Pairs& pairs : of_photo) all.insert(all.end(), pairs.begin(), pairs.end());
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
 }
 
 }  // namespace
@@ -76,34 +117,31 @@ std::vector<std::pair<int, int>> SelectPairs(
     const std::vector<std::vector<float>>& signatures) {
   assert(signatures.size() == positions.size());
   const int count = static_cast<int>(positions.size());
-  std::set<std::pair<int, int>> pairs;
-  for (int a = 0; a < count; ++a) {
-    if (count <= options.exhaustive_below) {
-      for (int b = a + 1; b < count; ++b) pairs.emplace(a, b);
-      continue;
-    }
-    for (int b = a + 1; b < std::min(count, a + 1 + options.followers); ++b) pairs.emplace(a, b);
+  const bool all = count <= options.exhaustive_below;
+  const Appearances appearances(signatures);
+  return OfAllPhotos(positions.size(), options.threads, [&](int a, Pairs& pairs) {
+    const int end = all ? count : std::min(count, a + 1 + options.followers);
+    for (int b = a + 1; b < end; ++b) pairs.emplace_back(a, b);
+    if (all) return;
     AddNearest(
         a, count, options.neighbours,
         [&](int b) {
           return positions[a] && positions[b] ? (*positions[a] - *positions[b]).norm() : INFINITY;
         },
         pairs);
-    AddMostAlike(a, signatures, options.neighbours, pairs);
-  }
-  return {pairs.begin(), pairs.end()};
+    appearances.AddMostAlike(a, options.neighbours, pairs);
+  });
 }
 
 std::vector<std::pair<int, int>> MostAlike(const std::vector<std::vector<float>>& signatures,
-                                           int count) {
-  std::set<std::pair<int, int>> pairs;
-  for (size_t a = 0; a < signatures.size(); ++a) {
-    AddMostAlike(static_cast<int>(a), signatures, count, pairs);
-  }
-  return {pairs.begin(), pairs.end()};
+                                           int count, int threads) {
+  const Appearances appearances(signatures);
+  return OfAllPhotos(signatures.size(), threads, [&](int photo, Pairs& pairs) {
+    appearances.AddMostAlike(photo, count, pairs);
+  });
 }
 
-std::vector<float> TrainVocabulary(const std::vector<int16_t>& samples, int count) {
+std::vector<float> TrainVocabulary(const std::vector<int16_t>& samples, int count, int threads) {
   assert(samples.size() % kDescriptorSize == 0);
   const size_t num_samples = samples.size() / kDescriptorSize;
   if (num_samples == 0) return {};
@@ -115,7 +153,7 @@ std::vector<float> TrainVocabulary(const std::vector<int16_t>& samples, int coun
     }
   }
   for (int round = 0; round < kLloydRounds; ++round) {
-    const std::vector<int> nearest = NearestWords(samples, words);
+    const std::vector<int> nearest = NearestWords(samples, words, threads);
     std::vector<float> sums(words.size(), 0);
     std::vector<int> members(count, 0);
     for (size_t r = 0; r < num_samples; ++r) {
@@ -135,21 +173,20 @@ std::vector<float> TrainVocabulary(const std::vector<int16_t>& samples, int coun
   return words;
 }
 
+std::vector<int16_t> SampleDescriptors(const Features& features, size_t count) {
+  if (features.size() <= count) return UnitDescriptors(features);
+  Features some;
+  for (size_t i = 0; i < count; ++i) {
+    some.descriptors.push_back(features.descriptors[features.size() * i / count]);
+  }
+  return UnitDescriptors(some);
+}
+
 std::vector<float> Signature(const Features& features, const std::vector<float>& words) {
   assert(words.size() % kDescriptorSize == 0);
-  std::vector<int16_t> rows = UnitDescriptors(features);
-  const size_t count = features.size();
-  if (count == 0 || words.empty()) return {};
-  if (count > kSignatureDescriptors) {
-    std::vector<int16_t> thinned;
-    for (size_t i = 0; i < kSignatureDescriptors; ++i) {
-      const size_t row = count * i / kSignatureDescriptors;
-      thinned.insert(thinned.end(), rows.begin() + row * kDescriptorSize,
-                     rows.begin() + (row + 1) * kDescriptorSize);
-    }
-    rows = std::move(thinned);
-  }
-  const std::vector<int> nearest = NearestWords(rows, words);
+  if (features.size() == 0 || words.empty()) return {};
+  const std::vector<int16_t> rows = SampleDescriptors(features, kSignatureDescriptors);
+  const std::vector<int> nearest = NearestWords(rows, words, 1);
   std::vector<float> signature(words.size(), 0);
   for (size_t r = 0; r < nearest.size(); ++r) {
     const size_t word = static_cast<size_t>(nearest[r]) * kDescriptorSize;

@@ -15,6 +15,7 @@ struct PairOptions {
   int exhaustive_below = 150;  // photos
   int neighbours = 40;         // candidates per photo above that
   int followers = 5;           // and as many that come next in the order of names
+  int threads = 1;
 };
 
 // Pairs (a, b), a < b, ascending, that are worth matching: all of a small set; else each photo's
@@ -27,7 +28,10 @@ std::vector<std::pair<int, int>> SelectPairs(
 // Pairs (a, b), a < b, ascending: each photo with the `count` others of the most similar
 // appearance.
 std::vector<std::pair<int, int>> MostAlike(const std::vector<std::vector<float>>& signatures,
-                                           int count);
+                                           int count, int threads);
+
+// At most `count` descriptors, spread evenly, as rows of 128 (UnitDescriptors in descriptors.h).
+std::vector<int16_t> SampleDescriptors(const Features& features, size_t count);
 
 // Appearance of a photo as one vector: VLAD (Jegou et al. 2010) with intra-normalisation over
 // `words` (rows of 128), from at most 1000 of its descriptors.
@@ -35,6 +39,6 @@ std::vector<float> Signature(const Features& features, const std::vector<float>&
 
 // Vocabulary of `count` words from samples of all photos' descriptors by Lloyd's algorithm with an
 // evenly spaced start. `samples` are rows as UnitDescriptors gives them (descriptors.h).
-std::vector<float> TrainVocabulary(const std::vector<int16_t>& samples, int count);
+std::vector<float> TrainVocabulary(const std::vector<int16_t>& samples, int count, int threads = 1);
 
 }  // namespace stucco

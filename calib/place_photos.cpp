@@ -52,10 +52,10 @@ void AddTracks(const std::vector<VerifiedPair>& pairs, Scene& scene) {
   std::vector<size_t> num_keypoints;
   num_keypoints.reserve(scene.photos.size());
   for (const ScenePhoto& photo : scene.photos) num_keypoints.push_back(photo.keypoints.size());
-  std::vector<PhotoPair> matches;
+  std::vector<const PhotoPair*> matches;
   matches.reserve(pairs.size());
-  for (const VerifiedPair& pair : pairs) matches.push_back(pair.pair);
-  scene.tracks = BuildTracks(num_keypoints, std::move(matches));
+  for (const VerifiedPair& pair : pairs) matches.push_back(&pair.pair);
+  scene.tracks = BuildTracksOf(num_keypoints, std::move(matches));
   IndexTracks(scene);
 }
 

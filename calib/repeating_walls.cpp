@@ -147,23 +147,31 @@ WallRepeats FindRepeats(const WallKeypoints& wall) {
   return repeats;
 }
 
-std::map<int, double> FindRepeatingWalls(const DetectedFeatures& features, int threads) {
-  std::map<int, std::vector<const WallRun*>> by_wall;
+std::map<int, double> FindRepeatingWalls(const DetectInput& input,
+                                         const DetectedFeatures& features) {
+  struct Run {
+    int photo = 0;
+    const WallRun* run = nullptr;
+  };
+  std::map<int, std::vector<Run>> by_wall;
   for (const auto& [photo_and_wall, run] : features.walls) {
-    if (run.places.size() >= kLeastKeypoints) by_wall[photo_and_wall.second].push_back(&run);
+    const auto [photo, wall] = photo_and_wall;
+    if (run.places.size() >= kLeastKeypoints) by_wall[wall].push_back({photo, &run});
   }
-  std::vector<std::pair<int, std::vector<const WallRun*>>> walls(by_wall.begin(), by_wall.end());
+  std::vector<std::pair<int, std::vector<Run>>> walls(by_wall.begin(), by_wall.end());
   std::vector<double> periods(walls.size(), 0);
-  ParallelFor(walls.size(), threads, [&](size_t i) {
-    std::vector<const WallRun*>& runs = walls[i].second;
-    std::ranges::stable_sort(runs, [](const WallRun* a, const WallRun* b) {
-      return a->places.size() > b->places.size();
+  ParallelFor(walls.size(), input.context.threads, [&](size_t i) {
+    const int wall = walls[i].first;
+    std::vector<Run>& runs = walls[i].second;
+    std::ranges::stable_sort(runs, [](const Run& a, const Run& b) {
+      return a.run->places.size() > b.run->places.size();
     });
     if (runs.size() > kPhotosOfWall) runs.resize(kPhotosOfWall);
     std::vector<double> shares;
     std::vector<double> of_photos;
-    for (const WallRun* run : runs) {
-      const WallRepeats repeats = FindRepeats({UnitDescriptors(run->features), run->places});
+    for (const auto& [photo, run] : runs) {
+      const WallRepeats repeats =
+          FindRepeats({UnitDescriptors(FeaturesOnWall(input, features, photo, wall)), run->places});
       shares.push_back(repeats.share);
       if (repeats.period_m > 0) of_photos.push_back(repeats.period_m);
     }
@@ -177,15 +185,15 @@ std::map<int, double> FindRepeatingWalls(const DetectedFeatures& features, int t
   return repeating;
 }
 
-OnRepeatingWalls FindOnRepeatingWalls(const PhotoSet& set, const DetectedFeatures& features,
-                                      int threads) {
+OnRepeatingWalls FindOnRepeatingWalls(const DetectInput& input, const DetectedFeatures& features) {
+  const PhotoSet& set = input.set;
   OnRepeatingWalls result;
   result.wall_of.resize(set.photos.size());
   if (!set.guidance.views) return result;
   const ExpectedViews& views = *set.guidance.views;
-  result.period_m = FindRepeatingWalls(features, threads);
+  result.period_m = FindRepeatingWalls(input, features);
   if (result.period_m.empty()) return result;
-  ParallelFor(set.photos.size(), threads, [&](size_t i) {
+  ParallelFor(set.photos.size(), input.context.threads, [&](size_t i) {
     if (!views.poses[i]) return;
     const std::vector<int> walls = WallsShown(views, static_cast<int>(i), result.period_m);
     if (walls.empty()) return;

@@ -25,7 +25,8 @@ WallRepeats FindRepeats(const WallKeypoints& wall);
 // Walls that repeat themselves exactly, with their periods in metres: in the middle one of the
 // photos that show most of a wall, a good part of it looks the same a common shift farther. Real
 // walls, whose bays differ in stains, curtains and what stands before them, are not among them.
-std::map<int, double> FindRepeatingWalls(const DetectedFeatures& features, int threads);
+std::map<int, double> FindRepeatingWalls(const DetectInput& input,
+                                         const DetectedFeatures& features);
 
 // Keypoints that show walls that repeat themselves: a match of one may be a bay or a storey off.
 struct OnRepeatingWalls {
@@ -41,7 +42,6 @@ struct OnRepeatingWalls {
 
 // From where the photos should be by their records, and a little beyond the walls' edges: these are
 // off.
-OnRepeatingWalls FindOnRepeatingWalls(const PhotoSet& set, const DetectedFeatures& features,
-                                      int threads);
+OnRepeatingWalls FindOnRepeatingWalls(const DetectInput& input, const DetectedFeatures& features);
 
 }  // namespace stucco

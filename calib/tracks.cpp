@@ -4,29 +4,34 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <iterator>
-#include <map>
+#include <span>
+#include <utility>
 
 #include "survey/disjoint_sets.h"
 
 namespace stucco {
 namespace {
 
-// Nodes are keypoints of all photos; every set knows the photos in it.
+// Nodes are the matched keypoints of all photos, which are few of all; every set knows the photos
+// in it.
 class TrackForest {
  public:
-  explicit TrackForest(const std::vector<size_t>& num_keypoints)
-      : offsets_(Offsets(num_keypoints)), sets_(offsets_.back()), photos_(offsets_.back()) {}
+  TrackForest(const std::vector<size_t>& num_keypoints, std::span<const PhotoPair* const> pairs)
+      : offsets_(Offsets(num_keypoints)),
+        node_(offsets_.back(), -1),
+        keypoints_(Number(pairs)),
+        sets_(keypoints_.size()),
+        photos_(keypoints_.size()) {}
 
-  int Node(int photo, int keypoint) const {
-    assert(keypoint >= 0 && offsets_[photo] + keypoint < offsets_[photo + 1]);
-    return static_cast<int>(offsets_[photo]) + keypoint;
-  }
+  int Node(int photo, int keypoint) const { return node_[IndexOf(photo, keypoint)]; }
 
   SceneElement Element(int node) const {
-    const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), static_cast<size_t>(node));
+    const size_t index = keypoints_[node];
+    const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), index);
     const int photo = static_cast<int>(next - offsets_.begin()) - 1;
-    return {photo, node - static_cast<int>(offsets_[photo]), false};
+    return {photo, static_cast<int>(index - offsets_[photo]), false};
   }
 
   int Root(int node) { return sets_.Find(node); }
@@ -56,37 +61,72 @@ class TrackForest {
     return offsets;
   }
 
+  size_t IndexOf(int photo, int keypoint) const {
+    assert(keypoint >= 0 && offsets_[photo] + keypoint < offsets_[photo + 1]);
+    return offsets_[photo] + keypoint;
+  }
+
+  // Numbers matched keypoints in their order. Returns which they are.
+  std::vector<size_t> Number(std::span<const PhotoPair* const> pairs) {
+    for (const PhotoPair* pair : pairs) {
+      for (const Match& match : pair->matches) {
+        node_[IndexOf(pair->first, match.first)] = 0;
+        node_[IndexOf(pair->second, match.second)] = 0;
+      }
+    }
+    std::vector<size_t> keypoints;
+    for (size_t i = 0; i < node_.size(); ++i) {
+      if (node_[i] < 0) continue;
+      node_[i] = static_cast<int32_t>(keypoints.size());
+      keypoints.push_back(i);
+    }
+    return keypoints;
+  }
+
   std::vector<int> PhotosOf(int root) const {
     return photos_[root].empty() ? std::vector<int>{Element(root).photo} : photos_[root];
   }
 
   std::vector<size_t> offsets_;
+  std::vector<int32_t> node_;      // by keypoint of all photos; -1 without a match
+  std::vector<size_t> keypoints_;  // by node
   DisjointSets sets_;
   std::vector<std::vector<int>> photos_;  // of a root with more than one keypoint, ascending
 };
 
 }  // namespace
 
-std::vector<SceneTrack> BuildTracks(const std::vector<size_t>& num_keypoints,
-                                    std::vector<PhotoPair> pairs) {
-  std::stable_sort(pairs.begin(), pairs.end(), [](const PhotoPair& a, const PhotoPair& b) {
-    return a.matches.size() > b.matches.size();
+std::vector<SceneTrack> BuildTracksOf(const std::vector<size_t>& num_keypoints,
+                                      std::vector<const PhotoPair*> pairs) {
+  std::stable_sort(pairs.begin(), pairs.end(), [](const PhotoPair* a, const PhotoPair* b) {
+    return a->matches.size() > b->matches.size();
   });
-  TrackForest forest(num_keypoints);
-  for (const PhotoPair& pair : pairs) {
-    for (const Match& match : pair.matches) {
-      forest.Join(forest.Node(pair.first, match.first), forest.Node(pair.second, match.second));
+  TrackForest forest(num_keypoints, pairs);
+  for (const PhotoPair* pair : pairs) {
+    for (const Match& match : pair->matches) {
+      forest.Join(forest.Node(pair->first, match.first), forest.Node(pair->second, match.second));
     }
   }
-  std::map<int, SceneTrack> by_root;
+  std::vector<int> track_of(forest.size(), -1);  // by root
+  std::vector<SceneTrack> tracks;
   for (int node = 0; node < forest.size(); ++node) {
     const int root = forest.Root(node);
-    if (!forest.IsSingle(root)) by_root[root].elements.push_back(forest.Element(node));
+    if (forest.IsSingle(root)) continue;
+    if (track_of[root] < 0) {
+      track_of[root] = static_cast<int>(tracks.size());
+      tracks.emplace_back();
+    }
+    tracks[track_of[root]].elements.push_back(forest.Element(node));
   }
-  std::vector<SceneTrack> tracks;
-  tracks.reserve(by_root.size());
-  for (auto& [root, track] : by_root) tracks.push_back(std::move(track));
+  for (SceneTrack& track : tracks) track.elements.shrink_to_fit();
   return tracks;
+}
+
+std::vector<SceneTrack> BuildTracks(const std::vector<size_t>& num_keypoints,
+                                    const std::vector<PhotoPair>& pairs) {
+  std::vector<const PhotoPair*> pointers;
+  for (const PhotoPair& pair : pairs) pointers.push_back(&pair);
+  return BuildTracksOf(num_keypoints, std::move(pointers));
 }
 
 void IndexTracks(Scene& scene) {

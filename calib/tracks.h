@@ -21,7 +21,11 @@ struct PhotoPair {
 // glue two tracks together. Tracks and their elements come in ascending order of (photo, keypoint).
 // Requires matches of keypoints that there are, and no more keypoints than an int can number.
 std::vector<SceneTrack> BuildTracks(const std::vector<size_t>& num_keypoints,
-                                    std::vector<PhotoPair> pairs);
+                                    const std::vector<PhotoPair>& pairs);
+
+// The same of pairs that are part of something larger.
+std::vector<SceneTrack> BuildTracksOf(const std::vector<size_t>& num_keypoints,
+                                      std::vector<const PhotoPair*> pairs);
 
 // Fills Scene::tracks_of_photo from Scene::tracks.
 void IndexTracks(Scene& scene);

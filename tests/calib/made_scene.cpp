@@ -180,7 +180,7 @@ void SetTracks(const std::vector<VerifiedPair>& pairs, Scene& scene) {
   for (const ScenePhoto& photo : scene.photos) num_keypoints.push_back(photo.keypoints.size());
   std::vector<PhotoPair> matches;
   for (const VerifiedPair& pair : pairs) matches.push_back(pair.pair);
-  scene.tracks = BuildTracks(num_keypoints, std::move(matches));
+  scene.tracks = BuildTracks(num_keypoints, matches);
   IndexTracks(scene);
 }
 

@@ -81,12 +81,15 @@ class MatchPhotos : public testing::Test {
     }
   }
 
-  std::vector<VerifiedPair> Matched() {
+  PhotoSet Set() {
     photos_.clear();
     for (const CapturedPhoto& photo : captures_.photos) photos_.push_back(&photo);
     repeating_.wall_of.resize(photos_.size());
-    return MatchAll(options_, {captures_, photos_, guidance_}, features_, repeating_, context_)
-        .verified;
+    return {captures_, photos_, guidance_};
+  }
+
+  std::vector<VerifiedPair> Matched() {
+    return MatchAll(options_, Set(), features_, repeating_, context_).verified;
   }
 
   // What joins what: (photo, pixel) to (photo, pixel).
@@ -173,7 +176,7 @@ std::vector<SceneTrack> Tracks(const DetectedFeatures& features,
   }
   std::vector<PhotoPair> matches;
   for (const VerifiedPair& pair : pairs) matches.push_back(pair.pair);
-  return BuildTracks(num_keypoints, std::move(matches));
+  return BuildTracks(num_keypoints, matches);
 }
 
 std::ptrdiff_t NumOfThree(const std::vector<SceneTrack>& tracks) {
@@ -212,6 +215,28 @@ TEST_F(MatchPhotos, JoinsWhatSeveralWallsShowToOneTrack) {
   for (const int photo : {b, c}) SeeOnWall(photo, 1, 0, 60);
   guidance_.wall_pairs = {{a, b, 0}, {b, c, 1}};
   EXPECT_GT(NumOfThree(Tracks(features_, Matched())), 40);
+}
+
+TEST_F(MatchPhotos, ReadsDescriptorsAgainThatWereNotKept) {
+  const int a = AddPhoto(SitePose({6, -15, 6}, 5, 0));
+  const int b = AddPhoto(SitePose({13, -15, 6}, -5, 0));
+  for (const int photo : {a, b}) {
+    SeePlain(photo, 0, 60);
+    SeeOnWall(photo, 0, 100, 160);
+  }
+  guidance_.wall_pairs = {{a, b, 0}};
+  const Joined kept = Joins(Matched());
+  EXPECT_GT(kept.size(), 80u);
+  units_.Clear();
+  for (const int photo : {a, b}) {
+    Features& plain = features_.plain[photo];
+    units_.Save("features", FeaturesKey(options_, captures_.photos[photo]), Serialize(plain));
+    plain.descriptors.clear();
+    Features& on_wall = features_.walls.at({photo, 0}).features;
+    units_.Save("features", WallKey(options_, Set(), photo, 0), Serialize(on_wall));
+    on_wall.descriptors.clear();
+  }
+  EXPECT_EQ(Joins(Matched()), kept);
 }
 
 TEST_F(MatchPhotos, GivesWithCheckpointsWhatItGivesWithout) {
@@ -277,7 +302,8 @@ TEST_F(MatchByPlan, KeepsTheNearestOfPhotosThatThePlanSaysLittleOf) {
   std::vector<const CapturedPhoto*> photos;
   for (const CapturedPhoto& photo : captures_.photos) photos.push_back(&photo);
   const std::vector<Features> looks(kPhotos);  // no appearance to go by
-  const PairChoice choice = ChoosePairs(options_, {captures_, photos, guidance_}, looks);
+  const PairChoice choice = ChoosePairs(
+      options_, {captures_, photos, guidance_}, [&](int photo) { return looks[photo]; }, 2);
   EXPECT_TRUE(choice.by_plan);
   EXPECT_TRUE(std::ranges::is_sorted(choice.pairs));
   EXPECT_THAT(choice.pairs, Contains(Pair(0, kColumns)));  // the plan says nothing of photo 0

@@ -64,9 +64,9 @@ TEST(SelectPairs, MixesPositionAndAppearance) {
 
 TEST(MostAlike, PairsEachPhotoWithThoseThatLookLikeIt) {
   const std::vector<std::vector<float>> signatures = {{1, 0}, {0, 1}, {0.8f, 0.6f}, {}};
-  EXPECT_EQ(MostAlike(signatures, 1), (Pairs{{0, 2}, {1, 2}}));
-  EXPECT_EQ(MostAlike(signatures, 5), (Pairs{{0, 1}, {0, 2}, {1, 2}}));
-  EXPECT_TRUE(MostAlike({}, 5).empty());
+  EXPECT_EQ(MostAlike(signatures, 1, 1), (Pairs{{0, 2}, {1, 2}}));
+  EXPECT_EQ(MostAlike(signatures, 5, 2), (Pairs{{0, 1}, {0, 2}, {1, 2}}));
+  EXPECT_TRUE(MostAlike({}, 5, 2).empty());
 }
 
 TEST(SelectPairs, TakesWhatFollows) {

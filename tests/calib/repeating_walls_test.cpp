@@ -61,11 +61,15 @@ class OnRepeatingWallsTest : public testing::Test {
       run.features = features_.plain.back();
       run.places = PlacesOnWall(run.features, SiteCamera(), ViewFrom(pose));
     }
-    StageContext context;
-    context.threads = 2;
-    guidance_.views = ExpectViews(std::move(input), context);
+    context_.threads = 2;
+    guidance_.views = ExpectViews(std::move(input), context_);
     for (const CapturedPhoto& photo : captures_.photos) photos_.push_back(&photo);
-    return FindOnRepeatingWalls({captures_, photos_, guidance_}, features_, 2);
+    return FindAgain();
+  }
+
+  OnRepeatingWalls FindAgain() {
+    const PhotoSet set{captures_, photos_, guidance_};
+    return FindOnRepeatingWalls({options_, set, context_}, features_);
   }
 
   Captures captures_;
@@ -73,6 +77,8 @@ class OnRepeatingWallsTest : public testing::Test {
   DetectedFeatures features_;
 
  private:
+  CalibOptions options_;
+  StageContext context_;
   std::vector<const CapturedPhoto*> photos_;
 };
 
@@ -99,7 +105,7 @@ TEST_F(OnRepeatingWallsTest, AreNoneWhereBaysDiffer) {
 TEST_F(OnRepeatingWallsTest, AreNoneWithoutAPlan) {
   Find(true);
   guidance_.views.reset();
-  EXPECT_TRUE(FindOnRepeatingWalls({captures_, {}, guidance_}, features_, 1).period_m.empty());
+  EXPECT_TRUE(FindAgain().period_m.empty());
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ class MemoryUnits : public UnitStore {
     ++saved[std::string(kind)];
   }
   size_t size() const { return units_.size(); }
+  void Clear() { units_.clear(); }
 
   std::map<std::string, int> saved;  // by kind
 
