@@ -2,78 +2,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/covariance.h"
 
-#include <ceres/manifold.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <memory>
 #include <optional>
 
 #include "calib/adjust.h"
-#include "calib/internal/costs.h"
+#include "calib/internal/linearise.h"
 #include "survey/parallel.h"
 
 namespace stucco {
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Matrix36 = Eigen::Matrix<double, 3, 6>;
-using Matrix2X = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor>;
-
-struct Linearised {
-  Eigen::Vector2d residual = Eigen::Vector2d::Zero();
-  Matrix2X intrinsics;
-  Eigen::Matrix<double, 2, 6, Eigen::RowMajor> pose;
-  Eigen::Matrix<double, 2, 3, Eigen::RowMajor> point;
-};
-
-std::unique_ptr<ceres::CostFunction> CostOf(const Camera& camera, const Eigen::Vector2d& keypoint,
-                                            double sigma) {
-  switch (camera.params.size()) {
-    case 4:
-      return std::make_unique<ReprojectionCost<4>>(keypoint, sigma);
-    case 8:
-      return std::make_unique<ReprojectionCost<8>>(keypoint, sigma);
-    default:
-      return std::make_unique<ReprojectionCost<12>>(keypoint, sigma);
-  }
-}
-
-bool Linearise(const Scene& scene, const SceneElement& element, const Eigen::Vector3d& point,
-               Linearised& out) {
-  const ScenePhoto& photo = scene.photos[element.photo];
-  const Camera& camera = scene.CameraOf(element.photo);
-  const int num_params = static_cast<int>(camera.params.size());
-  const auto cost = CostOf(camera, photo.keypoints[element.keypoint], photo.keypoint_sigma_px);
-  out.intrinsics.resize(2, num_params);
-  Eigen::Matrix<double, 2, kPoseSize, Eigen::RowMajor> by_pose;
-  Eigen::Matrix<double, kPoseSize, 1> pose;
-  pose << photo.pose->rotation.coeffs(), photo.pose->translation;
-  const double* blocks[] = {camera.params.data(), pose.data(), point.data()};
-  double* jacobians[] = {out.intrinsics.data(), by_pose.data(), out.point.data()};
-  if (!cost->Evaluate(blocks, out.residual.data(), jacobians)) return false;
-  Eigen::Matrix<double, 4, 3, Eigen::RowMajor> plus;
-  ceres::EigenQuaternionManifold().PlusJacobian(photo.pose->rotation.coeffs().data(), plus.data());
-  out.pose.leftCols<3>() = by_pose.leftCols<4>() * plus;
-  out.pose.rightCols<3>() = by_pose.rightCols<3>();
-  return true;
-}
-
-// Derivatives of the centre by a pose as Ceres' manifold changes it: the rotation by twice the
-// vector d (q' = exp(d) q), and the translation.
-Matrix36 CenterByPose(const Pose& pose) {
-  const Eigen::Vector3d& t = pose.translation;
-  Eigen::Matrix3d cross;
-  cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
-  const Eigen::Matrix3d world_from_cam = pose.rotation.conjugate().toRotationMatrix();
-  Matrix36 by_pose;
-  by_pose << -2 * world_from_cam * cross, -world_from_cam;
-  return by_pose;
-}
 
 // What the covariance of a photo's centre, of its turn (rotation vector in the camera's frame) and,
 // where it has more rows, of its camera's intrinsics says.
@@ -96,7 +40,7 @@ PoseSigma SigmaOf(const Scene& scene, int photo, const Eigen::MatrixXd& covarian
     Eigen::Matrix<double, 2, 3> by_point;
     by_point << 1, 0, -point.x() / point.z(), 0, 1, -point.y() / point.z();
     by_point *= focal / point.z();
-    Matrix2X of_pixel(2, covariance.rows());
+    Eigen::Matrix2Xd of_pixel(2, covariance.rows());
     of_pixel.leftCols<3>() = -by_point * pose.rotation.toRotationMatrix();
     of_pixel.middleCols<3>(3) = -by_point * cross;
     of_pixel.rightCols(num_intrinsics) =
@@ -370,7 +314,8 @@ class ReducedSystem {
       if (!photo.prior) continue;
       const Eigen::Vector3d sigma(photo.prior->sigma_horizontal_m, photo.prior->sigma_horizontal_m,
                                   photo.prior->sigma_vertical_m);
-      const Matrix36 by_pose = sigma.cwiseInverse().asDiagonal() * CenterByPose(*photo.pose);
+      const Eigen::Matrix<double, 3, 6> by_pose =
+          sigma.cwiseInverse().asDiagonal() * CenterByPose(*photo.pose);
       AddBlock(offset, offset, variance * by_pose.transpose() * by_pose);
       ++positions;
     }

@@ -8,7 +8,7 @@
 
 #include "calib/detect_photos.h"
 #include "calib/match_photos.h"
-#include "calib/summarize.h"
+#include "calib/summary_input.h"
 
 namespace stucco {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "calib/records.h"
-#include "calib/summarize.h"
+#include "calib/summary_input.h"
 #include "survey/calibration.h"
 #include "survey/reconstruction.h"
 
@@ -19,8 +19,9 @@ std::vector<CalibratedPhoto> SummarizePhotos(const SummaryInput& input,
 // The first part and the others.
 std::vector<CalibratedPart> SummarizeParts(const SummaryInput& input);
 
-// Photos without a pose whose record says where they were: ambiguous ones, and those of which nothing
-// but the record is known. `errors` are those of the records, which are in the frame of the scene.
+// Photos without a pose whose record says where they were: ambiguous ones, and those of which
+// nothing but the record is known. `errors` are those of the records, which are in the frame of the
+// scene.
 std::vector<CalibratedPhoto> SummarizeRecordOnly(const SummaryInput& input,
                                                  const std::vector<PoseRecord>& records,
                                                  const RecordErrors& errors);

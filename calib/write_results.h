@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "calib/summarize.h"
+#include "calib/summary_input.h"
 #include "survey/calibration.h"
 #include "survey/georef.h"
 #include "survey/stage.h"
