@@ -11,7 +11,9 @@
 #include <optional>
 
 #include "calib/adjust.h"
+#include "calib/datum.h"
 #include "calib/internal/linearise.h"
+#include "survey/median.h"
 #include "survey/parallel.h"
 
 namespace stucco {
@@ -54,49 +56,6 @@ PoseSigma SigmaOf(const Scene& scene, int photo, const Eigen::MatrixXd& covarian
   if (count > 0) sigma.picture_px = std::sqrt(squares / count);
   return sigma;
 }
-
-// The similarity that fits small motions of all centres best (least squares): translation, turn
-// about the middle and scale.
-class Datum {
- public:
-  using Matrix37 = Eigen::Matrix<double, 3, 7>;
-  using Matrix73 = Eigen::Matrix<double, 7, 3>;
-
-  explicit Datum(const Scene& scene) : offsets_(scene.photos.size(), Eigen::Vector3d::Zero()) {
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const ScenePhoto& photo : scene.photos) {
-      if (photo.pose) middle += photo.pose->Center() / NumRegistered(scene);
-    }
-    Eigen::Matrix<double, 7, 7> normal = Eigen::Matrix<double, 7, 7>::Zero();
-    for (size_t i = 0; i < offsets_.size(); ++i) {
-      if (!scene.photos[i].pose) continue;
-      offsets_[i] = scene.photos[i].pose->Center() - middle;
-      normal += CenterBySimilarity(i).transpose() * CenterBySimilarity(i);
-    }
-    // Places on a line do not say how they turn about it.
-    inverse_ = normal.completeOrthogonalDecomposition().pseudoInverse();
-  }
-
-  // Of photo `i`, which must have a pose.
-  Matrix73 ByCenter(size_t i) const { return inverse_ * CenterBySimilarity(i).transpose(); }
-  Matrix37 CenterBySimilarity(size_t i) const {
-    const Eigen::Vector3d& x = offsets_[i];
-    Matrix37 by_similarity;
-    by_similarity << Eigen::Matrix3d::Identity(),
-        (Eigen::Matrix3d() << 0, x.z(), -x.y(), -x.z(), 0, x.x(), x.y(), -x.x(), 0).finished(), x;
-    return by_similarity;
-  }
-  // Of the rotation vector in the camera's frame: the camera turns against the world.
-  static Matrix37 RotationBySimilarity(const Pose& pose) {
-    Matrix37 by_similarity = Matrix37::Zero();
-    by_similarity.middleCols<3>(3) = -pose.rotation.toRotationMatrix();
-    return by_similarity;
-  }
-
- private:
-  std::vector<Eigen::Vector3d> offsets_;  // from the middle
-  Eigen::Matrix<double, 7, 7> inverse_;
-};
 
 // How robust residuals scatter: the variance of independent ones that would leave poses as
 // uncertain as these do, with Cauchy loss at `scale` standard deviations. Neighbours in a picture
@@ -258,6 +217,7 @@ class ReducedSystem {
  private:
   static constexpr double kRounding = 1e-10;  // of what holds an unknown while all others are held
   static constexpr double kLeastCondition = 1e-10;
+  static constexpr int kDatumRounds = 6;  // what is unsure loses the square of its share in each
 
   struct Sight {
     const SceneElement* element = nullptr;
@@ -378,34 +338,69 @@ class ReducedSystem {
     }
   }
 
+  // The unknowns' covariance as half * half' says it, with what a similarity of all takes away left
+  // out: one that goes by the surest half of the photos, and by others the less the less sure they
+  // are. One that nothing holds would else take all with it.
   void SetPoses(const Eigen::MatrixXd& half, double variance, SceneSigmas& sigmas) const {
-    const Datum datum(scene_);
-    // What the unknowns do to the similarity of all: 7 x size.
-    Eigen::MatrixXd similarity = Eigen::MatrixXd::Zero(7, size_);
-    for (size_t i = 0; i < pose_offset_.size(); ++i) {
-      if (pose_offset_[i] < 0) continue;
-      similarity.middleCols<6>(pose_offset_[i]) =
-          datum.ByCenter(i) * CenterByPose(*scene_.photos[i].pose);
+    Eigen::VectorXd weights(pose_offset_.size());
+    for (size_t i = 0; i < pose_offset_.size(); ++i) weights[i] = pose_offset_[i] >= 0 ? 1 : 0;
+    std::optional<Datum> datum;
+    Eigen::MatrixXd of_similarity;
+    for (int round = 0; round < kDatumRounds; ++round) {
+      datum.emplace(scene_, weights);
+      of_similarity = half * SimilarityByUnknowns(*datum).transpose();
+      weights = WeightsIn(*datum, half, of_similarity);
     }
-    const Eigen::MatrixXd of_similarity = half * similarity.transpose();
     for (size_t i = 0; i < pose_offset_.size(); ++i) {
       if (pose_offset_[i] < 0) continue;
-      const Pose& pose = *scene_.photos[i].pose;
-      const auto own = half.middleCols<6>(pose_offset_[i]);
       const int camera = scene_.photos[i].camera;
       const bool is_variable = scene_.cameras[camera].focal_sigma_ratio > 0;
       const Eigen::Index num_intrinsics =
           is_variable ? static_cast<Eigen::Index>(scene_.cameras[camera].intrinsics.params.size())
                       : 0;
       Eigen::MatrixXd motion(size_, 6 + num_intrinsics);
-      motion.leftCols<3>() = own * CenterByPose(pose).transpose() -
-                             of_similarity * datum.CenterBySimilarity(i).transpose();
+      motion.leftCols<3>() = MotionOfCenter(i, *datum, half, of_similarity);
       motion.middleCols<3>(3) =
-          2 * own.leftCols<3>() - of_similarity * Datum::RotationBySimilarity(pose).transpose();
+          2 * half.middleCols<3>(pose_offset_[i]) -
+          of_similarity * Datum::RotationBySimilarity(*scene_.photos[i].pose).transpose();
       motion.rightCols(num_intrinsics) = half.middleCols(camera_offset_[camera], num_intrinsics);
       sigmas.poses[i] =
           SigmaOf(scene_, static_cast<int>(i), variance * motion.transpose() * motion);
     }
+  }
+
+  // What the unknowns do to the similarity of all.
+  Eigen::MatrixXd SimilarityByUnknowns(const Datum& datum) const {
+    Eigen::MatrixXd similarity = Eigen::MatrixXd::Zero(7, size_);
+    for (size_t i = 0; i < pose_offset_.size(); ++i) {
+      if (pose_offset_[i] < 0) continue;
+      similarity.middleCols<6>(pose_offset_[i]) =
+          datum.ByCenter(i) * CenterByPose(*scene_.photos[i].pose);
+    }
+    return similarity;
+  }
+
+  Eigen::MatrixX3d MotionOfCenter(size_t photo, const Datum& datum, const Eigen::MatrixXd& half,
+                                  const Eigen::MatrixXd& of_similarity) const {
+    return half.middleCols<6>(pose_offset_[photo]) *
+               CenterByPose(*scene_.photos[photo].pose).transpose() -
+           of_similarity * datum.CenterBySimilarity(photo).transpose();
+  }
+
+  Eigen::VectorXd WeightsIn(const Datum& datum, const Eigen::MatrixXd& half,
+                            const Eigen::MatrixXd& of_similarity) const {
+    Eigen::VectorXd variances = Eigen::VectorXd::Zero(pose_offset_.size());
+    std::vector<double> all;
+    for (size_t i = 0; i < pose_offset_.size(); ++i) {
+      if (pose_offset_[i] < 0) continue;
+      variances[i] = MotionOfCenter(i, datum, half, of_similarity).squaredNorm();
+      all.push_back(variances[i]);
+    }
+    const double usual = *Median(std::move(all));
+    for (double& variance : variances) {
+      if (variance > 0) variance = usual / std::max(usual, variance);
+    }
+    return variances;
   }
 
   const Scene& scene_;

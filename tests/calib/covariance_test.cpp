@@ -224,6 +224,24 @@ TEST(PoseSigmas, APhotoWithFewObservationsIsLessCertain) {
   for (const int other : {1, 2, 4}) EXPECT_GT(sigmas[3].position, 1.5 * sigmas[other].position);
 }
 
+// One photo that its points hardly hold makes the equations of all singular.
+TEST(PoseSigmas, APhotoThatNothingHoldsLeavesThoseOfTheOthers) {
+  Scene scene = MakeScene({.num_photos = 6, .num_points = 200, .num_planes = 3, .noise_px = 0.5});
+  const auto before = EstimateSigmas({}, scene).poses;
+  int left = 2;
+  for (SceneTrack& track : scene.tracks) {
+    for (SceneElement& element : track.elements) {
+      if (element.photo == 5 && element.used && left-- <= 0) element.used = false;
+    }
+  }
+  const auto after = EstimateSigmas({}, scene).poses;
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_GT(after[i].position, 0.5 * before[i].position) << i;
+    EXPECT_LT(after[i].position, 3 * before[i].position) << i;
+  }
+  EXPECT_TRUE(after[5].position < 0 || after[5].position > 20 * before[5].position);
+}
+
 TEST(PoseSigmas, NoneWithoutAPose) {
   Scene scene = MakeScene({.num_photos = 5, .num_points = 120, .noise_px = 0.5});
   scene.photos[2].pose.reset();
