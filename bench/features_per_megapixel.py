@@ -19,7 +19,7 @@ import json
 import pathlib
 import statistics
 
-# As in calib/features.cpp.
+# As in calib/features/features.cpp.
 LAYERS, CONTRAST, EDGE, SIGMA = 3, 0.02, 10, 1.6
 
 

@@ -13,28 +13,29 @@
 #include <optional>
 #include <utility>
 
-#include "calib/adjust.h"
-#include "calib/covariance.h"
-#include "calib/detect_photos.h"
-#include "calib/georeference.h"
-#include "calib/ground_control.h"
-#include "calib/hold_by_control.h"
-#include "calib/mapper.h"
-#include "calib/match_photos.h"
-#include "calib/panorama.h"
-#include "calib/photos_csv.h"
+#include "calib/adjust/adjust.h"
+#include "calib/adjust/covariance.h"
+#include "calib/control/ground_control.h"
+#include "calib/control/hold_by_control.h"
+#include "calib/control/summarize_control.h"
+#include "calib/mapping/mapper.h"
+#include "calib/mapping/wrong_poses.h"
+#include "calib/matching/detect_photos.h"
+#include "calib/matching/match_photos.h"
+#include "calib/matching/repeating_walls.h"
+#include "calib/parts/take_apart.h"
 #include "calib/place_photos.h"
-#include "calib/records.h"
-#include "calib/repeating_walls.h"
-#include "calib/summarize.h"
-#include "calib/summarize_control.h"
-#include "calib/summarize_photos.h"
-#include "calib/take_apart.h"
-#include "calib/write_results.h"
-#include "calib/wrong_poses.h"
+#include "calib/records/georeference.h"
+#include "calib/records/records.h"
+#include "calib/results/photos_csv.h"
+#include "calib/results/summarize.h"
+#include "calib/results/summarize_photos.h"
+#include "calib/results/write_results.h"
+#include "calib/two_view/panorama.h"
 #include "survey/calibration.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/one_opencv_thread.h"
 #include "survey/plan_of_survey.h"
 #include "survey/survey_folder.h"
 
@@ -278,6 +279,7 @@ std::vector<int> NoteUnregistered(const OnRepeatingWalls& repeating, const Scene
 }  // namespace
 
 void RunCalib(const CalibOptions& options, StageContext& context) {
+  const OneOpenCvThread photos_run_side_by_side;
   const UsablePhotos photos = ReadPhotos(context);
   const GroundControl control = ReadGroundControl(options, photos.captures, photos.usable, context);
   const Guidance guidance = GuideByPlan(options, photos.captures, photos.usable, context);

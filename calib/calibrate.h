@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "calib/options.h"
+#include "calib/options/calib_options.h"
 #include "survey/stage.h"
 
 namespace stucco {

@@ -7,14 +7,14 @@
 
 #include <utility>
 
-#include "calib/as_model.h"
-#include "calib/contradictions.h"
-#include "calib/focal.h"
-#include "calib/georeference.h"
-#include "calib/known_poses.h"
-#include "calib/match_again.h"
-#include "calib/start_from_records.h"
-#include "calib/tracks.h"
+#include "calib/mapping/start_from_records.h"
+#include "calib/matching/contradictions.h"
+#include "calib/matching/known_poses.h"
+#include "calib/matching/match_again.h"
+#include "calib/records/georeference.h"
+#include "calib/scene/as_model.h"
+#include "calib/scene/tracks.h"
+#include "calib/two_view/focal.h"
 #include "survey/plan_of_survey.h"
 
 namespace stucco {

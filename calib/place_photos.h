@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "calib/guidance.h"
-#include "calib/mapper.h"
-#include "calib/match_photos.h"
-#include "calib/options.h"
-#include "calib/records.h"
-#include "calib/scene.h"
+#include "calib/mapping/mapper.h"
+#include "calib/matching/guidance.h"
+#include "calib/matching/match_photos.h"
+#include "calib/options/calib_options.h"
+#include "calib/records/records.h"
+#include "calib/scene/scene.h"
 #include "survey/captures.h"
 #include "survey/georef.h"
 #include "survey/stage.h"

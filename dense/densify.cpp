@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <opencv2/core/utility.hpp>
 #include <vector>
 
 #include "dense/fuse.h"
@@ -23,6 +22,7 @@
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/lru_cache.h"
+#include "survey/one_opencv_thread.h"
 #include "survey/parallel.h"
 #include "survey/survey_folder.h"
 #include "survey/survey_photo.h"
@@ -263,7 +263,7 @@ class Densifier {
 }  // namespace
 
 void RunDense(const DenseOptions& options, StageContext& context) {
-  cv::setNumThreads(1);  // photos run side by side instead
+  const OneOpenCvThread photos_run_side_by_side;
   Densifier densifier(options, context);
   if (densifier.num_photos() == 0) {
     throw Error(

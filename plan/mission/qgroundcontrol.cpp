@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "survey/geometry2d.h"
+
 namespace stucco::plan {
 namespace {
 
@@ -97,18 +99,12 @@ void AddStop(const MissionStop& stop, const MissionOptions& options, Items& item
 
 // QGroundControl wants fences clockwise.
 Json FencePolygon(const Plan& plan, const std::vector<Eigen::Vector2d>& ring) {
-  double twice_area = 0;
-  for (size_t i = 0; i < ring.size(); ++i) {
-    const Eigen::Vector2d& p = ring[i];
-    const Eigen::Vector2d& q = ring[(i + 1) % ring.size()];
-    twice_area += p.x() * q.y() - p.y() * q.x();
-  }
   std::vector<Json> corners;
   corners.reserve(ring.size());
   for (const Eigen::Vector2d& corner : ring) {
     corners.push_back(Position(GeodeticFromPlan(plan.origin, corner)));
   }
-  if (twice_area > 0) std::ranges::reverse(corners);
+  if (SignedArea(ring) > 0) std::ranges::reverse(corners);
   return {{"inclusion", false}, {"polygon", corners}, {"version", 1}};
 }
 

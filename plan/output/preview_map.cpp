@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "plan/output/internal/svg.h"
+#include "survey/geometry2d.h"
 
 namespace stucco::plan::internal {
 namespace {
@@ -74,18 +75,6 @@ void DrawGround(const Plan& plan, const MapScale& scale, Svg& svg) {
   svg.Path(no_fly, "fill=\"url(#nofly)\" stroke=\"#c0392b\" stroke-width=\"1.2\"");
 }
 
-bool IsInside(const Eigen::Vector2d& point, const std::vector<Eigen::Vector2d>& ring) {
-  bool inside = false;
-  for (size_t i = 0, before = ring.size() - 1; i < ring.size(); before = i++) {
-    const Eigen::Vector2d& p = ring[before];
-    const Eigen::Vector2d& q = ring[i];
-    if ((p.y() > point.y()) == (q.y() > point.y())) continue;
-    const double x = p.x() + (point.y() - p.y()) / (q.y() - p.y()) * (q.x() - p.x());
-    if (x > point.x()) inside = !inside;
-  }
-  return inside;
-}
-
 // Ids of buildings, where they fit and are not too many to read.
 void DrawNames(const Plan& plan, const MapScale& scale, Svg& svg) {
   constexpr size_t kMost = 150;
@@ -101,7 +90,7 @@ void DrawNames(const Plan& plan, const MapScale& scale, Svg& svg) {
     const double letters = static_cast<double>(footprint.building.size());
     const bool fits = size.x() > kWidthPerLetter * letters + 8 && size.y() > 20;
     const Eigen::Vector2d middle = (box.low + box.high) / 2;
-    if (!fits || !IsInside(middle, footprint.rings_m.front())) continue;
+    if (!fits || !Contains(Polygon{{footprint.rings_m.front()}}, middle)) continue;
     if (footprint.rings_m.size() > 1) continue;  // its middle is a courtyard
     svg.Text(scale.Page(middle) + Eigen::Vector2d(0, 3), "class=\"name\"", footprint.building);
   }

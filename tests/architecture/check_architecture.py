@@ -37,10 +37,21 @@ MODULES = set(ARROWS)
 # by its front door.
 FOLDER_ARROWS = {
     "pipeline/engine/": ("pipeline/engine/", "survey/"),
-    "pipeline/verbs/": ("pipeline/engine/", "pipeline/verbs/", "calib/placement.h",
+    "pipeline/verbs/": ("pipeline/engine/", "pipeline/verbs/", "calib/records/placement.h",
                         "exchange/", "plan/", "survey/"),
     "cli/": ("cli/", "evaluate/", "pipeline/default_stages.h", "pipeline/engine/engine.h",
              "pipeline/verbs/", "simulate/", "survey/"),
+}
+
+# Folders of a module from the bottom up; each includes those before it. "." are the files beside the
+# folders.
+FLOORS = {
+    "calib": ("options", "expect", "features", "scene", "two_view", "adjust", "records", "mapping",
+              "matching", "control", "parts", "results", "."),
+    "evaluate": ("figures", "geometry", "picture", "page", "."),
+    "plan": ("options", "camera", "safety", "map", "space", "quality", "evaluate", "dipping",
+             "planar", "match", "baseline", "path", "output", "mission", "field", "."),
+    "simulate": (".", "scene", "paint", "city", "render", "flight"),
 }
 
 # The virtual drone and the measuring of results may serve any test.
@@ -97,6 +108,27 @@ def folder_may_not(path, include):
     return False
 
 
+def floor(parts):
+    """The folder of a module that a file with these parts of a path is in, without internal/."""
+    return parts[1] if len(parts) > 2 and parts[1] != "internal" else "."
+
+
+def climbs(path, include):
+    """True when a source file includes one of a folder of its module that stands above its own."""
+    floors = FLOORS.get(path.parts[0])
+    parts = include.split("/")
+    own, other = floor(path.parts), floor(parts)
+    if parts[0] != path.parts[0] or floors is None or not {own, other} <= set(floors):
+        return False
+    return floors.index(other) > floors.index(own)
+
+
+def floor_problems(path):
+    floors = FLOORS.get(path.parts[0])
+    if floors is not None and floor(path.parts) not in floors:
+        yield f"{path}: FLOORS of check_architecture.py do not know this folder"
+
+
 def owner(path):
     """The module that a source file belongs to; a module's tests count as its own."""
     top = path.parts[0]
@@ -115,6 +147,8 @@ def include_problems(path, text):
             yield f"{path}: {owner(path)} may not include {include}"
         elif target in MODULES and folder_may_not(path, include):
             yield f"{path}: {path.parent} may not include {include}"
+        elif climbs(path, include):
+            yield f"{path}: {path.parent} stands below {include}"
         if target == "tests" and path.parts[0] != "tests":
             yield f"{path}: only tests may include {include}"
         if target in MODULES and "/internal/" in include and target != owner(path):
@@ -175,6 +209,7 @@ def problems(root):
         found += size_problems(path, text)
         if is_source:
             found += include_problems(path, text)
+            found += floor_problems(path)
             includes |= includes_of(path, text)
         elif path.name == "CMakeLists.txt":
             found += link_lists.problems(path, text, may_include(path) or MODULES, MODULES)

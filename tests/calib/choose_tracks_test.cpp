@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/choose_tracks.h"
+#include "calib/scene/choose_tracks.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "calib/adjust.h"
+#include "calib/adjust/adjust.h"
 #include "tests/calib/made_scene.h"
 
 namespace stucco::test {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/contradicting_groups.h"
+#include "calib/mapping/contradicting_groups.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "calib/wrong_poses.h"
+#include "calib/mapping/wrong_poses.h"
 #include "tests/calib/made_records.h"
 
 namespace stucco::test {

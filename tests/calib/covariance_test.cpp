@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/covariance.h"
+#include "calib/adjust/covariance.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "calib/adjust.h"
-#include "calib/georeference.h"
+#include "calib/adjust/adjust.h"
+#include "calib/records/georeference.h"
 #include "tests/calib/made_scene.h"
 
 namespace stucco::test {

@@ -24,8 +24,8 @@
 #include <string>
 
 #include "calib/calibrate.h"
-#include "calib/detect_photos.h"
-#include "calib/features.h"
+#include "calib/features/features.h"
+#include "calib/matching/detect_photos.h"
 #include "survey/attitude.h"
 #include "survey/calibration.h"
 #include "survey/captures.h"

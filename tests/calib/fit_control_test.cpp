@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/fit_control.h"
+#include "calib/control/fit_control.h"
 
 #include <gtest/gtest.h>
 

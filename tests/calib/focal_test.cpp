@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/focal.h"
+#include "calib/two_view/focal.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "calib/verify.h"
+#include "calib/two_view/verify.h"
 #include "tests/calib/made_scene.h"
 
 namespace stucco::test {

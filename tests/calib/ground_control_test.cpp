@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/ground_control.h"
+#include "calib/control/ground_control.h"
 
 #include <gtest/gtest.h>
 

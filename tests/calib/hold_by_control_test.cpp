@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/hold_by_control.h"
+#include "calib/control/hold_by_control.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
-#include "calib/georeference.h"
+#include "calib/records/georeference.h"
 #include "tests/calib/made_control.h"
 #include "tests/calib/made_records.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "calib/features.h"
+#include "calib/features/features.h"
 #include "survey/pose.h"
 
 namespace stucco::test {

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "calib/ground_control.h"
+#include "calib/control/ground_control.h"
 #include "survey/georef.h"
 #include "tests/calib/made_scene.h"
 

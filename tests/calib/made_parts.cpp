@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "calib/georeference.h"
-#include "calib/tracks.h"
+#include "calib/records/georeference.h"
+#include "calib/scene/tracks.h"
 
 namespace stucco::test {
 

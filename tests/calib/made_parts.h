@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "calib/scene.h"
+#include "calib/scene/scene.h"
 #include "tests/calib/made_scene.h"
 
 namespace stucco::test {

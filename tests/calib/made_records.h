@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "calib/records.h"
+#include "calib/records/records.h"
 #include "tests/calib/made_scene.h"
 
 namespace stucco::test {

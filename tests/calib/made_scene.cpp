@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "calib/verify.h"
+#include "calib/two_view/verify.h"
 
 namespace stucco::test {
 namespace {

@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "calib/initial_pair.h"
-#include "calib/scene.h"
-#include "calib/tracks.h"
+#include "calib/scene/scene.h"
+#include "calib/scene/tracks.h"
+#include "calib/two_view/initial_pair.h"
 #include "survey/camera.h"
 #include "survey/pose.h"
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/mapper.h"
+#include "calib/mapping/mapper.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "calib/adjust.h"
+#include "calib/adjust/adjust.h"
 #include "survey/error.h"
 #include "tests/calib/made_scene.h"
 

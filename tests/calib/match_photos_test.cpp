@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/match_photos.h"
+#include "calib/matching/match_photos.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <string>
 #include <tuple>
 
-#include "calib/choose_pairs.h"
-#include "calib/tracks.h"
+#include "calib/matching/choose_pairs.h"
+#include "calib/scene/tracks.h"
 #include "tests/calib/expect/made_site.h"
 #include "tests/calib/made_scene.h"
 #include "tests/survey/stage_support.h"

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/matches.h"
+#include "calib/features/matches.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "calib/descriptors.h"
+#include "calib/features/descriptors.h"
 #include "tests/calib/made_scene.h"
 
 namespace stucco::test {

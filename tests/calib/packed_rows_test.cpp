@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/packed_rows.h"
+#include "calib/features/packed_rows.h"
 
 #include <gtest/gtest.h>
 
-#include "calib/descriptors.h"
-#include "calib/internal/multiply_tile.h"
+#include "calib/features/descriptors.h"
+#include "calib/features/internal/multiply_tile.h"
 #include "tests/calib/made_scene.h"
 
 namespace stucco::test {

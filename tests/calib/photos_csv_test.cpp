@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/photos_csv.h"
+#include "calib/results/photos_csv.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <sstream>
 
-#include "calib/resect.h"
-#include "calib/tracks.h"
+#include "calib/scene/resect.h"
+#include "calib/scene/tracks.h"
 #include "tests/calib/made_scene.h"
 
 namespace stucco::test {

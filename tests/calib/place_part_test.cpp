@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/place_part.h"
+#include "calib/parts/place_part.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "calib/parts.h"
+#include "calib/parts/parts.h"
 #include "tests/calib/made_parts.h"
 #include "tests/calib/made_records.h"
 

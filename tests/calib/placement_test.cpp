@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/placement.h"
+#include "calib/records/placement.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/repeating_walls.h"
+#include "calib/matching/repeating_walls.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "calib/descriptors.h"
+#include "calib/features/descriptors.h"
 #include "tests/calib/expect/made_site.h"
 #include "tests/calib/made_bays.h"
 #include "tests/site/made_plan.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/rotation_averaging.h"
+#include "calib/adjust/rotation_averaging.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/same_place.h"
+#include "calib/features/same_place.h"
 
 #include <gtest/gtest.h>
 

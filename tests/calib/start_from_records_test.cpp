@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/start_from_records.h"
+#include "calib/mapping/start_from_records.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/summarize_photos.h"
+#include "calib/results/summarize_photos.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "calib/parts.h"
+#include "calib/parts/parts.h"
 #include "tests/calib/made_parts.h"
 #include "tests/calib/made_records.h"
 

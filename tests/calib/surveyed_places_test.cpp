@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/surveyed_places.h"
+#include "calib/control/surveyed_places.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/take_apart.h"
+#include "calib/parts/take_apart.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-#include "calib/parts.h"
+#include "calib/parts/parts.h"
 #include "tests/calib/made_parts.h"
 #include "tests/calib/made_records.h"
 

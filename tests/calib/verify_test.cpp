@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/verify.h"
+#include "calib/two_view/verify.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calib/wall_features.h"
+#include "calib/features/wall_features.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "calib/descriptors.h"
-#include "calib/matches.h"
+#include "calib/features/descriptors.h"
+#include "calib/features/matches.h"
 #include "tests/calib/expect/made_site.h"
 #include "tests/calib/made_scene.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/placement.h"
+#include "calib/records/placement.h"
 #include "exchange/exchanged_model.h"
 #include "survey/captures.h"
 #include "survey/georef.h"

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/mapping/contradicting_groups.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "survey/attitude.h"
+
+namespace stucco {
+namespace {
+
+constexpr double kUnlikely = 21.1;  // the square of three normal variables, one in ten thousand
+constexpr size_t kPartners = 5;
+constexpr int kLeastShared = 30;
+constexpr size_t kLeastPhotos = 3;
+constexpr double kCommonShare = 0.5;  // of the variance of neighbours' records
+// What poses may be off by where records are better.
+constexpr double kPoseSigma_m = 0.05;
+constexpr double kPoseSigma_rad = 0.05 * M_PI / 180;
+
+// What a record of one kind is off by, in its standard deviations.
+using Difference = std::optional<Eigen::Vector3d>;
+
+struct Differences {
+  Difference attitude;  // about the axes of the world
+  Difference position;
+};
+
+Differences DifferencesOf(const ScenePhoto& photo) {
+  Differences result;
+  if (photo.attitude) {
+    const Eigen::Quaterniond turn =
+        photo.attitude->cam_from_world.conjugate() * photo.pose->rotation;
+    result.attitude = RotationVector(turn) / std::hypot(photo.attitude->sigma_rad, kPoseSigma_rad);
+  }
+  if (photo.prior) {
+    const Eigen::Vector3d off = photo.pose->Center() - photo.prior->position;
+    const double horizontal = std::hypot(photo.prior->sigma_horizontal_m, kPoseSigma_m);
+    const double vertical = std::hypot(photo.prior->sigma_vertical_m, kPoseSigma_m);
+    result.position = off.cwiseQuotient(Eigen::Vector3d(horizontal, horizontal, vertical));
+  }
+  return result;
+}
+
+// The photo and those that share most points with it, of those that agree with their records.
+std::vector<int> GroupOf(const Scene& scene, const std::vector<bool>& agrees, int photo) {
+  std::map<int, int> shared;
+  for (const int track : TracksSeenBy(scene, photo)) {
+    for (const SceneElement& e : scene.tracks[track].elements) {
+      if (e.used && e.photo != photo && agrees[e.photo]) ++shared[e.photo];
+    }
+  }
+  std::vector<std::pair<int, int>> order;  // (-points, photo)
+  for (const auto& [other, points] : shared) {
+    if (points >= kLeastShared) order.emplace_back(-points, other);
+  }
+  std::ranges::sort(order);
+  if (order.size() > kPartners) order.resize(kPartners);
+  std::vector<int> group = {photo};
+  for (const auto& [points, other] : order) group.push_back(other);
+  return group;
+}
+
+// Adds those that are off the mean's way where the mean is more than chance.
+void Test(const std::vector<int>& group, const std::vector<Differences>& all,
+          Difference Differences::*kind, std::set<int>& off) {
+  std::vector<int> told;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const int photo : group) {
+    if (!(all[photo].*kind)) continue;
+    told.push_back(photo);
+    mean += *(all[photo].*kind);
+  }
+  if (told.size() < kLeastPhotos) return;
+  const double count = static_cast<double>(told.size());
+  mean /= count;
+  const double variance = kCommonShare + (1 - kCommonShare) / count;
+  if (mean.squaredNorm() <= kUnlikely * variance) return;
+  for (const int photo : told) {
+    if ((all[photo].*kind)->dot(mean) >= mean.squaredNorm() / 2) off.insert(photo);
+  }
+}
+
+}  // namespace
+
+std::vector<int> ContradictingGroups(const Scene& scene, const std::vector<bool>& agrees) {
+  assert(agrees.size() == scene.photos.size());
+  const int count = static_cast<int>(scene.photos.size());
+  std::vector<Differences> differences(count);
+  for (int i = 0; i < count; ++i) {
+    if (agrees[i]) differences[i] = DifferencesOf(scene.photos[i]);
+  }
+  std::set<int> off;
+  for (int i = 0; i < count; ++i) {
+    if (!agrees[i]) continue;
+    const std::vector<int> group = GroupOf(scene, agrees, i);
+    Test(group, differences, &Differences::attitude, off);
+    Test(group, differences, &Differences::position, off);
+  }
+  return {off.begin(), off.end()};
+}
+
+}  // namespace stucco

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "calib/scene/scene.h"
+
+namespace stucco {
+
+// Photos that are off their records together, ascending: each by no more than records are off, but
+// all the same way, as a part that hangs on the rest by little is when it is bent. Groups are a
+// photo and those that share most points with it; the mean of their differences in attitude and
+// position is tested at a level of 1e-4, with half of a record's variance taken to be common to
+// neighbours (receivers drift, compasses depend on the place). Of such a group those count that
+// are off the mean's way by at least half of it. `agrees` are the photos whose poses agree with
+// their records by themselves; others belong to no group. Requires poses in the frame of the
+// priors.
+std::vector<int> ContradictingGroups(const Scene& scene, const std::vector<bool>& agrees);
+
+}  // namespace stucco

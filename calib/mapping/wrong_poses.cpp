@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/mapping/wrong_poses.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <random>
+
+#include "calib/adjust/adjust.h"
+#include "calib/mapping/contradicting_groups.h"
+#include "calib/scene/points.h"
+#include "calib/scene/triangulate.h"
+
+namespace stucco {
+namespace {
+
+// The square of three normal variables that one in ten thousand exceeds (chi squared).
+constexpr double kUnlikely = 21.1;
+// What single records may be off by that are usually better, and the adjustment itself.
+constexpr double kPoseSigma_m = 0.1;
+constexpr double kPoseSigma_rad = 0.3 * M_PI / 180;
+constexpr int kPlaneRounds = 100;
+constexpr double kOnPlane = 0.02;        // of the distance
+constexpr double kLeastOffPlane = 0.15;  // of the points
+constexpr int kLeastPoints = 30;
+constexpr int kEnoughPartners = 4;
+// Matches are taken out that are this many deviations of the record from where it puts their
+// points.
+constexpr double kGateSigmas = 3.5;
+constexpr double kNarrower = 3;
+constexpr int kMostRounds = 8;
+// When more of the poses contradict their records, it is the records that are wrong.
+constexpr double kMostWrong = 0.5;
+
+double AttitudeSquare(const ScenePhoto& photo) {
+  if (!photo.attitude) return 0;
+  const double angle = photo.pose->rotation.angularDistance(photo.attitude->cam_from_world);
+  const double variance = std::pow(photo.attitude->sigma_rad, 2) + std::pow(kPoseSigma_rad, 2);
+  return angle * angle / variance;
+}
+
+double PositionSquare(const ScenePhoto& photo) {
+  if (!photo.prior) return 0;
+  const Eigen::Vector3d error = photo.pose->Center() - photo.prior->position;
+  const double own = std::pow(kPoseSigma_m, 2);
+  return error.head<2>().squaredNorm() / (std::pow(photo.prior->sigma_horizontal_m, 2) + own) +
+         error.z() * error.z() / (std::pow(photo.prior->sigma_vertical_m, 2) + own);
+}
+
+std::vector<Eigen::Vector3d> PointsOf(const Scene& scene, int photo) {
+  std::vector<Eigen::Vector3d> points;
+  for (const int track : TracksSeenBy(scene, photo)) {
+    points.push_back(*scene.tracks[track].position);
+  }
+  return points;
+}
+
+// Photos that agree with their own records and share points with this one.
+int NumTrustedPartners(const Scene& scene, int photo) {
+  std::vector<int> shared(scene.photos.size(), 0);
+  for (const int track : TracksSeenBy(scene, photo)) {
+    for (const SceneElement& e : scene.tracks[track].elements) shared[e.photo] += e.used;
+  }
+  shared[photo] = 0;
+  int count = 0;
+  for (size_t i = 0; i < shared.size(); ++i) {
+    if (shared[i] < kLeastPoints) continue;
+    const ScenePhoto& other = scene.photos[i];
+    count += AttitudeSquare(other) <= kUnlikely && PositionSquare(other) <= kUnlikely;
+  }
+  return count;
+}
+
+// Standard deviation of where the record puts a point in the picture, pixels.
+double PredictedSigma(const Scene& scene, int photo, const Eigen::Vector3d& point) {
+  const ScenePhoto& p = scene.photos[photo];
+  const double distance = (point - p.pose->Center()).norm();
+  const double place = std::max(p.prior->sigma_horizontal_m, p.prior->sigma_vertical_m) / distance;
+  return scene.CameraOf(photo).FocalX() * std::hypot(place, p.attitude->sigma_rad) +
+         p.keypoint_sigma_px;
+}
+
+class Mending {
+ public:
+  Mending(const MapperOptions& options, const std::vector<int>& photos, Scene& scene)
+      : options_(options), photos_(photos), scene_(scene), tracks_(TracksOf(scene, photos)) {}
+
+  void Run(const StageContext& context) {
+    for (const int photo : photos_) scene_.photos[photo].pose.reset();
+    Triangulate(options_.max_error_sigmas);
+    for (const int photo : photos_) scene_.photos[photo].pose = RecordedPose(scene_.photos[photo]);
+    double tolerance = TakeImpossible();
+    for (int round = 0; round < kMostRounds; ++round) {
+      context.ThrowIfCancelled();
+      tolerance = std::max(tolerance, options_.max_error_sigmas);
+      Triangulate(tolerance);
+      Adjust(tolerance);
+      if (tolerance <= options_.max_error_sigmas) break;
+      tolerance /= kNarrower;
+    }
+    Triangulate(options_.max_error_sigmas);
+  }
+
+ private:
+  void Triangulate(double tolerance) {
+    for (const int track : tracks_) {
+      TriangulateTrack(scene_, {tolerance, options_.min_angle_rad}, scene_.tracks[track]);
+    }
+  }
+
+  // Takes matches out whose points are not where the records say. Returns the tolerance that the
+  // others ask for.
+  double TakeImpossible() {
+    double widest = 0;
+    for (const int photo : photos_) {
+      if (!scene_.photos[photo].pose) continue;
+      std::vector<int>& tracks = scene_.tracks_of_photo[photo];
+      for (int& index : tracks) {
+        if (index < 0 || !scene_.tracks[index].position) continue;
+        SceneTrack& track = scene_.tracks[index];
+        const auto mine = std::find_if(track.elements.begin(), track.elements.end(),
+                                       [&](const SceneElement& e) { return e.photo == photo; });
+        const double gate = kGateSigmas * PredictedSigma(scene_, photo, *track.position);
+        if (ReprojectionError(scene_, *mine, *track.position) < gate) {
+          widest = std::max(widest, gate / scene_.photos[photo].keypoint_sigma_px);
+          continue;
+        }
+        track.elements.erase(mine);
+        index = -1;
+      }
+    }
+    return widest;
+  }
+
+  void Adjust(double tolerance) {
+    AdjustOptions adjust;
+    adjust.variable_photos = photos_;
+    std::erase_if(adjust.variable_photos, [&](int photo) { return !scene_.photos[photo].pose; });
+    if (adjust.variable_photos.empty()) return;
+    adjust.refine = RefineIntrinsics::kNone;
+    adjust.use_priors = true;
+    adjust.threads = options_.adjust_threads;
+    WeighByTolerance(tolerance, adjust);
+    adjust.max_iterations = 20;
+    stucco::Adjust(adjust, scene_);
+  }
+
+  const MapperOptions& options_;
+  const std::vector<int>& photos_;
+  Scene& scene_;
+  std::vector<int> tracks_;
+};
+
+}  // namespace
+
+bool SeesSeveralPlanes(const Scene& scene, int photo) {
+  const std::vector<Eigen::Vector3d> points = PointsOf(scene, photo);
+  const int count = static_cast<int>(points.size());
+  if (count < kLeastPoints) return false;
+  const Eigen::Vector3d center = scene.photos[photo].pose->Center();
+  std::mt19937 random(photo);
+  int most = 0;
+  for (int round = 0; round < kPlaneRounds; ++round) {
+    const Eigen::Vector3d& a = points[random() % count];
+    const Eigen::Vector3d& b = points[random() % count];
+    const Eigen::Vector3d& c = points[random() % count];
+    const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
+    if (normal.squaredNorm() < 0.5) continue;  // on one line: no plane
+    most = std::max(most, static_cast<int>(std::ranges::count_if(points, [&](const auto& p) {
+                      return std::abs(normal.dot(p - a)) < kOnPlane * (p - center).norm();
+                    })));
+  }
+  return count - most >= kLeastOffPlane * count;
+}
+
+RecordVerdict JudgePose(const Scene& scene, int photo) {
+  assert(scene.photos[photo].pose);
+  if (AttitudeSquare(scene.photos[photo]) > kUnlikely) return RecordVerdict::kContradicts;
+  if (PositionSquare(scene.photos[photo]) <= kUnlikely) return RecordVerdict::kAgrees;
+  const bool holds =
+      NumTrustedPartners(scene, photo) >= kEnoughPartners || SeesSeveralPlanes(scene, photo);
+  return holds ? RecordVerdict::kPositionOff : RecordVerdict::kContradicts;
+}
+
+std::vector<int> ContradictingPoses(const Scene& scene) {
+  std::vector<int> photos;
+  for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
+    if (scene.photos[i].pose && JudgePose(scene, i) == RecordVerdict::kContradicts) {
+      photos.push_back(i);
+    }
+  }
+  if (static_cast<double>(photos.size()) > kMostWrong * NumRegistered(scene)) photos.clear();
+  return photos;
+}
+
+std::vector<int> OffTogether(const Scene& scene) {
+  std::vector<bool> agrees(scene.photos.size());
+  for (int i = 0; i < static_cast<int>(agrees.size()); ++i) {
+    agrees[i] = scene.photos[i].pose && JudgePose(scene, i) == RecordVerdict::kAgrees;
+  }
+  return ContradictingGroups(scene, agrees);
+}
+
+WrongPoses MendWrongPoses(const MapperOptions& options, const StageContext& context, Scene& scene) {
+  std::vector<int> wrong = ContradictingPoses(scene);
+  const size_t single = wrong.size();
+  std::ranges::copy(OffTogether(scene), std::back_inserter(wrong));
+  std::inplace_merge(wrong.begin(), wrong.begin() + static_cast<std::ptrdiff_t>(single),
+                     wrong.end());
+  WrongPoses result;
+  if (wrong.empty()) return result;
+  Mending(options, wrong, scene).Run(context);
+  FilterScene(options, scene);
+  for (const int photo : wrong) {
+    std::optional<Pose>& pose = scene.photos[photo].pose;
+    if (pose && JudgePose(scene, photo) != RecordVerdict::kContradicts) {
+      result.corrected.push_back(photo);
+    } else {
+      pose.reset();
+      result.taken.push_back(photo);
+    }
+  }
+  FilterPoints({options.max_error_sigmas, options.min_angle_rad}, options.threads, scene);
+  return result;
+}
+
+}  // namespace stucco

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/matching/guidance.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "calib/expect/expected_poses.h"
+#include "calib/scene/camera_key.h"
+#include "survey/files.h"
+#include "survey/plan_of_survey.h"
+
+namespace stucco {
+namespace {
+
+constexpr double kBeyond_m = 1;  // of what the photo should see is rectified too
+constexpr int kWallPartners = 6;
+
+// Along the wall and in height, what the photo should see of it.
+WallView ViewOfWall(const Plan& plan, const ExpectedViews& views, int photo, int wall) {
+  const PlannedFacade& facade = plan.facades[wall];
+  const Eigen::Vector2d along = facade.along();
+  WallView view{
+      facade, {facade.length_m(), 0}, {facade.z_m.to_m, facade.z_m.from_m}, *views.poses[photo]};
+  const auto include = [](double value, Interval& interval) {
+    interval.from_m = std::min(interval.from_m, value);
+    interval.to_m = std::max(interval.to_m, value);
+  };
+  for (const int point : views.seen[photo]) {
+    const SurfaceSample& p = views.points[point];
+    if (p.facade != wall) continue;
+    include((p.position.head<2>() - facade.a_m).dot(along), view.along_m);
+    include(p.position.z(), view.z_m);
+  }
+  view.along_m = {view.along_m.from_m - kBeyond_m, view.along_m.to_m + kBeyond_m};
+  view.z_m = {view.z_m.from_m - kBeyond_m, view.z_m.to_m + kBeyond_m};
+  return view;
+}
+
+std::string KeyOfView(const WallView& view, const Camera& camera) {
+  const Eigen::Vector4d q = view.cam_from_plan.rotation.coeffs();
+  const Eigen::Vector3d& t = view.cam_from_plan.translation;
+  return fmt::format("{} {} {} {} | {} {} {} {} | {} | {} {} {} | {}", view.wall.a_m.x(),
+                     view.wall.a_m.y(), view.wall.b_m.x(), view.wall.b_m.y(), view.along_m.from_m,
+                     view.along_m.to_m, view.z_m.from_m, view.z_m.to_m,
+                     fmt::join(std::array{q[0], q[1], q[2], q[3]}, " "), t.x(), t.y(), t.z(),
+                     KeyOf(camera));
+}
+
+}  // namespace
+
+Guidance GuideByPlan(const CalibOptions& options, const Captures& captures,
+                     const std::vector<const CapturedPhoto*>& photos, const StageContext& context) {
+  Guidance guidance;
+  const std::optional<Plan> plan = PlanOfSurvey(context);
+  if (!plan) return guidance;
+  guidance.facades = plan->facades;
+  ExpectInput input{*plan, ExpectedPoses(*plan, photos), {}};
+  for (const CapturedPhoto* photo : photos) {
+    input.cameras.push_back(&captures.cameras[photo->camera].intrinsics);
+  }
+  const ExpectedViews& views = guidance.views.emplace(ExpectViews(std::move(input), context));
+  guidance.pairs = OverlappingPairs(views, options.neighbours, context.threads);
+  guidance.wall_pairs = ObliqueWallPairs(views, kWallPartners, context.threads);
+  for (const WallPair& pair : guidance.wall_pairs) {
+    for (const int photo : {pair.first, pair.second}) {
+      auto [place, is_new] = guidance.walls.try_emplace({photo, pair.wall});
+      if (!is_new) continue;
+      place->second.view = ViewOfWall(*plan, views, photo, pair.wall);
+      place->second.key =
+          KeyOfView(place->second.view, captures.cameras[photos[photo]->camera].intrinsics);
+    }
+  }
+  return guidance;
+}
+
+}  // namespace stucco

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/matching/known_poses.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "survey/median.h"
+
+namespace stucco {
+namespace {
+
+// Fewer observations hold no pose surely.
+constexpr int kEnoughObservations = 100;
+// Of poses that many observations hold.
+constexpr double kPoseSigma_m = 0.05;
+constexpr double kPoseSigma_rad = 0.1 * M_PI / 180;
+constexpr size_t kMostPoints = 20000;
+constexpr double kMostShift_m = 6;
+constexpr double kStep_m = 0.5;
+constexpr double kOnWall_m = 0.4;
+constexpr double kOffGround_m = 1;  // and roofs: what lies there may belong to them
+constexpr size_t kLeastPoints = 100;
+constexpr int kRounds = 5;
+
+// A point near the plane of a wall.
+struct NearWall {
+  Eigen::Vector2d normal = Eigen::Vector2d::UnitX();
+  double distance_m = 0;  // before the wall
+};
+
+std::vector<NearWall> PointsNearWalls(std::span<const Eigen::Vector3d> points,
+                                      std::span<const PlannedFacade> walls) {
+  std::vector<NearWall> near;
+  const size_t step = points.size() / kMostPoints + 1;
+  for (size_t i = 0; i < points.size(); i += step) {
+    const Eigen::Vector3d& p = points[i];
+    for (const PlannedFacade& wall : walls) {
+      if (p.z() < wall.z_m.from_m + kOffGround_m || p.z() > wall.z_m.to_m - kOffGround_m) continue;
+      const Eigen::Vector2d from = p.head<2>() - wall.a_m;
+      const double along = from.dot(wall.along());
+      const double distance = from.dot(wall.outwards());
+      if (along < 0 || along > wall.length_m() || std::abs(distance) > kMostShift_m) continue;
+      near.push_back({wall.outwards(), distance});
+    }
+  }
+  return near;
+}
+
+size_t NumOnWalls(const std::vector<NearWall>& points, const Eigen::Vector2d& shift) {
+  return std::ranges::count_if(points, [&](const NearWall& point) {
+    return std::abs(point.distance_m + point.normal.dot(shift)) < kOnWall_m;
+  });
+}
+
+// Least squares over the points that are on walls after the shift.
+Eigen::Vector2d Refined(const std::vector<NearWall>& points, Eigen::Vector2d shift) {
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix2d normals = 1e-3 * Eigen::Matrix2d::Identity();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    for (const NearWall& point : points) {
+      const double off = point.distance_m + point.normal.dot(shift);
+      if (std::abs(off) > kOnWall_m) continue;
+      normals += point.normal * point.normal.transpose();
+      right -= off * point.normal;
+    }
+    shift += normals.ldlt().solve(right);
+  }
+  return shift;
+}
+
+std::optional<KnownPose> KnowPose(const Scene& scene, int index) {
+  const ScenePhoto& photo = scene.photos[index];
+  if (photo.pose && NumUsedObservations(scene, index) >= kEnoughObservations) {
+    return KnownPose{*photo.pose, kPoseSigma_m, kPoseSigma_rad};
+  }
+  const auto recorded = RecordedPose(photo);
+  if (!recorded) return std::nullopt;
+  return KnownPose{*recorded,
+                   std::max(photo.prior->sigma_horizontal_m, photo.prior->sigma_vertical_m),
+                   photo.attitude->sigma_rad};
+}
+
+// From the frame of the records into that of the plan: medians, as single records may be wrong.
+Eigen::Vector3d PlanFromRecords(const ExpectedViews& views,
+                                const std::vector<PoseRecord>& records) {
+  std::array<std::vector<double>, 3> offsets;
+  for (size_t i = 0; i < records.size(); ++i) {
+    if (!views.poses[i] || !records[i].position) continue;
+    const Eigen::Vector3d offset = views.poses[i]->Center() - records[i].position->position;
+    for (int axis = 0; axis < 3; ++axis) offsets[axis].push_back(offset[axis]);
+  }
+  Eigen::Vector3d shift;
+  for (int axis = 0; axis < 3; ++axis) shift[axis] = Median(std::move(offsets[axis])).value_or(0);
+  return shift;
+}
+
+}  // namespace
+
+Eigen::Vector2d ShiftOntoWalls(std::span<const Eigen::Vector3d> points,
+                               std::span<const PlannedFacade> walls) {
+  const std::vector<NearWall> near = PointsNearWalls(points, walls);
+  const int steps = static_cast<int>(kMostShift_m / kStep_m);
+  Eigen::Vector2d best = Eigen::Vector2d::Zero();
+  size_t most = std::max(kLeastPoints, NumOnWalls(near, best));
+  for (int x = -steps; x <= steps; ++x) {
+    for (int y = -steps; y <= steps; ++y) {
+      const Eigen::Vector2d shift = kStep_m * Eigen::Vector2d(x, y);
+      const size_t count = NumOnWalls(near, shift);
+      if (count <= most) continue;
+      most = count;
+      best = shift;
+    }
+  }
+  if (NumOnWalls(near, best) < kLeastPoints) return Eigen::Vector2d::Zero();
+  return Refined(near, best);
+}
+
+std::vector<std::optional<KnownPose>> KnowPoses(const Guidance& guidance,
+                                                const std::vector<PoseRecord>& records,
+                                                const Scene& scene) {
+  assert(guidance.views && records.size() == scene.photos.size());
+  Eigen::Vector3d plan_from_world = PlanFromRecords(*guidance.views, records);
+  std::vector<Eigen::Vector3d> points;
+  for (const SceneTrack& track : scene.tracks) {
+    if (track.position) points.push_back(*track.position + plan_from_world);
+  }
+  plan_from_world.head<2>() += ShiftOntoWalls(points, guidance.facades);
+  std::vector<std::optional<KnownPose>> known(scene.photos.size());
+  for (size_t i = 0; i < known.size(); ++i) {
+    known[i] = KnowPose(scene, static_cast<int>(i));
+    if (!known[i]) continue;
+    Pose& pose = known[i]->cam_from_plan;
+    pose = Pose{pose.rotation, -(pose.rotation * (pose.Center() + plan_from_world))};
+  }
+  return known;
+}
+
+}  // namespace stucco

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "calib/matching/guidance.h"
+#include "calib/records/records.h"
+#include "calib/scene/scene.h"
+#include "survey/plan.h"
+#include "survey/pose.h"
+
+namespace stucco {
+
+// Where a photo was taken, as far as a first adjustment knows.
+struct KnownPose {
+  Pose cam_from_plan;
+  double sigma_m = 0;    // per axis
+  double sigma_rad = 0;  // about each axis
+};
+
+// By photo: its pose where it has a sure one, else its record, corrected by what records of its
+// flight err by and as sure as these turned out to be; nothing where it has neither. Requires a
+// scene in the frame of the records, whose priors were corrected (ApplyRecords).
+std::vector<std::optional<KnownPose>> KnowPoses(const Guidance& guidance,
+                                                const std::vector<PoseRecord>& records,
+                                                const Scene& scene);
+
+// The level shift, metres, that brings most points onto walls: receivers and maps are off against
+// each other by metres. The best of a grid of 6 m each way, refined by medians; zero where hardly
+// any point lies on a wall then.
+Eigen::Vector2d ShiftOntoWalls(std::span<const Eigen::Vector3d> points,
+                               std::span<const PlannedFacade> walls);
+
+}  // namespace stucco

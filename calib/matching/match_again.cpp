@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/matching/match_again.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "calib/features/descriptors.h"
+#include "calib/features/same_place.h"
+#include "survey/median.h"
+#include "survey/parallel.h"
+
+namespace stucco {
+namespace {
+
+// How often another bay may be the right one.
+constexpr double kWrongBay = 1e-3;
+// What relief and the map add to shifts on the wall, metres.
+constexpr double kOffWall_m = 0.2;
+constexpr size_t kLeastKeypoints = 10;
+constexpr size_t kLeastMatches = 8;
+constexpr double kSameShift_m = 0.5;
+
+// What a photo shows of one wall.
+struct Shown {
+  WallKeypoints on_wall;
+  std::vector<int32_t> of_photo;  // their numbers among all of the photo's keypoints
+  double distance_m = 0;          // of the middle one
+};
+
+using ShownWalls = std::map<int, Shown>;
+
+void Append(const std::vector<int16_t>& descriptors, size_t row, const OnWall& place,
+            int32_t of_photo, Shown& shown) {
+  const auto begin = descriptors.begin() + static_cast<std::ptrdiff_t>(row) * kDescriptorSize;
+  shown.on_wall.descriptors.insert(shown.on_wall.descriptors.end(), begin, begin + kDescriptorSize);
+  shown.on_wall.places.push_back(place);
+  shown.of_photo.push_back(of_photo);
+}
+
+WallView ViewOf(const AgainInput& input, int photo, int wall) {
+  return {input.set.guidance.facades[wall], {}, {}, input.poses[photo]->cam_from_plan};
+}
+
+// Of the walls that repeat themselves, by the photo's pose.
+ShownWalls ShownBy(const AgainInput& input, int photo) {
+  ShownWalls walls;
+  const std::vector<int>& wall_of = input.repeating.wall_of[photo];
+  if (!input.poses[photo] || wall_of.empty()) return walls;
+  const Camera& camera = input.set.captures.cameras[input.set.photos[photo]->camera].intrinsics;
+  const DetectInput detect{input.options, input.set, input.context};
+  const Features plain = FeaturesOfPhoto(detect, input.features, photo);
+  const std::vector<int16_t> descriptors = UnitDescriptors(plain);
+  for (size_t k = 0; k < wall_of.size(); ++k) {
+    if (wall_of[k] < 0) continue;
+    const auto place = PlaceOnWall(plain.keypoints[k], camera, ViewOf(input, photo, wall_of[k]));
+    if (place) Append(descriptors, k, *place, static_cast<int32_t>(k), walls[wall_of[k]]);
+  }
+  for (auto run = input.features.walls.lower_bound({photo, 0});
+       run != input.features.walls.end() && run->first.first == photo; ++run) {
+    const int wall = run->first.second;
+    if (!input.repeating.period_m.contains(wall)) continue;
+    const Features features = FeaturesOnWall(detect, input.features, photo, wall);
+    const std::vector<int16_t> rows = UnitDescriptors(features);
+    for (size_t k = 0; k < features.size(); ++k) {
+      const auto place = PlaceOnWall(features.keypoints[k], camera, ViewOf(input, photo, wall));
+      if (place) {
+        Append(rows, k, *place, static_cast<int32_t>(run->second.begin + k), walls[wall]);
+      }
+    }
+  }
+  std::erase_if(walls,
+                [](const auto& each) { return each.second.of_photo.size() < kLeastKeypoints; });
+  for (auto& [wall, shown] : walls) {
+    const PlannedFacade& facade = input.set.guidance.facades[wall];
+    const Eigen::Vector2d middle = (facade.a_m + facade.b_m) / 2;
+    shown.distance_m = (input.poses[photo]->cam_from_plan.Center().head<2>() - middle).norm();
+  }
+  return walls;
+}
+
+// Standard deviation of where the poses put a match of theirs on the wall, along it or up.
+double ShiftSigma(const AgainInput& input, int first, int second, double distance_m) {
+  const KnownPose& a = *input.poses[first];
+  const KnownPose& b = *input.poses[second];
+  const double places = std::hypot(a.sigma_m, b.sigma_m, kOffWall_m);
+  return std::hypot(places, distance_m * a.sigma_rad, distance_m * b.sigma_rad);
+}
+
+// Takes off what does not share the shift of most, and all where the poses do not tell which bay
+// is the right one: shifts that differ by a period have the odds of their squares under the
+// poses' standard deviation.
+void KeepSure(const Shown& first, const Shown& second, double period_m, double sigma_m,
+              std::vector<Match>& matches) {
+  std::vector<double> along;
+  std::vector<double> up;
+  const auto shift_of = [&](const Match& match) {
+    const OnWall& from = first.on_wall.places[match.first];
+    const OnWall& to = second.on_wall.places[match.second];
+    return Eigen::Vector2d(to.along_m - from.along_m, to.z_m - from.z_m);
+  };
+  for (const Match& match : matches) {
+    const Eigen::Vector2d shift = shift_of(match);
+    along.push_back(shift.x());
+    up.push_back(shift.y());
+  }
+  const Eigen::Vector2d middle(Median(std::move(along)).value_or(0),
+                               Median(std::move(up)).value_or(0));
+  std::erase_if(matches, [&](const Match& match) {
+    return (shift_of(match) - middle).norm() > kSameShift_m;
+  });
+  const double log_odds =
+      period_m * (period_m - 2 * middle.lpNorm<Eigen::Infinity>()) / (2 * sigma_m * sigma_m);
+  if (matches.size() < kLeastMatches || log_odds < -std::log(kWrongBay)) matches.clear();
+}
+
+// In the numbers of the photos' keypoints.
+std::vector<Match> MatchShown(const AgainInput& input, int first, int second,
+                              const std::vector<ShownWalls>& shown) {
+  std::vector<Match> matches;
+  for (const auto& [wall, of_first] : shown[first]) {
+    const auto of_second = shown[second].find(wall);
+    if (of_second == shown[second].end()) continue;
+    const double period_m = input.repeating.period_m.at(wall);
+    // No more than one of the bays lies within half a period.
+    std::vector<Match> on_wall = MatchWithin(of_first.on_wall, of_second->second.on_wall,
+                                             period_m / 2, input.options.match_ratio);
+    const double distance_m = std::max(of_first.distance_m, of_second->second.distance_m);
+    KeepSure(of_first, of_second->second, period_m, ShiftSigma(input, first, second, distance_m),
+             on_wall);
+    for (const Match& match : on_wall) {
+      matches.push_back({of_first.of_photo[match.first], of_second->second.of_photo[match.second]});
+    }
+  }
+  return matches;
+}
+
+std::vector<Eigen::Vector2d> PixelsOf(const DetectedFeatures& features, int photo) {
+  std::vector<Eigen::Vector2d> pixels;
+  for (const Keypoint& k : features.AllOf(photo).keypoints) pixels.emplace_back(k.x, k.y);
+  return pixels;
+}
+
+// What the photos show, ready to be matched.
+struct ReadyPhotos {
+  std::vector<ShownWalls> walls;
+  std::vector<std::vector<Eigen::Vector2d>> pixels;  // of photos that show such walls
+  std::vector<std::vector<int32_t>> places;          // as PlacesOfAll gives them
+};
+
+ReadyPhotos ReadyAll(const AgainInput& input) {
+  const size_t count = input.set.photos.size();
+  ReadyPhotos ready{std::vector<ShownWalls>(count),
+                    std::vector<std::vector<Eigen::Vector2d>>(count),
+                    PlacesOfAll(input.options, input.set, input.features)};
+  ParallelFor(count, input.context.threads, [&](size_t i) {
+    ready.walls[i] = ShownBy(input, static_cast<int>(i));
+    if (!ready.walls[i].empty()) ready.pixels[i] = PixelsOf(input.features, static_cast<int>(i));
+  });
+  return ready;
+}
+
+// `matches` are those of the pair so far.
+std::optional<VerifiedPair> VerifyAgain(const AgainInput& input, const ReadyPhotos& ready,
+                                        std::vector<Match> matches, TriedPair& tried) {
+  const auto& [first, second, num_matches, num_verified] = tried;
+  const std::vector<Match> added = MatchShown(input, first, second, ready.walls);
+  if (added.empty()) return std::nullopt;
+  matches.insert(matches.end(), added.begin(), added.end());
+  tried.num_matches += static_cast<int>(added.size());
+  const PlacesOfPair places{ready.places[first], ready.places[second]};
+  DropRepeated(places, matches);
+  auto geometry = VerifyPair(ready.pixels[first], ready.pixels[second], matches,
+                             VerifyOptionsOf(input.options, input.set, first, second));
+  if (!geometry) return std::nullopt;
+  JoinPlaces(places, geometry->inliers);
+  tried.num_verified = static_cast<int>(geometry->inliers.size());
+  VerifiedPair pair;
+  pair.pair = {first, second, geometry->inliers};
+  pair.geometry = std::move(*geometry);
+  return pair;
+}
+
+}  // namespace
+
+int MatchAgain(const AgainInput& input, MatchedPairs& matched) {
+  const StageContext& context = input.context;
+  const ReadyPhotos ready = ReadyAll(input);
+  std::map<std::pair<int, int>, VerifiedPair*> verified;
+  for (VerifiedPair& each : matched.verified) {
+    verified[{each.pair.first, each.pair.second}] = &each;
+  }
+  const auto so_far = [&](const TriedPair& tried) {
+    const auto found = verified.find({tried.first, tried.second});
+    return found == verified.end() ? nullptr : found->second;
+  };
+  std::vector<std::optional<VerifiedPair>> again(matched.tried.size());
+  context.progress->Begin("matching what repeats", matched.tried.size());
+  ParallelFor(matched.tried.size(), context.threads, [&](size_t i) {
+    context.ThrowIfCancelled();
+    TriedPair& tried = matched.tried[i];
+    const VerifiedPair* before = so_far(tried);
+    again[i] = VerifyAgain(input, ready,
+                           before != nullptr ? before->pair.matches : std::vector<Match>(), tried);
+    context.progress->Advance();
+  });
+  std::vector<VerifiedPair> all;
+  int num_pairs = 0;
+  for (size_t i = 0; i < again.size(); ++i) {
+    VerifiedPair* before = so_far(matched.tried[i]);
+    num_pairs += again[i].has_value();
+    if (again[i]) {
+      all.push_back(std::move(*again[i]));
+    } else if (before != nullptr) {
+      all.push_back(std::move(*before));
+    }
+  }
+  matched.verified = std::move(all);
+  return num_pairs;
+}
+
+}  // namespace stucco

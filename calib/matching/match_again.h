@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calib/matching/known_poses.h"
+#include "calib/matching/match_photos.h"
+
+namespace stucco {
+
+struct AgainInput {
+  const CalibOptions& options;
+  const PhotoSet& set;
+  const DetectedFeatures& features;
+  const OnRepeatingWalls& repeating;
+  const std::vector<std::optional<KnownPose>>& poses;  // by photo
+  const StageContext& context;
+};
+
+// What photos show of walls that repeat themselves, matched with what an adjustment knows of their
+// poses: within half a period of where these put it, and only where poses are so sure that the next
+// bay is a thousand times less likely. A pair whose poses are not keeps what it has: several bays
+// look like the right one, and none is chosen. Adds to the first matches, in their order, and
+// verifies anew the pairs that it adds to. Returns the number of pairs that it added to.
+int MatchAgain(const AgainInput& input, MatchedPairs& matched);
+
+}  // namespace stucco

@@ -1,0 +1,424 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/records/records.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <ctime>
+#include <iomanip>
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "survey/attitude.h"
+#include "survey/median.h"
+
+namespace stucco {
+namespace {
+
+constexpr double kPause_s = 300;
+constexpr int kEnoughForOneFlight = 8;
+constexpr int kEnoughAtAll = 4;
+constexpr double kSignificant = 3;  // of its own standard deviation
+// Receivers are no better than this among themselves, gimbals no better than they write.
+constexpr double kLeastPosition_m = 0.01;
+constexpr double kLeastAttitude_rad = 0.05 * M_PI / 180;
+constexpr int kRounds = 10;  // of reweighting
+constexpr double kExpectedMount_rad = 2 * M_PI / 180;
+constexpr double kExpectedTilt_rad = 5 * M_PI / 180;
+constexpr double kExpectedYaw_rad = 10 * M_PI / 180;  // that is left
+
+std::optional<double> SecondsOf(const std::string& capture_time) {
+  std::tm time = {};
+  std::istringstream text(capture_time);
+  text >> std::get_time(&time, "%Y:%m:%d %H:%M:%S");
+  if (text.fail()) return std::nullopt;
+  return static_cast<double>(timegm(&time));
+}
+
+// Photos in the order they were taken, those without a time by their order in the captures.
+std::vector<int> InTime(const std::vector<const CapturedPhoto*>& captures,
+                        const std::vector<std::optional<double>>& seconds) {
+  std::vector<int> order(captures.size());
+  for (size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    if (captures[a]->camera != captures[b]->camera)
+      return captures[a]->camera < captures[b]->camera;
+    return seconds[a].value_or(0) < seconds[b].value_or(0);
+  });
+  return order;
+}
+
+std::vector<int> FlightsOf(const std::vector<const CapturedPhoto*>& captures, const Plan* plan) {
+  std::map<std::string, int> flight_of_view;
+  if (plan != nullptr) {
+    for (const PlannedView& view : plan->views) flight_of_view[view.id] = view.flight;
+  }
+  std::vector<std::optional<double>> seconds;
+  seconds.reserve(captures.size());
+  for (const CapturedPhoto* photo : captures) seconds.push_back(SecondsOf(photo->capture_time));
+  // A flight is a planned one on a day without a long pause, by one camera.
+  std::vector<int> flights(captures.size(), 0);
+  int flight = 0;
+  int planned = -1;
+  int before = -1;
+  for (const int i : InTime(captures, seconds)) {
+    const auto found = flight_of_view.find(captures[i]->view);
+    const int now = found == flight_of_view.end() ? planned : found->second;
+    if (before >= 0) {
+      const bool paused =
+          seconds[i] && seconds[before] && *seconds[i] - *seconds[before] > kPause_s;
+      const bool other = planned >= 0 && now != planned;
+      flight += paused || other || captures[i]->camera != captures[before]->camera;
+    }
+    flights[i] = flight;
+    planned = now;
+    before = i;
+  }
+  return flights;
+}
+
+double MedianOf(std::vector<double> values) {
+  return Median(std::move(values)).value_or(0);
+}
+
+// Positions
+
+struct PositionError {
+  int flight = 0;
+  Eigen::Vector3d recorded_minus_posed = Eigen::Vector3d::Zero();
+  Eigen::Vector3d stated = Eigen::Vector3d::Ones();  // standard deviations
+};
+
+std::vector<PositionError> PositionErrors(const std::vector<PoseRecord>& records,
+                                          const Scene& scene) {
+  std::vector<PositionError> errors;
+  for (size_t i = 0; i < records.size(); ++i) {
+    if (!scene.photos[i].pose || !records[i].position) continue;
+    const PositionPrior& recorded = *records[i].position;
+    errors.push_back(
+        {records[i].flight,
+         recorded.position - scene.photos[i].pose->Center(),
+         {recorded.sigma_horizontal_m, recorded.sigma_horizontal_m, recorded.sigma_vertical_m}});
+  }
+  return errors;
+}
+
+Eigen::Vector3d MedianVector(const std::vector<Eigen::Vector3d>& vectors) {
+  Eigen::Vector3d median;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    values.reserve(vectors.size());
+    for (const Eigen::Vector3d& v : vectors) values.push_back(v[axis]);
+    median[axis] = MedianOf(std::move(values));
+  }
+  return median;
+}
+
+Eigen::Vector3d MedianShift(const std::vector<PositionError>& errors) {
+  std::vector<Eigen::Vector3d> shifts;
+  shifts.reserve(errors.size());
+  for (const PositionError& error : errors) shifts.push_back(error.recorded_minus_posed);
+  return MedianVector(shifts);
+}
+
+// Of errors about zero.
+void SetSigmas(const std::vector<PositionError>& errors, FlightErrors& flight) {
+  std::vector<Eigen::Vector3d> over_stated;
+  std::vector<Eigen::Vector3d> stated;
+  for (const PositionError& error : errors) {
+    over_stated.emplace_back(error.recorded_minus_posed.cwiseQuotient(error.stated).cwiseAbs());
+    stated.push_back(error.stated);
+  }
+  // A model that bends shows as noise of positions: they are not worse than they state.
+  const Eigen::Vector3d ratio =
+      (MedianVector(over_stated) / kMedianOfNormal).cwiseMin(Eigen::Vector3d::Ones());
+  const Eigen::Vector3d usual = MedianVector(stated);
+  flight.horizontal_over_stated = std::hypot(ratio.x(), ratio.y()) / std::sqrt(2.0);
+  flight.vertical_over_stated = ratio.z();
+  flight.sigma_horizontal_m = std::max(kLeastPosition_m, flight.horizontal_over_stated * usual.x());
+  flight.sigma_vertical_m = std::max(kLeastPosition_m, flight.vertical_over_stated * usual.z());
+}
+
+// Takes the flight's shift off its errors and measures what is left.
+void MeasureFlight(const Eigen::Vector3d& common, std::vector<PositionError>& errors,
+                   FlightErrors& flight) {
+  const Eigen::Vector3d shift = MedianShift(errors);
+  for (PositionError& error : errors) error.recorded_minus_posed -= shift;
+  SetSigmas(errors, flight);
+  // The standard deviation of a median of normal variables is 1.25 times that of the mean.
+  const double own =
+      1.25 * flight.sigma_horizontal_m / std::sqrt(static_cast<double>(errors.size()));
+  if ((shift - common).norm() > kSignificant * own) flight.shift_m = shift - common;
+}
+
+void MeasurePositions(const std::vector<PoseRecord>& records, const Scene& scene,
+                      std::vector<FlightErrors>& flights) {
+  const std::vector<PositionError> all = PositionErrors(records, scene);
+  if (all.size() < kEnoughForOneFlight) return;
+  std::vector<std::vector<PositionError>> by_flight(flights.size());
+  for (const PositionError& error : all) by_flight[error.flight].push_back(error);
+  Eigen::Vector3d common = Eigen::Vector3d::Zero();
+  for (const auto& of_flight : by_flight) {
+    if (of_flight.empty()) continue;
+    common += static_cast<double>(of_flight.size()) / static_cast<double>(all.size()) *
+              MedianShift(of_flight);
+  }
+  std::vector<PositionError> together;
+  for (size_t f = 0; f < flights.size(); ++f) {
+    if (by_flight[f].size() < kEnoughForOneFlight) {
+      for (PositionError& error : by_flight[f]) error.recorded_minus_posed -= common;
+    } else {
+      MeasureFlight(common, by_flight[f], flights[f]);
+    }
+    together.insert(together.end(), by_flight[f].begin(), by_flight[f].end());
+  }
+  for (size_t f = 0; f < flights.size(); ++f) {
+    if (by_flight[f].size() < kEnoughForOneFlight) SetSigmas(together, flights[f]);
+  }
+}
+
+// Attitudes
+
+struct AttitudePair {
+  int flight = 0;
+  Eigen::Quaterniond posed;     // cam_from_world
+  Eigen::Quaterniond recorded;  // cam_from_world
+};
+
+std::vector<AttitudePair> AttitudePairs(const std::vector<PoseRecord>& records,
+                                        const Scene& scene) {
+  std::vector<AttitudePair> pairs;
+  for (size_t i = 0; i < records.size(); ++i) {
+    if (!scene.photos[i].pose || !records[i].gimbal) continue;
+    pairs.push_back({records[i].flight, scene.photos[i].pose->rotation, *records[i].gimbal});
+  }
+  return pairs;
+}
+
+// Turn about up that takes the recorded attitude nearest to the posed one.
+double YawOf(const AttitudePair& pair) {
+  const Eigen::Quaterniond world = pair.recorded.conjugate() * pair.posed;
+  return 2 * std::atan2(world.z(), world.w());
+}
+
+// Median of angles, about their mean direction.
+double MedianAngle(const std::vector<double>& angles) {
+  double cosine = 0;
+  double sine = 0;
+  for (const double angle : angles) {
+    cosine += std::cos(angle);
+    sine += std::sin(angle);
+  }
+  const double mean = std::atan2(sine, cosine);
+  std::vector<double> about;
+  about.reserve(angles.size());
+  for (const double angle : angles) about.push_back(std::remainder(angle - mean, 2 * M_PI));
+  return mean + MedianOf(std::move(about));
+}
+
+// Which of the unknowns mount (3), tilt (2) and yaw of each flight (1 each) take part.
+struct AttitudeUnknowns {
+  bool mount = true;
+  std::vector<bool> yaw;
+
+  int size() const {
+    return (mount ? 3 : 0) + 2 + static_cast<int>(std::count(yaw.begin(), yaw.end(), true));
+  }
+  int yaw_index(int flight) const {
+    return (mount ? 3 : 0) + 2 +
+           static_cast<int>(std::count(yaw.begin(), yaw.begin() + flight, true));
+  }
+  // What is expected beforehand, all about zero, as a weight against observations of this standard
+  // deviation: where all photos look down, nothing else tells a turned mount from a compass.
+  Eigen::MatrixXd Expected(double sigma_rad) const {
+    Eigen::VectorXd sigmas(size());
+    sigmas.setConstant(kExpectedYaw_rad);
+    if (mount) sigmas.head<3>().setConstant(kExpectedMount_rad);
+    sigmas.segment<2>(mount ? 3 : 0).setConstant(kExpectedTilt_rad);
+    return (sigma_rad / sigmas.array()).square().matrix().asDiagonal();
+  }
+};
+
+struct AttitudeFit {
+  Eigen::VectorXd values;
+  Eigen::VectorXd sigmas;
+  double sigma_rad = 0;  // of a record, about each axis
+};
+
+// Least squares with Cauchy weights (Triggs et al. 2000, section 3.3) of
+//   log(R G^-1) = mount + G (tilt, yaw):
+// what turns with the camera and what stays with the world tell apart by the ways photos look.
+AttitudeFit FitAttitudes(const std::vector<AttitudePair>& pairs, const AttitudeUnknowns& unknowns) {
+  const int size = unknowns.size();
+  const int tilt = unknowns.mount ? 3 : 0;
+  AttitudeFit fit{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size), kLeastAttitude_rad};
+  std::vector<Eigen::MatrixXd> rows;
+  std::vector<Eigen::Vector3d> right;
+  for (const AttitudePair& pair : pairs) {
+    Eigen::MatrixXd row = Eigen::MatrixXd::Zero(3, size);
+    const Eigen::Matrix3d g = pair.recorded.toRotationMatrix();
+    if (unknowns.mount) row.leftCols<3>().setIdentity();
+    row.middleCols<2>(tilt) = g.leftCols<2>();
+    if (unknowns.yaw[pair.flight]) row.col(unknowns.yaw_index(pair.flight)) = g.col(2);
+    rows.push_back(row);
+    right.push_back(RotationVector(pair.posed * pair.recorded.conjugate()));
+  }
+  double scale = 0.05;
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::MatrixXd normal = unknowns.Expected(scale);
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(size);
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const double r = (right[i] - rows[i] * fit.values).norm() / (2 * scale);
+      const double weight = 1 / (1 + r * r);
+      normal += weight * rows[i].transpose() * rows[i];
+      sum += weight * rows[i].transpose() * right[i];
+    }
+    const Eigen::LDLT<Eigen::MatrixXd> factors(normal);
+    fit.values = factors.solve(sum);
+    std::vector<double> absolute;
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const Eigen::Vector3d rest = right[i] - rows[i] * fit.values;
+      for (int axis = 0; axis < 3; ++axis) absolute.push_back(std::abs(rest[axis]));
+    }
+    scale = std::max(kLeastAttitude_rad, MedianOf(std::move(absolute)) / kMedianOfNormal);
+    fit.sigmas =
+        scale * factors.solve(Eigen::MatrixXd::Identity(size, size)).diagonal().cwiseSqrt();
+  }
+  fit.sigma_rad = scale;
+  return fit;
+}
+
+// Standard deviation of the scene's heading as its positions determine it.
+double HeadingSigma(const std::vector<PoseRecord>& records,
+                    const std::vector<FlightErrors>& flights, const Scene& scene) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  std::vector<Eigen::Vector2d> places;
+  double variance = 0;
+  for (size_t i = 0; i < records.size(); ++i) {
+    if (!scene.photos[i].pose || !records[i].position) continue;
+    places.emplace_back(scene.photos[i].pose->Center().head<2>());
+    mean += places.back();
+    variance += std::pow(flights[records[i].flight].sigma_horizontal_m, 2);
+  }
+  if (places.size() < 2) return M_PI;
+  mean /= static_cast<double>(places.size());
+  variance /= static_cast<double>(places.size());
+  double squares = 0;
+  for (const Eigen::Vector2d& place : places) squares += (place - mean).squaredNorm();
+  return squares > 0 ? std::sqrt(variance / squares) : M_PI;
+}
+
+// With the compass's error of each flight taken off.
+AttitudeFit FitTurned(std::vector<AttitudePair> pairs, const std::vector<FlightErrors>& flights,
+                      const AttitudeUnknowns& unknowns) {
+  for (AttitudePair& pair : pairs) {
+    pair.recorded = pair.recorded * AboutUp(flights[pair.flight].yaw_rad);
+  }
+  return FitAttitudes(pairs, unknowns);
+}
+
+// Any angle that a compass may be off by: what is linear in the fit is the rest.
+AttitudeUnknowns GuessYaws(const std::vector<AttitudePair>& pairs,
+                           std::vector<FlightErrors>& flights) {
+  std::vector<std::vector<double>> yaws(flights.size());
+  for (const AttitudePair& pair : pairs) yaws[pair.flight].push_back(YawOf(pair));
+  AttitudeUnknowns unknowns{true, std::vector<bool>(flights.size(), false)};
+  for (size_t f = 0; f < yaws.size(); ++f) {
+    if (yaws[f].empty()) continue;
+    flights[f].yaw_rad = MedianAngle(yaws[f]);
+    unknowns.yaw[f] = yaws[f].size() >= kEnoughAtAll;
+  }
+  return unknowns;
+}
+
+void MeasureAttitudes(const std::vector<PoseRecord>& records, const Scene& scene,
+                      RecordErrors& errors) {
+  const std::vector<AttitudePair> pairs = AttitudePairs(records, scene);
+  if (pairs.size() < kEnoughAtAll) return;
+  std::vector<FlightErrors>& flights = errors.flights;
+  AttitudeUnknowns unknowns = GuessYaws(pairs, flights);
+  AttitudeFit fit = FitTurned(pairs, flights, unknowns);
+  const double heading = HeadingSigma(records, flights, scene);
+  const AttitudeUnknowns before = unknowns;
+  for (size_t f = 0; f < flights.size(); ++f) {
+    const int index = before.yaw[f] ? before.yaw_index(static_cast<int>(f)) : -1;
+    const double yaw = flights[f].yaw_rad + (index < 0 ? 0 : fit.values[index]);
+    const double sigma = index < 0 ? M_PI : std::hypot(heading, fit.sigmas[index]);
+    if (std::abs(yaw) >= kSignificant * sigma) continue;
+    flights[f].yaw_rad = 0;
+    unknowns.yaw[f] = false;
+  }
+  fit = FitTurned(pairs, flights, unknowns);
+  const Eigen::Array3d mount = fit.values.head<3>().array() / fit.sigmas.head<3>().array();
+  if ((mount.abs() < kSignificant).all()) {
+    unknowns.mount = false;
+    fit = FitTurned(pairs, flights, unknowns);
+  }
+  if (unknowns.mount) errors.mount_rad = fit.values.head<3>();
+  errors.tilt_rad.head<2>() = fit.values.segment<2>(unknowns.mount ? 3 : 0);
+  errors.sigma_attitude_rad = fit.sigma_rad;
+  for (size_t f = 0; f < flights.size(); ++f) {
+    if (!unknowns.yaw[f]) continue;
+    flights[f].yaw_rad += fit.values[unknowns.yaw_index(static_cast<int>(f))];
+  }
+}
+
+}  // namespace
+
+std::vector<PoseRecord> ReadRecords(const std::vector<const CapturedPhoto*>& captures,
+                                    const Plan* plan, const Scene& scene) {
+  assert(captures.size() == scene.photos.size());
+  const std::vector<int> flights = FlightsOf(captures, plan);
+  std::vector<PoseRecord> records(captures.size());
+  for (size_t i = 0; i < captures.size(); ++i) {
+    records[i].position = scene.photos[i].prior;
+    if (captures[i]->gimbal) records[i].gimbal = CamFromEnu(*captures[i]->gimbal);
+    records[i].flight = flights[i];
+  }
+  return records;
+}
+
+RecordErrors MeasureRecordErrors(const std::vector<PoseRecord>& records, const Scene& scene) {
+  assert(records.size() == scene.photos.size());
+  int num_flights = 1;
+  for (const PoseRecord& record : records) num_flights = std::max(num_flights, record.flight + 1);
+  RecordErrors errors;
+  errors.flights.resize(num_flights);
+  for (size_t i = 0; i < records.size(); ++i) {
+    const bool counts = scene.photos[i].pose && (records[i].position || records[i].gimbal);
+    errors.flights[records[i].flight].num_photos += counts;
+  }
+  MeasurePositions(records, scene, errors.flights);
+  MeasureAttitudes(records, scene, errors);
+  return errors;
+}
+
+void ApplyRecords(const std::vector<PoseRecord>& records, const RecordErrors& errors,
+                  Scene& scene) {
+  assert(records.size() == scene.photos.size());
+  const Eigen::Quaterniond mount = FromRotationVector(errors.mount_rad);
+  for (size_t i = 0; i < records.size(); ++i) {
+    ScenePhoto& photo = scene.photos[i];
+    photo.prior = records[i].position;
+    photo.attitude.reset();
+    const FlightErrors& flight = errors.flights[records[i].flight];
+    if (photo.prior) {
+      photo.prior->position -= flight.shift_m;
+      for (const auto& [sigma, over_stated] :
+           {std::pair(&photo.prior->sigma_horizontal_m, flight.horizontal_over_stated),
+            std::pair(&photo.prior->sigma_vertical_m, flight.vertical_over_stated)}) {
+        *sigma = std::max(kLeastPosition_m, over_stated * *sigma);
+      }
+    }
+    if (!records[i].gimbal) continue;
+    photo.attitude =
+        AttitudePrior{(mount * *records[i].gimbal * AboutUp(flight.yaw_rad)).normalized(),
+                      errors.sigma_attitude_rad};
+  }
+}
+
+}  // namespace stucco

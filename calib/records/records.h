@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "calib/scene/scene.h"
+#include "survey/captures.h"
+#include "survey/plan.h"
+
+namespace stucco {
+
+// What a photo's metadata say of its pose, or its plan where they say nothing, in the frame of the
+// positions (ENU).
+struct PoseRecord {
+  std::optional<PositionPrior> position;
+  std::optional<Eigen::Quaterniond> gimbal;  // cam_from_world
+  int flight = 0;                            // receivers and compasses err alike within one
+};
+
+// Records of the scene's photos, which have the given captures and whose positions are in
+// ScenePhoto::prior (FrameFromPositions). The flight is that of the planned view; photos that have
+// none belong to that of the photo before them in time, and without any flight pauses of five
+// minutes and changes of the camera tell flights apart. `plan` may be null.
+std::vector<PoseRecord> ReadRecords(const std::vector<const CapturedPhoto*>& captures,
+                                    const Plan* plan, const Scene& scene);
+
+// How the records of one flight err.
+struct FlightErrors {
+  int num_photos = 0;  // with a pose and a record of either kind
+  // Recorded minus true, beyond what is common to all flights, which nothing can tell.
+  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();
+  double sigma_horizontal_m = 5;  // per axis, about the shift, of the middle photo
+  double sigma_vertical_m = 10;
+  // Standard deviations over those that the photos state: some photos of a flight may have been
+  // taken without the corrections that the others had.
+  double horizontal_over_stated = 1;
+  double vertical_over_stated = 1;
+  double yaw_rad = 0;  // of the compass, clockwise from above: true minus recorded
+};
+
+// Recorded positions are p + shift + noise, recorded attitudes G with
+//   R = exp(noise) exp(mount) G Rz(yaw of the flight)
+// for a camera at p with rotation R (cam_from_world).
+struct RecordErrors {
+  std::vector<FlightErrors> flights;
+  Eigen::Vector3d mount_rad = Eigen::Vector3d::Zero();  // rotation vector in the camera's frame
+  double sigma_attitude_rad = 0.02;                     // about each axis
+  // The scene's frame against gravity, as the gimbals show it: rotation vector, up component 0.
+  Eigen::Vector3d tilt_rad = Eigen::Vector3d::Zero();
+};
+
+// Variance components of the records from the photos that have poses, by medians, so that wrong
+// poses and wrong records do not count; the scene must be in the frame of the records. A shift, a
+// mount or a yaw that is no more than three of its own standard deviations is taken to be zero.
+// Flights with fewer than eight posed photos share the deviations of all.
+RecordErrors MeasureRecordErrors(const std::vector<PoseRecord>& records, const Scene& scene);
+
+// Makes the records, corrected and with their measured deviations, the priors of the scene's
+// photos.
+void ApplyRecords(const std::vector<PoseRecord>& records, const RecordErrors& errors, Scene& scene);
+
+}  // namespace stucco
