@@ -317,17 +317,17 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   std::map<int, std::string> unregistered =
       Unregistered(mapper, pairs, scene, parts, georeference.taken);
   const std::vector<int> ambiguous = NoteUnregistered(repeating, scene, context, unregistered);
-  const SummaryInput summary{photos.captures,
-                             photos.capture_of_photo,
-                             scene,
-                             unregistered,
-                             georeference.residuals,
-                             georeference.prior_outliers,
-                             errors,
-                             georeference.sigmas,
-                             &parts,
-                             georeference.off_together,
-                             ambiguous};
+  const SummaryInput summary{.captures = photos.captures,
+                             .capture_of_photo = photos.capture_of_photo,
+                             .scene = scene,
+                             .unregistered = unregistered,
+                             .priors = georeference.residuals,
+                             .prior_outliers = georeference.prior_outliers,
+                             .records = errors,
+                             .sigmas = georeference.sigmas,
+                             .parts = &parts,
+                             .off_together = georeference.off_together,
+                             .ambiguous = ambiguous};
   Calibration calibration = Summarize(summary);
   calibration.findings.insert(calibration.findings.begin(), findings.begin(), findings.end());
   if (errors != nullptr) {
