@@ -23,7 +23,9 @@
 #include "calib/matching/detect_photos.h"
 #include "calib/matching/match_photos.h"
 #include "calib/matching/repeating_walls.h"
+#include "calib/parts/parts.h"
 #include "calib/parts/take_apart.h"
+#include "calib/parts/weak_pose.h"
 #include "calib/place_photos.h"
 #include "calib/records/georeference.h"
 #include "calib/records/records.h"
@@ -262,6 +264,17 @@ std::map<int, std::string> Unregistered(const MapperOptions& mapper,
   return why;
 }
 
+// A pose that little holds may be a bay off where a photo shows hardly anything but walls that
+// repeat themselves.
+void TakeWeak(const OnRepeatingWalls& repeating, const std::vector<PoseSigma>& sigmas, Scene& scene,
+              SceneParts& parts) {
+  if (repeating.period_m.empty()) return;
+  std::vector<int> taken = WeakPoses(scene, sigmas);
+  std::erase_if(taken, [&](int photo) { return !repeating.IsMostOf(photo); });
+  TakePoses(taken, scene);
+  for (const int photo : taken) parts.part_of_photo[photo] = -1;
+}
+
 // Those of `why` that could stand before any of several bays, ascending.
 std::vector<int> NoteUnregistered(const OnRepeatingWalls& repeating, const Scene& scene,
                                   const StageContext& context, std::map<int, std::string>& why) {
@@ -311,8 +324,9 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
       held.placed_records.empty() ? placed.records : held.placed_records;
   const RecordErrors* errors = georeference.records ? &*georeference.records : nullptr;
   const std::optional<Plan> plan = PlanOfSurvey(context);
-  const SceneParts parts = TakeApart({mapper, pairs, photos.usable, plan, records, errors, context},
-                                     georeference.sigmas, scene);
+  SceneParts parts = TakeApart({mapper, pairs, photos.usable, plan, records, errors, context},
+                               georeference.sigmas, scene);
+  TakeWeak(repeating, georeference.sigmas.poses, scene, parts);
   georeference.residuals = MeasurePriors(scene, georeference.prior_outliers);
   std::map<int, std::string> unregistered =
       Unregistered(mapper, pairs, scene, parts, georeference.taken);

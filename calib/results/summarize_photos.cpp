@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "calib/parts/weak_pose.h"
 #include "survey/median.h"
 
 namespace stucco {
@@ -17,10 +18,6 @@ namespace {
 
 constexpr int kCoverageCells = 10;
 constexpr double kDegree = M_PI / 180;
-// A pose is weak when so few observations hold it, or when it is this many times less certain than
-// the middle one.
-constexpr int kFewObservations = 50;
-constexpr double kUncertain = 5;
 // What a photo's keypoints share and its pose takes up shows in no residual: in simulated flights
 // poses were this much farther off than their residuals say (docs/benchmarks.md).
 constexpr double kSharedErrors = 1.4;
@@ -60,16 +57,6 @@ void SetSigma(const PoseSigma& sigma, CalibratedPhoto& photo) {
   if (sigma.picture_px >= 0) photo.picture_sigma_px = kSharedErrors * sigma.picture_px;
 }
 
-// Against the middle one of the photos of its part; empty where it is as sure as they are.
-std::string WhyWeak(const CalibratedPhoto& photo, double usual) {
-  if (photo.position_sigma < 0) return "how surely it is placed could not be computed";
-  if (photo.observations < kFewObservations) {
-    return fmt::format("only {} points hold it", photo.observations);
-  }
-  if (photo.position_sigma <= kUncertain * usual) return "";
-  return fmt::format("{:.0f} times less sure than the middle photo", photo.position_sigma / usual);
-}
-
 // What has a reason already is weak.
 void JudgePart(int part, std::vector<CalibratedPhoto>& photos) {
   std::vector<double> positions;
@@ -79,7 +66,9 @@ void JudgePart(int part, std::vector<CalibratedPhoto>& photos) {
   const double usual = Median(std::move(positions)).value_or(0);
   for (CalibratedPhoto& photo : photos) {
     if (photo.part != part) continue;
-    if (photo.why.empty()) photo.why = WhyWeak(photo, usual);
+    if (photo.why.empty()) {
+      photo.why = WhyWeak(photo.position_sigma, photo.observations, usual);
+    }
     photo.state = photo.why.empty() ? PhotoState::kTied : PhotoState::kWeak;
   }
 }
