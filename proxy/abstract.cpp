@@ -134,7 +134,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   std::optional<MapModel> mapped;
   if (options.use_map && options.solids && input.plan && input.georef.metric &&
       input.georef.frame == "enu") {
-    mapped = BuildFromMap(scene, *input.plan, input.georef, options, threads, findings);
+    mapped = BuildFromMap(scene, input, options, threads, findings);
   }
   if (mapped) scene.buildings = OffTheMap(scene, mapped->outlines, findings);
   const PlaneTable table = TableOf(scene);

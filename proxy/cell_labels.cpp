@@ -34,7 +34,8 @@ std::vector<int> Expanded(const CellProblem& problem, const std::vector<int>& la
     const auto [i, j] = problem.links[l];
     const int64_t i_grows = whole(problem.border(l, grown, labels[j]));
     const int64_t j_grows = whole(problem.border(l, labels[i], grown));
-    const int64_t kept = std::min(whole(problem.border(l, labels[i], labels[j])), i_grows + j_grows);
+    const int64_t kept =
+        std::min(whole(problem.border(l, labels[i], labels[j])), i_grows + j_grows);
     add(i, i_grows - kept);
     add(j, -i_grows);
     edges.push_back({.a = static_cast<size_t>(i),

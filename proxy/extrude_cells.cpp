@@ -11,7 +11,6 @@
 #include <tuple>
 #include <utility>
 
-
 namespace stucco {
 namespace {
 
@@ -29,8 +28,8 @@ struct RawFace {
 
 // An upright piece over an edge of the arrangement, what is solid on its left.
 struct Piece {
-  int from = 0, to = 0;                    // vertices
-  int bottom_from = 0, bottom_to = 0;      // heights, by number
+  int from = 0, to = 0;                // vertices
+  int bottom_from = 0, bottom_to = 0;  // heights, by number
   int top_from = 0, top_to = 0;
 };
 
@@ -38,7 +37,10 @@ class Extruder {
  public:
   Extruder(Arrangement arrangement, std::span<const CutLine> lines, const std::vector<int>& labels,
            std::span<const RoofPlane> roofs, double ground)
-      : plan_(std::move(arrangement)), lines_(lines), labels_(labels), roofs_(roofs),
+      : plan_(std::move(arrangement)),
+        lines_(lines),
+        labels_(labels),
+        roofs_(roofs),
         ground_(ground) {}
 
   std::vector<ExtrudedFace> Run() {
@@ -175,7 +177,8 @@ class Extruder {
       }
     }
     for (auto& [key, chain] : chains) {
-      const Eigen::Vector2d along = lines_[std::get<0>(key)].direction * (std::get<1>(key) ? 1 : -1);
+      const Eigen::Vector2d along =
+          lines_[std::get<0>(key)].direction * (std::get<1>(key) ? 1 : -1);
       std::vector<const Piece*> order;
       for (const auto& [from, piece] : chain) order.push_back(&piece);
       std::stable_sort(order.begin(), order.end(), [&](const Piece* a, const Piece* b) {
@@ -193,8 +196,8 @@ class Extruder {
   }
 
   static bool GoesOn(const Piece& piece, const Piece& next) {
-    return piece.to == next.from && std::max(piece.bottom_to, next.bottom_from) <
-                                        std::min(piece.top_to, next.top_from);
+    return piece.to == next.from &&
+           std::max(piece.bottom_to, next.bottom_from) < std::min(piece.top_to, next.top_from);
   }
 
   // From height to height over one vertex, the last one left out.

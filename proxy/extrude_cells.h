@@ -23,8 +23,8 @@ struct RoofPlane {
 struct ExtrudedFace {
   enum class Kind { kWall, kRoof, kFloor };
   Kind kind = Kind::kWall;
-  int roof = -1;              // label of a roof
-  Segment2d foot;             // of a wall, seen from above, the solid on its left
+  int roof = -1;   // label of a roof
+  Segment2d foot;  // of a wall, seen from above, the solid on its left
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit, outwards
   double offset = 0;
   std::vector<Eigen::Vector3d> outer;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <map>
 
 #include "site/site_of_plan.h"
@@ -59,6 +60,42 @@ OutlineMap OutlinesOf(const Plan& plan, const Georef& georef, const Eigen::Vecto
     }
   }
   return map;
+}
+
+MapBuilding Moved(const MapBuilding& building, const Eigen::Isometry2d& motion) {
+  MapBuilding moved = building;
+  for (Polygon& part : moved.parts) {
+    for (Ring& ring : part.rings) {
+      for (Eigen::Vector2d& corner : ring) corner = motion * corner;
+    }
+  }
+  return moved;
+}
+
+Eigen::AlignedBox2d BoundsOf(const MapBuilding& building, double margin) {
+  Eigen::AlignedBox2d box;
+  for (const Polygon& part : building.parts) box.extend(BoundsOf(part));
+  if (box.isEmpty()) return box;
+  return {box.min() - Eigen::Vector2d::Constant(margin),
+          box.max() + Eigen::Vector2d::Constant(margin)};
+}
+
+double DistanceTo(const MapBuilding& building, const Eigen::Vector2d& p) {
+  double distance = std::numeric_limits<double>::infinity();
+  for (const Polygon& part : building.parts) distance = std::min(distance, Distance(part, p));
+  return distance;
+}
+
+double ToOutline(const MapBuilding& building, const Eigen::Vector2d& p) {
+  double distance = std::numeric_limits<double>::infinity();
+  for (const Polygon& part : building.parts) {
+    for (const Ring& ring : part.rings) {
+      for (size_t i = 0; i < ring.size(); ++i) {
+        distance = std::min(distance, Distance(Segment2d{ring[i], ring[(i + 1) % ring.size()]}, p));
+      }
+    }
+  }
+  return distance;
 }
 
 }  // namespace stucco

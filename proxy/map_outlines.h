@@ -34,6 +34,15 @@ struct OutlineMap {
   std::vector<MapFacade> facades;      // in the plan's order
 };
 
+// The same building somewhere else.
+MapBuilding Moved(const MapBuilding& building, const Eigen::Isometry2d& motion);
+
+Eigen::AlignedBox2d BoundsOf(const MapBuilding& building, double margin);
+// 0 inside.
+double DistanceTo(const MapBuilding& building, const Eigen::Vector2d& p);
+// To the nearest edge, from either side.
+double ToOutline(const MapBuilding& building, const Eigen::Vector2d& p);
+
 // From a frame whose z is `up` into the world, and back: the smallest rotation.
 Eigen::Matrix3d UprightFromWorld(const Eigen::Vector3d& up);
 

@@ -107,52 +107,69 @@ struct Motion {
   }
 };
 
-// The nearest facade that a piece of wall may be of, as outside distance and outward direction;
-// nothing within reach.
-std::optional<std::pair<double, Eigen::Vector2d>> FacadeBeside(
-    const Segment2d& trace, const std::vector<Segment2d>& facades, double reach) {
+// The facade that a piece of wall may be of, and how far outside of it the piece lies.
+struct Beside {
+  size_t facade = 0;
+  double distance = 0;
+  Eigen::Vector2d outwards = Eigen::Vector2d::Zero();
+};
+
+// The nearest one; nothing within reach.
+std::optional<Beside> FacadeBeside(const Segment2d& trace, const std::vector<Segment2d>& facades,
+                                   double reach) {
   constexpr double kLeastCosine = 0.94;  // 20 degrees
   const Eigen::Vector2d middle = (trace.a + trace.b) / 2;
   const Eigen::Vector2d outwards = OutwardsOf(trace);
-  std::optional<std::pair<double, Eigen::Vector2d>> best;
-  for (const Segment2d& facade : facades) {
-    const Eigen::Vector2d n = OutwardsOf(facade);
-    const double distance = n.dot(middle - facade.a);
+  std::optional<Beside> best;
+  for (size_t f = 0; f < facades.size(); ++f) {
+    const Eigen::Vector2d n = OutwardsOf(facades[f]);
+    const double distance = n.dot(middle - facades[f].a);
     if (!(std::abs(distance) < reach) || !(n.dot(outwards) > kLeastCosine)) continue;
-    if (best && std::abs(best->first) <= std::abs(distance)) continue;
-    if (Distance(facade, middle) > reach) continue;
-    best = {distance, n};
+    if (best && std::abs(best->distance) <= std::abs(distance)) continue;
+    if (Distance(facades[f], middle) > reach) continue;
+    best = {f, distance, n};
   }
   return best;
 }
 
-// Least squares over shift and turn on what the traces have beside them, nearer from round to
-// round. A direction that nothing holds stays as it is.
+// Least squares over shift and turn on what the traces have beside them, as far as facades of a
+// map may be off by themselves. Pieces of one facade are no independent witnesses: all of them
+// together weigh as much as their facade, against the prior of the turn.
 void Refine(const std::vector<Segment2d>& traces, const std::vector<Segment2d>& facades,
             Motion& motion) {
-  constexpr std::array kReaches_m = {2.0, 2.0, 1.5, 1.0, 1.0, 0.7, 0.7, 0.7};
-  constexpr double kDamping = 1e-3;
+  constexpr std::array kReaches_m = {2.5, 2.5, 2.0, 2.0, 1.5, 1.5, 1.5, 1.5};
+  constexpr double kFacadeSigma_m = 0.5;
+  constexpr double kTurnSigma_rad = 0.005;  // 0.3 degrees: GPS over a site, grid north
+  constexpr double kShiftSigma_m = 10;      // only what nothing else holds
   for (const double reach : kReaches_m) {
     const Eigen::Isometry2d moved = motion.Transform();
     std::vector<Segment2d> lines;
+    lines.reserve(facades.size());
     for (const Segment2d& facade : facades) lines.push_back({moved * facade.a, moved * facade.b});
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    double total = 0, arms = 0;
+    double total = 0;
+    std::set<size_t> matched;
     for (const Segment2d& trace : traces) {
       const auto beside = FacadeBeside(trace, lines, reach);
       if (!beside) continue;
-      const auto& [distance, n] = *beside;
+      const Eigen::Vector2d& n = beside->outwards;
       const Eigen::Vector2d arm = (trace.a + trace.b) / 2 - motion.center - motion.shift;
-      const double weight = std::pow(1 - std::pow(distance / reach, 2), 2);
+      const double weight = std::pow(1 - std::pow(beside->distance / reach, 2), 2);
       const Eigen::Vector3d row(n.x(), n.y(), n.y() * arm.x() - n.x() * arm.y());
       normal += weight * row * row.transpose();
-      right += weight * distance * row;
+      right += weight * beside->distance * row;
       total += weight;
-      arms += weight * arm.squaredNorm();
+      matched.insert(beside->facade);
     }
     if (!(total > 0)) return;
-    normal.diagonal() += kDamping * Eigen::Vector3d(total, total, arms + total);
+    const double trust =
+        static_cast<double>(matched.size()) / (total * kFacadeSigma_m * kFacadeSigma_m);
+    normal *= trust;
+    right *= trust;
+    normal.diagonal().head<2>().array() += 1 / (kShiftSigma_m * kShiftSigma_m);
+    normal(2, 2) += 1 / (kTurnSigma_rad * kTurnSigma_rad);
+    right.z() -= motion.turn_rad / (kTurnSigma_rad * kTurnSigma_rad);
     const Eigen::Vector3d step = normal.inverse() * right;
     motion.shift += step.head<2>();
     motion.turn_rad += step.z();
@@ -166,40 +183,41 @@ struct RaisedCells {
   double Share() const { return seen == 0 ? 0 : static_cast<double>(raised) / seen; }
 };
 
+using CellTops = std::map<std::pair<int, int>, double>;
+
+// The highest sample of each cell of a metre in and around a building.
+CellTops TopsAround(const UprightSurvey& survey, const MapBuilding& building) {
+  CellTops tops;
+  for (const int i : survey.bins.In(BoundsOf(building, kRing_m))) {
+    const Eigen::Vector3d& p = survey.samples.positions[i];
+    const auto [cell, added] = tops.try_emplace(
+        {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))}, p.z());
+    if (!added) cell->second = std::max(cell->second, p.z());
+  }
+  return tops;
+}
+
+bool IsInside(const Eigen::Vector2d& p, const std::vector<MapBuilding>& buildings) {
+  return std::ranges::any_of(buildings, [&](const MapBuilding& building) {
+    return BoundsOf(building, 0).contains(p) && DistanceTo(building, p) == 0;
+  });
+}
+
 // Of each building inside and beside, but not in a neighbour.
-std::pair<RaisedCells, RaisedCells> CountRaised(const Samples& upright, const PlanBins& bins,
+std::pair<RaisedCells, RaisedCells> CountRaised(const UprightSurvey& survey,
                                                 const std::vector<MapBuilding>& buildings) {
   constexpr double kInside_m = 0.5;  // the wall's own points are neither
   constexpr double kNear_m = 1.5;    // eaves and hedges beside a wall say nothing
   RaisedCells inside, outside;
   for (const MapBuilding& building : buildings) {
-    const auto ground = GroundAround(upright, bins, building);
+    const auto ground = GroundAround(survey, building);
     if (!ground) continue;
-    std::map<std::pair<int, int>, double> top;
-    const Eigen::AlignedBox2d box = BoundsOf(building, kRing_m);
-    for (const int i : bins.In(box)) {
-      const Eigen::Vector3d& p = upright.positions[i];
-      const auto [cell, added] = top.try_emplace(
-          {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))}, p.z());
-      if (!added) cell->second = std::max(cell->second, p.z());
-    }
-    for (const auto& [cell, height] : top) {
+    for (const auto& [cell, height] : TopsAround(survey, building)) {
       const Eigen::Vector2d middle(cell.first + 0.5, cell.second + 0.5);
-      double to_outline = std::numeric_limits<double>::infinity();
-      for (const Polygon& part : building.parts) {
-        for (const Ring& ring : part.rings) {
-          for (size_t k = 0; k < ring.size(); ++k) {
-            to_outline = std::min(
-                to_outline, Distance(Segment2d{ring[k], ring[(k + 1) % ring.size()]}, middle));
-          }
-        }
-      }
+      const double to_outline = ToOutline(building, middle);
       const bool within = DistanceTo(building, middle) == 0;
       if (within ? to_outline < kInside_m : to_outline < kNear_m || to_outline > kRing_m) continue;
-      const bool neighbour = !within && std::ranges::any_of(buildings, [&](const auto& other) {
-        return BoundsOf(other, 0).contains(middle) && DistanceTo(other, middle) == 0;
-      });
-      if (neighbour) continue;
+      if (!within && IsInside(middle, buildings)) continue;
       RaisedCells& cells = within ? inside : outside;
       ++cells.seen;
       cells.raised += height > *ground + kRaised_m;
@@ -224,7 +242,8 @@ std::vector<Segment2d> WallTraces(const Samples& upright) {
   return traces;
 }
 
-MapRegistration RegisterMap(const Samples& upright, const PlanBins& bins, const OutlineMap& map) {
+MapRegistration RegisterMap(const UprightSurvey& survey, const OutlineMap& map) {
+  const Samples& upright = survey.samples;
   MapRegistration found;
   const std::vector<Segment2d> traces = WallTraces(upright);
   const std::vector<Segment2d> facades = FacadesInCloud(upright, map);
@@ -242,10 +261,11 @@ MapRegistration RegisterMap(const Samples& upright, const PlanBins& bins, const 
   found.turn_rad = motion.turn_rad;
   found.shift_m = motion.shift;
   std::vector<MapBuilding> buildings;
+  buildings.reserve(map.buildings.size());
   for (const MapBuilding& building : map.buildings) {
     buildings.push_back(Moved(building, found.survey_from_map));
   }
-  const auto [inside, outside] = CountRaised(upright, bins, buildings);
+  const auto [inside, outside] = CountRaised(survey, buildings);
   found.raised_inside = inside.Share();
   found.raised_outside = outside.Share();
   constexpr int kFewestCells = 20;  // photos from the street show no roof, and prove nothing here
@@ -260,38 +280,14 @@ MapRegistration RegisterMap(const Samples& upright, const PlanBins& bins, const 
   return found;
 }
 
-MapBuilding Moved(const MapBuilding& building, const Eigen::Isometry2d& motion) {
-  MapBuilding moved = building;
-  for (Polygon& part : moved.parts) {
-    for (Ring& ring : part.rings) {
-      for (Eigen::Vector2d& corner : ring) corner = motion * corner;
-    }
-  }
-  return moved;
-}
-
-Eigen::AlignedBox2d BoundsOf(const MapBuilding& building, double margin) {
-  Eigen::AlignedBox2d box;
-  for (const Polygon& part : building.parts) box.extend(BoundsOf(part));
-  if (box.isEmpty()) return box;
-  return {box.min() - Eigen::Vector2d::Constant(margin),
-          box.max() + Eigen::Vector2d::Constant(margin)};
-}
-
-double DistanceTo(const MapBuilding& building, const Eigen::Vector2d& p) {
-  double distance = std::numeric_limits<double>::infinity();
-  for (const Polygon& part : building.parts) distance = std::min(distance, Distance(part, p));
-  return distance;
-}
-
-std::optional<double> GroundAround(const Samples& upright, const PlanBins& bins,
-                                   const MapBuilding& building) {
+std::optional<double> GroundAround(const UprightSurvey& survey, const MapBuilding& building) {
+  const Samples& upright = survey.samples;
   constexpr size_t kFewest = 20;
   constexpr double kUpwards = 0.8;      // 37 degrees
   constexpr double kLowest = 0.05;      // share; strays lie below all ground
   constexpr double kThickness_m = 0.3;  // of ground with grass and noise
   std::vector<double> heights;
-  for (const int i : bins.In(BoundsOf(building, kRing_m))) {
+  for (const int i : survey.bins.In(BoundsOf(building, kRing_m))) {
     const Eigen::Vector3d& p = upright.positions[i];
     if (upright.normals[i].z() < kUpwards) continue;
     const double distance = DistanceTo(building, p.head<2>());

@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "proxy/map_outlines.h"
-#include "proxy/plan_bins.h"
 #include "proxy/samples.h"
+#include "proxy/upright_survey.h"
 
 namespace stucco {
 
 // Where the survey shows the map, or why it does not.
 struct MapRegistration {
   Eigen::Isometry2d survey_from_map = Eigen::Isometry2d::Identity();  // of an OutlineMap
-  double turn_rad = 0;       // counter-clockwise
-  Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();  // of the middle of the map
+  double turn_rad = 0;                                                // counter-clockwise
+  Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();                  // of the middle of the map
   double raised_inside = 0;   // share of what the cloud shows of the footprints that is no ground
   double raised_outside = 0;  // the same next to them
   std::string refused;        // empty: the map is of this place
@@ -35,20 +35,13 @@ std::vector<Segment2d> WallTraces(const Samples& upright);
 
 // Finds the rigid motion (15 m and about a degree) that brings the facades onto what stands upright
 // in the cloud: the shift as facade_ids.h finds it, then least squares with Tukey's biweight over
-// shift and turn. Refused when fewer than half of the facades within the cloud, or of what stands
-// upright, find one another, or when the footprints are not what is raised above the ground: a map
-// of another town finds some walls anywhere.
-MapRegistration RegisterMap(const Samples& upright, const PlanBins& bins, const OutlineMap& map);
-
-// The same building where the survey shows it.
-MapBuilding Moved(const MapBuilding& building, const Eigen::Isometry2d& motion);
-
-Eigen::AlignedBox2d BoundsOf(const MapBuilding& building, double margin);
-// 0 inside.
-double DistanceTo(const MapBuilding& building, const Eigen::Vector2d& p);
+// shift and turn (prior: 0.3 degrees, against half a metre that each facade may be off by itself).
+// Refused when fewer than half of the facades within the cloud, or of what stands upright, find one
+// another, or when the footprints are not what is raised above the ground: a map of another town
+// finds some walls anywhere.
+MapRegistration RegisterMap(const UprightSurvey& survey, const OutlineMap& map);
 
 // Height of the lowest ground next to a building; nothing where the cloud shows too little of it.
-std::optional<double> GroundAround(const Samples& upright, const PlanBins& bins,
-                                   const MapBuilding& building);
+std::optional<double> GroundAround(const UprightSurvey& survey, const MapBuilding& building);
 
 }  // namespace stucco

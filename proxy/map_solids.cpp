@@ -21,28 +21,18 @@
 namespace stucco {
 namespace {
 
-Samples UprightSamples(const PlanarScene& scene) {
-  const Eigen::Matrix3d upright_from_world = UprightFromWorld(scene.up);
-  Samples samples = scene.samples;
-  for (auto& p : samples.positions) p = upright_from_world * p;
-  for (auto& n : samples.normals) n = upright_from_world * n;
-  for (auto& eye : samples.camera_centers) eye = upright_from_world * eye;
-  return samples;
-}
-
 // What the plan's heights are in the survey: by the ground around its buildings.
-double HeightShift(const Samples& upright, const PlanBins& bins,
-                   const std::vector<MapBuilding>& buildings) {
+double HeightShift(const UprightSurvey& survey, const std::vector<MapBuilding>& buildings) {
   std::vector<double> shifts, feet, heights;
   for (const MapBuilding& building : buildings) {
     feet.push_back(building.z_m.from_m);
-    const auto ground = GroundAround(upright, bins, building);
+    const auto ground = GroundAround(survey, building);
     if (ground) shifts.push_back(*ground - building.z_m.from_m);
   }
   if (const auto shift = Median(shifts)) return *shift;
   // Without any ground the lowest of what is seen is nearest to it.
   constexpr double kLowest = 0.02;
-  for (const auto& p : upright.positions) heights.push_back(p.z());
+  for (const auto& p : survey.samples.positions) heights.push_back(p.z());
   std::sort(heights.begin(), heights.end());
   return heights[static_cast<size_t>(kLowest * static_cast<double>(heights.size()))] -
          Median(feet).value_or(0);
@@ -52,7 +42,7 @@ double HeightShift(const Samples& upright, const PlanBins& bins,
 struct BuildingEvidence {
   FittedBuilding fitted;
   RoofEvidence roof;
-  Samples near;              // on and around the building
+  Samples near;               // on and around the building
   std::optional<double> top;  // where its points say that it ends; a level roof's height
   double map_top = 0;
 };
@@ -64,7 +54,7 @@ std::optional<double> TopOf(const BuildingEvidence& evidence) {
   std::vector<double> heights;
   for (const auto& p : evidence.roof.samples.positions) heights.push_back(p.z());
   if (heights.size() >= kFewest) return Median(heights);
-  if (evidence.fitted.walls_seen == 0) return std::nullopt;
+  if (!(evidence.fitted.held > 0)) return std::nullopt;
   heights.clear();
   for (size_t i = 0; i < evidence.near.size(); ++i) {
     if (LooksLikeWall(evidence.near.normals[i])) {
@@ -86,16 +76,17 @@ double AreaOf(const MapBuilding& building) {
 enum class Standing { kStands, kGone, kUnseen };
 
 Standing StandingOf(const BuildingEvidence& evidence) {
-  constexpr double kBare = 0.4;     // of the footprint
-  constexpr double kRaised = 0.15;  // of what is seen of it
-  constexpr double kSeen = 0.05;
+  constexpr double kHeld = 0.4;    // of the walls
+  constexpr double kRoofed = 0.3;  // of the footprint: crowns of trees are no planes
+  constexpr double kBare = 0.3;    // of what is seen of it
+  constexpr double kSeen = 0.2;    // of the footprint
   const double area = AreaOf(evidence.fitted.building);
   const RoofEvidence& roof = evidence.roof;
-  if (evidence.fitted.walls_seen > 0) return Standing::kStands;
-  if (roof.bare_m2 > kBare * area && roof.raised_m2 < kRaised * roof.seen_m2) {
-    return Standing::kGone;
-  }
-  return roof.raised_m2 < kSeen * area ? Standing::kUnseen : Standing::kStands;
+  double roofed = 0;
+  for (const Plane& plane : roof.planes) roofed += plane.area;
+  if (evidence.fitted.held > kHeld || roofed > kRoofed * area) return Standing::kStands;
+  const bool bare = roof.seen_m2 > kSeen * area && roof.bare_m2 > kBare * roof.seen_m2;
+  return bare ? Standing::kGone : Standing::kUnseen;
 }
 
 // One way to close a building.
@@ -110,9 +101,9 @@ Solid SolidOf(const Attempt& attempt, const Samples& near, const Tolerances& tol
               const Eigen::Matrix3d& world_from_upright, double normal_angle_deg) {
   constexpr double kWritten_m = 0.001;
   Solid solid;
-  const auto faces = ExtrudeCells(attempt.cells.arrangement, attempt.cells.lines,
-                                  attempt.cells.labels, attempt.cells.roofs,
-                                  attempt.building.ground);
+  const auto faces =
+      ExtrudeCells(attempt.cells.arrangement, attempt.cells.lines, attempt.cells.labels,
+                   attempt.cells.roofs, attempt.building.ground);
   const auto upright = FacetsOf(faces, attempt.building, near, tolerances, normal_angle_deg);
   if (const auto as_written = FindOpening(Rounded(upright, kWritten_m))) {
     solid.why_not = "in millimetres " + *as_written;
@@ -126,14 +117,31 @@ Solid SolidOf(const Attempt& attempt, const Samples& near, const Tolerances& tol
   return solid;
 }
 
+// The edges where the map has them; they keep their names.
+FittedBuilding AsMapped(FittedBuilding building, const MapBuilding& mapped) {
+  building.building = mapped;
+  size_t edge = 0;
+  for (const Polygon& part : mapped.parts) {
+    for (const Ring& ring : part.rings) {
+      for (size_t i = 0; i < ring.size(); ++i, ++edge) {
+        building.edges[edge].line = {ring[i], ring[(i + 1) % ring.size()]};
+        building.edges[edge].fitted = false;
+      }
+    }
+  }
+  return building;
+}
+
 class BuildingCloser {
  public:
   BuildingCloser(const PlanarScene& scene, const ProxyOptions& options)
-      : scene_(scene), options_(options),
+      : scene_(scene),
+        options_(options),
         world_from_upright_(UprightFromWorld(scene.up).transpose()) {}
 
   // The finest solid that is sound, and its name; facets are empty where none is.
-  std::pair<Solid, SolidDetail> Close(const BuildingEvidence& evidence, const MapBuilding& mapped) const {
+  std::pair<Solid, SolidDetail> Close(const BuildingEvidence& evidence,
+                                      const MapBuilding& mapped) const {
     std::vector<int> all, large;
     const double area = AreaOf(evidence.fitted.building);
     for (size_t p = 0; p < evidence.roof.planes.size(); ++p) {
@@ -144,14 +152,14 @@ class BuildingCloser {
       if (is_large && large.size() < kFew) large.push_back(int(p));
     }
     Solid solid;
-    for (const SolidDetail detail : {SolidDetail::kFull, SolidDetail::kCoarse,
-                                     SolidDetail::kFlatTop, SolidDetail::kFromMap}) {
+    for (const SolidDetail detail :
+         {SolidDetail::kFull, SolidDetail::kCoarse, SolidDetail::kFlatTop, SolidDetail::kFromMap}) {
       if (detail == SolidDetail::kFull && all.empty()) continue;
       if (detail == SolidDetail::kCoarse && (large.empty() || large.size() == all.size())) continue;
       if (detail == SolidDetail::kFlatTop && !evidence.top) continue;
       solid = CloseOrExplain([&] {
-        const Attempt attempt = AttemptOf(detail, evidence, mapped,
-                                          detail == SolidDetail::kFull ? all : large);
+        const Attempt attempt =
+            AttemptOf(detail, evidence, mapped, detail == SolidDetail::kFull ? all : large);
         return SolidOf(attempt, evidence.near, scene_.tolerances, world_from_upright_,
                        options_.normal_angle_deg);
       });
@@ -159,6 +167,8 @@ class BuildingCloser {
     }
     return {std::move(solid), SolidDetail::kFromMap};
   }
+
+  const ProxyOptions& options() const { return options_; }
 
  private:
   Attempt AttemptOf(SolidDetail detail, const BuildingEvidence& evidence, const MapBuilding& mapped,
@@ -170,19 +180,8 @@ class BuildingCloser {
     } else if (detail == SolidDetail::kFlatTop) {
       attempt.cells = FlatRoof(evidence.fitted.building, std::max(lowest, *evidence.top));
     } else {
-      attempt.building.building = mapped;
-      // The edges stay where the map has them, and keep their names.
-      size_t edge = 0;
-      for (const Polygon& part : mapped.parts) {
-        for (const Ring& ring : part.rings) {
-          for (size_t i = 0; i < ring.size(); ++i, ++edge) {
-            attempt.building.edges[edge].line = {ring[i], ring[(i + 1) % ring.size()]};
-            attempt.building.edges[edge].fitted = false;
-          }
-        }
-      }
-      attempt.cells =
-          FlatRoof(mapped, std::max(lowest, evidence.top.value_or(evidence.map_top)));
+      attempt.building = AsMapped(evidence.fitted, mapped);
+      attempt.cells = FlatRoof(mapped, std::max(lowest, evidence.top.value_or(evidence.map_top)));
     }
     return attempt;
   }
@@ -225,33 +224,28 @@ void Report(const std::string& id, const Outcome& outcome, bool to_capture,
   } else {
     findings.notes.push_back(NoteOf(id, outcome));
     if (outcome.standing == Standing::kUnseen) {
-      findings.warnings.push_back(id + ": no photo shows it: it is as the plan has it");
+      findings.warnings.push_back(id +
+                                  ": the cloud shows too little of it: it is as the plan has it");
     }
   }
 }
 
-std::vector<Outcome> CloseAll(const PlanarScene& scene, const Samples& upright,
-                              const PlanBins& bins, const std::vector<MapBuilding>& mapped,
-                              const std::vector<FittedBuilding>& fitted,
-                              const ProxyOptions& options, double plan_to_survey_m, int threads) {
+Outcome CloseOne(const UprightSurvey& survey, const BuildingCloser& closer,
+                 const MapBuilding& mapped, const FittedBuilding& fitted, double plan_to_survey_m) {
   constexpr double kAround_m = 1;
-  std::vector<Outcome> outcomes(mapped.size());
-  const BuildingCloser closer(scene, options);
-  ParallelFor(mapped.size(), threads, [&](size_t b) {
-    Outcome& outcome = outcomes[b];
-    BuildingEvidence evidence;
-    evidence.fitted = fitted[b];
-    evidence.roof = FindRoofPlanes(upright, bins, fitted[b], scene.tolerances, options);
-    evidence.near = SubsetOf(upright, bins.In(BoundsOf(fitted[b].building, kAround_m)));
-    evidence.top = TopOf(evidence);
-    evidence.map_top = mapped[b].z_m.to_m + plan_to_survey_m;
-    outcome.planes = evidence.roof.planes.size();
-    outcome.standing = StandingOf(evidence);
-    const bool wanted = outcome.standing == Standing::kStands ||
-                        (outcome.standing == Standing::kUnseen && mapped[b].to_capture);
-    if (wanted) std::tie(outcome.solid, outcome.detail) = closer.Close(evidence, mapped[b]);
-  });
-  return outcomes;
+  Outcome outcome;
+  BuildingEvidence evidence;
+  evidence.fitted = fitted;
+  evidence.roof = FindRoofPlanes(survey, fitted, closer.options());
+  evidence.near = SubsetOf(survey.samples, survey.bins.In(BoundsOf(fitted.building, kAround_m)));
+  evidence.top = TopOf(evidence);
+  evidence.map_top = mapped.z_m.to_m + plan_to_survey_m;
+  outcome.planes = evidence.roof.planes.size();
+  outcome.standing = StandingOf(evidence);
+  const bool wanted = outcome.standing == Standing::kStands ||
+                      (outcome.standing == Standing::kUnseen && mapped.to_capture);
+  if (wanted) std::tie(outcome.solid, outcome.detail) = closer.Close(evidence, mapped);
+  return outcome;
 }
 
 }  // namespace
@@ -270,16 +264,14 @@ std::string_view Name(SolidDetail detail) {
   return "";
 }
 
-std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const Plan& plan,
-                                     const Georef& georef, const ProxyOptions& options,
-                                     int threads, ProxyFindings& findings) {
-  assert(georef.frame == "enu" && georef.metric);
-  constexpr double kBin_m = 2;
-  const OutlineMap map = OutlinesOf(plan, georef, scene.up);
+std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput& input,
+                                     const ProxyOptions& options, int threads,
+                                     ProxyFindings& findings) {
+  assert(input.plan && input.georef.frame == "enu" && input.georef.metric);
+  const OutlineMap map = OutlinesOf(*input.plan, input.georef, scene.up);
   if (map.buildings.empty()) return std::nullopt;
-  const Samples upright = UprightSamples(scene);
-  const PlanBins bins(upright.positions, kBin_m);
-  const MapRegistration place = RegisterMap(upright, bins, map);
+  const UprightSurvey survey = UprightSurveyOf(scene);
+  const MapRegistration place = RegisterMap(survey, map);
   if (!place.refused.empty()) {
     findings.warnings.push_back("the plan's map gives no shape, because " + place.refused);
     return std::nullopt;
@@ -297,11 +289,13 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const Plan& plan,
   for (MapFacade& facade : facades) {
     facade.line = {place.survey_from_map * facade.line.a, place.survey_from_map * facade.line.b};
   }
-  const double plan_to_survey_m = HeightShift(upright, bins, model.outlines);
-  const auto fitted = FitOutlines(upright, bins, scene.tolerances, model.outlines, facades,
-                                  plan_to_survey_m);
-  auto outcomes = CloseAll(scene, upright, bins, model.outlines, fitted, options,
-                           plan_to_survey_m, threads);
+  const double plan_to_survey_m = HeightShift(survey, model.outlines);
+  const auto fitted = FitOutlines(survey, model.outlines, facades, plan_to_survey_m);
+  const BuildingCloser closer(scene, options);
+  std::vector<Outcome> outcomes(fitted.size());
+  ParallelFor(fitted.size(), threads, [&](size_t b) {
+    outcomes[b] = CloseOne(survey, closer, model.outlines[b], fitted[b], plan_to_survey_m);
+  });
   for (size_t b = 0; b < outcomes.size(); ++b) {
     Report(model.outlines[b].id, outcomes[b], model.outlines[b].to_capture, findings);
     if (outcomes[b].solid.facets.empty()) continue;
@@ -320,6 +314,7 @@ std::vector<std::vector<Plane>> OffTheMap(const PlanarScene& scene,
   constexpr double kWorthAWord = 10;  // square metres
   const Eigen::Matrix3d upright_from_world = UprightFromWorld(scene.up);
   std::vector<Eigen::AlignedBox2d> boxes;
+  boxes.reserve(outlines.size());
   for (const MapBuilding& outline : outlines) boxes.push_back(BoundsOf(outline, kBeside_m));
   const auto on_map = [&](int sample) {
     const Eigen::Vector2d p = (upright_from_world * scene.samples.positions[sample]).head<2>();

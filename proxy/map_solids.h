@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "proxy/findings.h"
+#include "proxy/input.h"
 #include "proxy/map_outlines.h"
 #include "proxy/options.h"
 #include "proxy/outline_fit.h"
@@ -17,17 +18,17 @@ namespace stucco {
 
 // How much of a building's solid the cloud holds.
 enum class SolidDetail {
-  kFull,       // walls fitted, every roof plane that was found
-  kCoarse,     // only the largest roof planes: all of them gave no sound solid
-  kFlatTop,    // LoD1.2: a level top at the height that points show
-  kFromMap,    // the plan extruded, where no points say better
+  kFull,     // walls fitted, every roof plane that was found
+  kCoarse,   // only the largest roof planes: all of them gave no sound solid
+  kFlatTop,  // LoD1.2: a level top at the height that points show
+  kFromMap,  // the plan extruded, where no points say better
 };
 std::string_view Name(SolidDetail detail);
 
 // The buildings of a map as solids.
 struct MapModel {
-  std::vector<Building> buildings;     // in the map's order
-  std::vector<MapBuilding> outlines;   // of all buildings of the map, where the survey shows them
+  std::vector<Building> buildings;    // in the map's order
+  std::vector<MapBuilding> outlines;  // of all buildings of the map, where the survey shows them
 };
 
 // Closes every building of the map that stands: its outline fitted to the walls (outline_fit.h),
@@ -36,10 +37,11 @@ struct MapModel {
 // plan that they are made from. Points only say how much of a facet was seen. What the map has and
 // the cloud denies (the ground lies open where a building should be) is left out and named, as is
 // what was never seen and has no facade in the plan. Nothing where the map is not of this place;
-// `findings` then warns why. Requires georef.frame "enu" and metres.
-std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const Plan& plan,
-                                     const Georef& georef, const ProxyOptions& options,
-                                     int threads, ProxyFindings& findings);
+// `findings` then warns why. Requires a plan and an "enu" georef in
+// metres.
+std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput& input,
+                                     const ProxyOptions& options, int threads,
+                                     ProxyFindings& findings);
 
 // The scene's planes with only the points that lie beside all outlines, without those that are left
 // too small; what remains of a building is listed in `findings` as not on the map.

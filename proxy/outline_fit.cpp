@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -15,10 +15,10 @@
 namespace stucco {
 namespace {
 
-constexpr double kReach_m = 1.5;      // eaves that a map traces, and then some
-constexpr double kLikely_m = 0.5;     // standard deviation of a map's edges, and of its buildings
-constexpr double kParty_m = 0.06;     // neighbours are snapped to each other when they are read
-constexpr double kStraight = 0.26;    // sine of 15 degrees: smaller turns do not end a run of edges
+constexpr double kReach_m = 1.5;    // eaves that a map traces, and then some
+constexpr double kLikely_m = 0.5;   // standard deviation of a map's edges, and of its buildings
+constexpr double kParty_m = 0.06;   // neighbours are snapped to each other when they are read
+constexpr double kStraight = 0.26;  // sine of 15 degrees: smaller turns do not end a run of edges
 constexpr double kAboveGround_m = 0.5;
 
 // Edges that go on in one another and move together.
@@ -89,7 +89,7 @@ RingPlace RunsOf(const MapBuilding& building, size_t part, size_t ring_index,
 }
 
 struct Hit {
-  double distance = 0;  // outwards
+  double distance = 0;       // outwards
   std::pair<int, int> cell;  // half metres along and up
 };
 
@@ -161,37 +161,56 @@ struct Fitting {
   double ground = 0;
 };
 
-void FindOffsets(const Samples& upright, const Tolerances& tolerances, const MapBuilding& building,
+void FindOffsets(const UprightSurvey& survey, const MapBuilding& building,
                  const Eigen::Vector2d& shift, Fitting& fitting) {
   for (RingPlace& place : fitting.rings) {
     const Ring& ring = building.parts[place.part].rings[place.ring];
     for (Run& run : place.runs) {
       if (run.party) continue;
-      run.offset = ModeOf(HitsOf(upright, fitting.near, ring, run, fitting.ground), tolerances,
-                          run.outwards.dot(shift), run.length);
+      run.offset = ModeOf(HitsOf(survey.samples, fitting.near, ring, run, fitting.ground),
+                          survey.tolerances, run.outwards.dot(shift), run.length);
     }
   }
 }
 
-// The shift that the offsets of a group of buildings agree on; a run that stands far out of line
-// has less to say (Huber).
-Eigen::Vector2d CommonShift(std::span<const Fitting* const> group) {
+// The runs of a group of buildings that points hold.
+std::vector<const Run*> HeldRuns(std::span<const Fitting* const> group) {
+  std::vector<const Run*> held;
+  for (const Fitting* fitting : group) {
+    for (const RingPlace& place : fitting->rings) {
+      for (const Run& run : place.runs) {
+        if (run.offset) held.push_back(&run);
+      }
+    }
+  }
+  return held;
+}
+
+double HeldShare(const Fitting& fitting) {
+  double held = 0, free = 0;
+  for (const RingPlace& place : fitting.rings) {
+    for (const Run& run : place.runs) {
+      if (run.party) continue;
+      free += run.length;
+      if (run.offset) held += run.length;
+    }
+  }
+  return free > 0 ? held / free : 0;
+}
+
+// The shift that they agree on; a run that stands far out of line has less to say (Huber).
+Eigen::Vector2d CommonShift(const std::vector<const Run*>& runs) {
   constexpr double kSigma_m = 0.15;  // of one run
   constexpr int kRounds = 10;
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() / (kLikely_m * kLikely_m);
     Eigen::Vector2d right = Eigen::Vector2d::Zero();
-    for (const Fitting* fitting : group) {
-      for (const RingPlace& place : fitting->rings) {
-        for (const Run& run : place.runs) {
-          if (!run.offset) continue;
-          const double off = std::abs(*run.offset - run.outwards.dot(shift)) / kSigma_m;
-          const double weight = (off > 1 ? 1 / off : 1) / (kSigma_m * kSigma_m);
-          normal += weight * run.outwards * run.outwards.transpose();
-          right += weight * *run.offset * run.outwards;
-        }
-      }
+    for (const Run* run : runs) {
+      const double off = std::abs(*run->offset - run->outwards.dot(shift)) / kSigma_m;
+      const double weight = (off > 1 ? 1 / off : 1) / (kSigma_m * kSigma_m);
+      normal += weight * run->outwards * run->outwards.transpose();
+      right += weight * *run->offset * run->outwards;
     }
     shift = normal.inverse() * right;
   }
@@ -203,11 +222,12 @@ Eigen::Vector2d CornerMove(const Eigen::Vector2d& n1, double o1, const Eigen::Ve
                            double o2) {
   constexpr double kFarthest = 3;  // times the larger offset: sharp corners run away
   const double cross = Cross(n1, n2);
-  const Eigen::Vector2d mean = (n1 * o1 + n2 * o2) / 2;
+  Eigen::Vector2d mean = (n1 * o1 + n2 * o2) / 2;
   if (std::abs(cross) < kStraight) return mean;
-  const Eigen::Vector2d move =
+  Eigen::Vector2d move =
       Eigen::Vector2d(o1 * n2.y() - o2 * n1.y(), n1.x() * o2 - n2.x() * o1) / cross;
-  return move.norm() > kFarthest * std::max(std::abs(o1), std::abs(o2)) ? mean : move;
+  if (move.norm() > kFarthest * std::max(std::abs(o1), std::abs(o2))) move = mean;
+  return move;
 }
 
 // The building with every run where its points are, and what does not hold by itself shifted.
@@ -215,7 +235,7 @@ MapBuilding Fitted(const MapBuilding& building, const Fitting& fitting,
                    const Eigen::Vector2d& shift) {
   Eigen::Isometry2d motion = Eigen::Isometry2d::Identity();
   motion.translation() = shift;
-  const MapBuilding shifted = Moved(building, motion);
+  MapBuilding shifted = Moved(building, motion);
   MapBuilding fitted = shifted;
   for (const RingPlace& place : fitting.rings) {
     const Ring& ring = shifted.parts[place.part].rings[place.ring];
@@ -238,44 +258,52 @@ MapBuilding Fitted(const MapBuilding& building, const Fitting& fitting,
   return fitted;
 }
 
-// Which edges of a building touch another, and which others.
+// Which edges of a building touch another building, or another of its parts, and which others.
 struct Touching {
   std::vector<std::vector<std::vector<bool>>> party;  // by part, ring, edge
   std::set<int> neighbours;
 };
 
+// Metres of an edge that edges of a polygon run against.
+double Against(const Segment2d& edge, const Polygon& polygon) {
+  double shared = 0;
+  for (const Ring& ring : polygon.rings) {
+    for (size_t k = 0; k < ring.size(); ++k) {
+      shared += Shared(edge, EdgeOf(ring, k), kParty_m, /*opposite=*/true);
+    }
+  }
+  return shared;
+}
+
+// The polygons that part `p` of a building may touch, with the building that each is of.
+std::vector<std::pair<int, const Polygon*>> Beside(std::span<const MapBuilding> buildings, size_t b,
+                                                   size_t p) {
+  std::vector<std::pair<int, const Polygon*>> beside;
+  const Eigen::AlignedBox2d box = BoundsOf(buildings[b], kParty_m);
+  for (size_t o = 0; o < buildings.size(); ++o) {
+    if (!box.intersects(BoundsOf(buildings[o], 0))) continue;
+    for (size_t q = 0; q < buildings[o].parts.size(); ++q) {
+      if (o != b || q != p) beside.emplace_back(static_cast<int>(o), &buildings[o].parts[q]);
+    }
+  }
+  return beside;
+}
+
 Touching TouchingOf(std::span<const MapBuilding> buildings, size_t b) {
   constexpr double kLeastShare = 0.5;  // of an edge
   Touching touching;
-  const Eigen::AlignedBox2d box = BoundsOf(buildings[b], kParty_m);
-  std::vector<size_t> others;
-  for (size_t o = 0; o < buildings.size(); ++o) {
-    if (o != b && box.intersects(BoundsOf(buildings[o], 0))) others.push_back(o);
-  }
   for (size_t p = 0; p < buildings[b].parts.size(); ++p) {
+    const auto beside = Beside(buildings, b, p);
     auto& of_part = touching.party.emplace_back();
     for (const Ring& ring : buildings[b].parts[p].rings) {
       auto& of_ring = of_part.emplace_back(ring.size(), false);
       for (size_t i = 0; i < ring.size(); ++i) {
         const Segment2d edge = EdgeOf(ring, i);
         double shared = 0;
-        const auto add = [&](const Polygon& part) {
-          double with = 0;
-          for (const Ring& theirs : part.rings) {
-            for (size_t k = 0; k < theirs.size(); ++k) {
-              with += Shared(edge, EdgeOf(theirs, k), kParty_m, /*opposite=*/true);
-            }
-          }
+        for (const auto& [owner, polygon] : beside) {
+          const double with = Against(edge, *polygon);
           shared += with;
-          return with > 0;
-        };
-        for (const size_t o : others) {
-          for (const Polygon& part : buildings[o].parts) {
-            if (add(part)) touching.neighbours.insert(static_cast<int>(o));
-          }
-        }
-        for (size_t q = 0; q < buildings[b].parts.size(); ++q) {
-          if (q != p) add(buildings[b].parts[q]);
+          if (with > 0 && owner != static_cast<int>(b)) touching.neighbours.insert(owner);
         }
         of_ring[i] = shared > kLeastShare * (edge.b - edge.a).norm();
       }
@@ -300,6 +328,7 @@ std::vector<std::string> FacadesOn(const Segment2d& edge, const std::string& bui
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<std::string> ids;
+  ids.reserve(found.size());
   for (const auto& [shared, facade] : found) ids.push_back(facade->id);
   return ids;
 }
@@ -354,8 +383,7 @@ bool IsSimple(const Polygon& polygon) {
   return !edges.empty();
 }
 
-std::vector<FittedBuilding> FitOutlines(const Samples& upright, const PlanBins& bins,
-                                        const Tolerances& tolerances,
+std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
                                         std::span<const MapBuilding> buildings,
                                         std::span<const MapFacade> facades,
                                         double plan_to_survey_m) {
@@ -365,34 +393,31 @@ std::vector<FittedBuilding> FitOutlines(const Samples& upright, const PlanBins& 
     const Touching touching = TouchingOf(buildings, b);
     for (const int o : touching.neighbours) groups.Join(static_cast<int>(b), o);
     Fitting& fitting = fittings[b];
-    fitting.near = bins.In(BoundsOf(buildings[b], kReach_m));
-    fitting.ground = GroundAround(upright, bins, buildings[b])
-                         .value_or(buildings[b].z_m.from_m + plan_to_survey_m);
+    fitting.near = survey.bins.In(BoundsOf(buildings[b], kReach_m));
+    fitting.ground =
+        GroundAround(survey, buildings[b]).value_or(buildings[b].z_m.from_m + plan_to_survey_m);
     for (size_t p = 0; p < buildings[b].parts.size(); ++p) {
       for (size_t r = 0; r < buildings[b].parts[p].rings.size(); ++r) {
         fitting.rings.push_back(RunsOf(buildings[b], p, r, touching.party[p][r]));
       }
     }
-    FindOffsets(upright, tolerances, buildings[b], Eigen::Vector2d::Zero(), fitting);
+    FindOffsets(survey, buildings[b], Eigen::Vector2d::Zero(), fitting);
   }
+  std::map<int, std::vector<const Fitting*>> members;
+  for (size_t b = 0; b < buildings.size(); ++b) {
+    members[groups.Find(static_cast<int>(b))].push_back(&fittings[b]);
+  }
+  std::map<int, Eigen::Vector2d> shifts;
+  for (const auto& [group, of_group] : members) shifts[group] = CommonShift(HeldRuns(of_group));
   std::vector<FittedBuilding> fitted(buildings.size());
   for (size_t b = 0; b < buildings.size(); ++b) {
-    std::vector<const Fitting*> group;
-    for (size_t o = 0; o < buildings.size(); ++o) {
-      if (groups.Find(static_cast<int>(o)) == groups.Find(static_cast<int>(b))) {
-        group.push_back(&fittings[o]);
-      }
-    }
-    const Eigen::Vector2d shift = CommonShift(group);
-    Fitting own = fittings[b];
+    const Eigen::Vector2d shift = shifts.at(groups.Find(static_cast<int>(b)));
     // Once more, now that it is known where the walls are likely.
-    FindOffsets(upright, tolerances, buildings[b], shift, own);
-    fitted[b].building = Fitted(buildings[b], own, shift);
-    fitted[b].edges = EdgesOf(buildings[b], fitted[b].building, own, facades);
-    fitted[b].ground = own.ground;
-    for (const RingPlace& place : own.rings) {
-      for (const Run& run : place.runs) fitted[b].walls_seen += run.offset.has_value();
-    }
+    FindOffsets(survey, buildings[b], shift, fittings[b]);
+    fitted[b].building = Fitted(buildings[b], fittings[b], shift);
+    fitted[b].edges = EdgesOf(buildings[b], fitted[b].building, fittings[b], facades);
+    fitted[b].ground = fittings[b].ground;
+    fitted[b].held = HeldShare(fittings[b]);
   }
   return fitted;
 }

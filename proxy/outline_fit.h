@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "proxy/map_registration.h"
-#include "proxy/scale.h"
+#include "proxy/upright_survey.h"
 
 namespace stucco {
 
@@ -23,7 +23,7 @@ struct FittedBuilding {
   MapBuilding building;           // its parts with the fitted corners
   std::vector<FittedEdge> edges;  // by part, ring and corner
   double ground = 0;              // height of its foot
-  int walls_seen = 0;             // runs of edges that points hold
+  double held = 0;                // share of its free walls that points hold, by length
 };
 
 // Fits the outlines of `buildings` (already where RegisterMap puts them) to the walls in the cloud.
@@ -34,8 +34,7 @@ struct FittedBuilding {
 // points move with their building, party walls too, so that neighbours keep touching. An outline
 // that would cross itself is only shifted. `ground` is that around the building, else the plan's
 // with `plan_to_survey_m` added.
-std::vector<FittedBuilding> FitOutlines(const Samples& upright, const PlanBins& bins,
-                                        const Tolerances& tolerances,
+std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
                                         std::span<const MapBuilding> buildings,
                                         std::span<const MapFacade> facades,
                                         double plan_to_survey_m);

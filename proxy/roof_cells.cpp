@@ -22,9 +22,9 @@ constexpr double kStepBorder = 0.6;
 constexpr double kMeetingBorder = 0.1;
 constexpr double kLooseSample = 0.25;  // on no plane: leaves, railings, chimneys
 constexpr double kFarFromSamples = 0.1;
-constexpr double kLevelRoof = 0.3;     // the roof of last resort
-constexpr double kForbidden = 1e3;     // a square metre of roof in the ground
-constexpr double kMeets_m = 0.02;      // roofs nearer than this along a border meet there
+constexpr double kLevelRoof = 0.3;  // the roof of last resort
+constexpr double kForbidden = 1e3;  // a square metre of roof in the ground
+constexpr double kMeets_m = 0.02;   // roofs nearer than this along a border meet there
 constexpr double kSameLine_m = 0.03;
 
 RoofPlane RoofOf(const Plane& plane) {
@@ -45,7 +45,8 @@ double Apart(const CutLine& line, const CutLine& other, const Eigen::AlignedBox2
   const Eigen::Vector2d middle =
       line.point + line.direction * line.direction.dot(box.center() - line.point);
   double apart = 0;
-  for (const Eigen::Vector2d& p : {Eigen::Vector2d(middle - half), Eigen::Vector2d(middle + half)}) {
+  for (const Eigen::Vector2d& p :
+       {Eigen::Vector2d(middle - half), Eigen::Vector2d(middle + half)}) {
     apart = std::max(apart, std::abs(Cross(other.direction, p - other.point)));
   }
   return apart;
@@ -124,9 +125,10 @@ std::optional<CutLine> MeetingLine(const CoverOfRoofs& cover, const std::vector<
                .direction = {-n.y(), n.x()},
                .crease = true};
   const Eigen::AlignedBox2d box(
-      cover.raster.origin, Eigen::Vector2d(cover.raster.Center(cover.raster.width - 1,
-                                                               cover.raster.height - 1)));
-  const Eigen::Vector2d middle = line.point + line.direction * line.direction.dot(box.center() - line.point);
+      cover.raster.origin,
+      Eigen::Vector2d(cover.raster.Center(cover.raster.width - 1, cover.raster.height - 1)));
+  const Eigen::Vector2d middle =
+      line.point + line.direction * line.direction.dot(box.center() - line.point);
   line.point = middle;
   const double half = box.diagonal().norm() / 2;
   double shared = 0;
@@ -169,9 +171,9 @@ std::vector<CutLine> BordersOf(const CoverOfRoofs& cover, size_t roof, const Cut
     line.direction = {u.dot(crease.direction), v.dot(crease.direction)};
     turned_creases.push_back(line);
   }
-  auto lines = ContourLines(turned, evidence, turned_creases,
-                            {.detail = detail, .most_lines = kMostLines,
-                             .free_length = 10 * detail});
+  auto lines =
+      ContourLines(turned, evidence, turned_creases,
+                   {.detail = detail, .most_lines = kMostLines, .free_length = 10 * detail});
   for (CutLine& line : lines) {
     line.point = Eigen::Vector2d(line.point.x() * u + line.point.y() * v);
     line.direction = Eigen::Vector2d(line.direction.x() * u + line.direction.y() * v);
@@ -260,8 +262,8 @@ Costs CostsOf(const RoofEvidence& evidence, std::span<const int> planes, const C
     if (at < 0) continue;
     const double weight = on_plane[i] ? 1 : kLooseSample;
     for (size_t k = 0; k < roofs.size(); ++k) {
-      const double off = std::abs(p.z() - roofs[k].At(p.head<2>())) /
-                         std::sqrt(1 + roofs[k].slope.squaredNorm());
+      const double off =
+          std::abs(p.z() - roofs[k].At(p.head<2>())) / std::sqrt(1 + roofs[k].slope.squaredNorm());
       costs[at][k] += weight * std::min(1.0, off / farthest);
     }
     weights[at] += weight;

@@ -19,19 +19,6 @@ namespace {
 constexpr double kRoofNormal = 0.26;  // 75 degrees of pitch: steeper is a wall
 constexpr double kOnWall_m = 0.4;     // what stands upright this near to the outline is its wall
 
-double ToOutline(const MapBuilding& building, const Eigen::Vector2d& p) {
-  double distance = std::numeric_limits<double>::infinity();
-  for (const Polygon& part : building.parts) {
-    for (const Ring& ring : part.rings) {
-      for (size_t i = 0; i < ring.size(); ++i) {
-        distance =
-            std::min(distance, Distance(Segment2d{ring[i], ring[(i + 1) % ring.size()]}, p));
-      }
-    }
-  }
-  return distance;
-}
-
 // Cells of half a metre with what stands highest in them.
 void MeasureCover(const Samples& upright, const std::vector<int>& inside, double ground,
                   RoofEvidence& evidence) {
@@ -56,13 +43,12 @@ std::vector<Plane> Detect(const Samples& samples, const Tolerances& tolerances,
   const GridIndex index(samples.positions, tolerances.radius);
   Samples smooth = samples;  // the normals are smooth already: only the agreement is asked for
   const auto agreement = SmoothNormals(smooth, index, tolerances.radius, 1);
-  auto planes =
-      DetectPlanes(samples, index, agreement,
-                   {.radius = tolerances.radius,
-                    .epsilon = tolerances.epsilon,
-                    .normal_angle_deg = options.normal_angle_deg,
-                    .min_points = options.min_points > 0 ? options.min_points
-                                                         : LeastPoints(tolerances)});
+  auto planes = DetectPlanes(
+      samples, index, agreement,
+      {.radius = tolerances.radius,
+       .epsilon = tolerances.epsilon,
+       .normal_angle_deg = options.normal_angle_deg,
+       .min_points = options.min_points > 0 ? options.min_points : LeastPoints(tolerances)});
   MergeCoplanar(samples, tolerances, options.normal_angle_deg, planes);
   AdoptNeighbours(samples, index, tolerances, options.normal_angle_deg, planes);
   MergeCoplanar(samples, tolerances, options.normal_angle_deg, planes);
@@ -98,12 +84,13 @@ Samples SubsetOf(const Samples& samples, const std::vector<int>& indices) {
   return subset;
 }
 
-RoofEvidence FindRoofPlanes(const Samples& upright, const PlanBins& bins,
-                            const FittedBuilding& building, const Tolerances& tolerances,
+RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& building,
                             const ProxyOptions& options) {
+  const Samples& upright = survey.samples;
+  const Tolerances& tolerances = survey.tolerances;
   RoofEvidence evidence;
   std::vector<int> inside, above, steps;
-  for (const int i : bins.In(BoundsOf(building.building, 0))) {
+  for (const int i : survey.bins.In(BoundsOf(building.building, 0))) {
     const Eigen::Vector3d& p = upright.positions[i];
     if (DistanceTo(building.building, p.head<2>()) > 0) continue;
     const bool upright_thing = LooksLikeWall(upright.normals[i]);
@@ -132,8 +119,7 @@ RoofEvidence FindRoofPlanes(const Samples& upright, const PlanBins& bins,
                    [](const Plane& a, const Plane& b) { return a.area > b.area; });
   evidence.planes = std::move(planes);
   evidence.steps = Detect(SubsetOf(upright, steps), tolerances, options);
-  std::erase_if(evidence.steps,
-                [](const Plane& plane) { return !LooksLikeWall(plane.normal); });
+  std::erase_if(evidence.steps, [](const Plane& plane) { return !LooksLikeWall(plane.normal); });
   return evidence;
 }
 

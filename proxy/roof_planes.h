@@ -8,7 +8,7 @@
 #include "proxy/outline_fit.h"
 #include "proxy/plane.h"
 #include "proxy/samples.h"
-#include "proxy/scale.h"
+#include "proxy/upright_survey.h"
 
 namespace stucco {
 
@@ -25,8 +25,7 @@ struct RoofEvidence {
 // The planes of a building's roof, found among the samples above its own footprint, with details
 // that do not depend on the rest of the survey, and regularised by themselves and its walls. Rough
 // surfaces (crowns of trees) are none.
-RoofEvidence FindRoofPlanes(const Samples& upright, const PlanBins& bins,
-                            const FittedBuilding& building, const Tolerances& tolerances,
+RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& building,
                             const ProxyOptions& options);
 
 // The samples by their indices; the cameras stay behind.

@@ -89,8 +89,8 @@ Facet MeasuredFacet(const ExtrudedFace& face, const Samples& near, const Toleran
     // The grid must reach over the whole facet: what lies beside the samples is not seen.
     Eigen::AlignedBox2d seen;
     for (const int i : plane.points) seen.extend(frame.ToPlane(near.positions[i]));
-    const double margin = std::max({0.0, (seen.min() - box.min()).maxCoeff(),
-                                    (box.max() - seen.max()).maxCoeff()});
+    const double margin =
+        std::max({0.0, (seen.min() - box.min()).maxCoeff(), (box.max() - seen.max()).maxCoeff()});
     const double cell = std::max(2.0 * tolerances.spacing, tolerances.level_of_detail / 3);
     view.raster = RasteriseHits(near, plane, frame, cell, margin + cell);
     view.evidence = Classify(view.raster, tolerances.fill_gap, 0);

@@ -69,11 +69,9 @@ House FlatHouse(const Ring& ring, double height) {
   TruePolygon roof{.name = "roof", .ring = {}};
   for (size_t i = 0; i < ring.size(); ++i) {
     const Eigen::Vector2d a = ring[i], b = ring[(i + 1) % ring.size()];
-    house.polygons.push_back({"wall",
-                              {{a.x(), a.y(), 0},
-                               {b.x(), b.y(), 0},
-                               {b.x(), b.y(), height},
-                               {a.x(), a.y(), height}}});
+    house.polygons.push_back(
+        {"wall",
+         {{a.x(), a.y(), 0}, {b.x(), b.y(), 0}, {b.x(), b.y(), height}, {a.x(), a.y(), height}}});
     roof.ring.emplace_back(a.x(), a.y(), height);
   }
   house.polygons.push_back(roof);

@@ -255,12 +255,12 @@ TEST(MapSolids, ExtrudesWhatNobodySaw) {
   const Building& house = Closed(made, "B0009");
   EXPECT_NEAR(VolumeOf(house), 700, 20);
   for (const Facet& facet : house.facets) EXPECT_EQ(facet.seen, 0);
-  EXPECT_TRUE(Says(made.findings.warnings, "B0009: no photo shows it"));
+  EXPECT_TRUE(Says(made.findings.warnings, "B0009: the cloud shows too little"));
 }
 
 TEST(MapSolids, TreesAreNoPartOfABuilding) {
-  auto captured = testing::Capture({testing::BoxHouse(12, 9, 6)}, {testing::GroundSquare(25)},
-                                   kCapture);
+  auto captured =
+      testing::Capture({testing::BoxHouse(12, 9, 6)}, {testing::GroundSquare(25)}, kCapture);
   testing::AddTree({9, 2, 5}, 2.8, 4000, 3, captured);  // beside the eastern wall, and over it
   testing::AddTree({-3, 1, 9}, 2, 2500, 4, captured);   // over the roof
   const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4.5, 6, 4.5)}, 6}});
@@ -296,8 +296,7 @@ TEST(MapSolids, NeighboursKeepTouching) {
 TEST(MapSolids, UsesNoMapWhenToldSo) {
   const auto captured =
       testing::Capture({testing::GableHouse()}, {testing::GroundSquare(25)}, kCapture);
-  const Made made =
-      Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 9.5}}, {.use_map = false});
+  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 9.5}}, {.use_map = false});
   EXPECT_EQ(testing::Find(made.proxy, "B0001"), nullptr);
   EXPECT_NE(testing::Find(made.proxy, "C0001"), nullptr);
 }
