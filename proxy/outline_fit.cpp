@@ -161,29 +161,26 @@ struct Fitting {
   double ground = 0;
 };
 
-void FindOffsets(const UprightSurvey& survey, const MapBuilding& building,
-                 const Eigen::Vector2d& shift, Fitting& fitting) {
+// Where the points of each run are, outwards of the building's edges.
+void FindOffsets(const UprightSurvey& survey, const MapBuilding& building, double outset,
+                 Fitting& fitting) {
   for (RingPlace& place : fitting.rings) {
     const Ring& ring = building.parts[place.part].rings[place.ring];
     for (Run& run : place.runs) {
       if (run.party) continue;
       run.offset = ModeOf(HitsOf(survey.samples, fitting.near, ring, run, fitting.ground),
-                          survey.tolerances, run.outwards.dot(shift), run.length);
+                          survey.tolerances, outset, run.length);
     }
   }
 }
 
-// The runs of a group of buildings that points hold.
-std::vector<const Run*> HeldRuns(std::span<const Fitting* const> group) {
-  std::vector<const Run*> held;
-  for (const Fitting* fitting : group) {
-    for (const RingPlace& place : fitting->rings) {
-      for (const Run& run : place.runs) {
-        if (run.offset) held.push_back(&run);
-      }
+// The runs of a building that points hold.
+void AddHeldRuns(const Fitting& fitting, std::vector<const Run*>& held) {
+  for (const RingPlace& place : fitting.rings) {
+    for (const Run& run : place.runs) {
+      if (run.offset) held.push_back(&run);
     }
   }
-  return held;
 }
 
 double HeldShare(const Fitting& fitting) {
@@ -198,23 +195,57 @@ double HeldShare(const Fitting& fitting) {
   return free > 0 ? held / free : 0;
 }
 
-// The shift that they agree on; a run that stands far out of line has less to say (Huber).
-Eigen::Vector2d CommonShift(const std::vector<const Run*>& runs) {
-  constexpr double kSigma_m = 0.15;  // of one run
+constexpr double kRunSigma_m = 0.15;  // of one run, beside what it shares with others
+
+// A run that stands far out of line has less to say (Huber).
+double WeightOf(double off) {
+  const double sigmas = std::abs(off) / kRunSigma_m;
+  return (sigmas > 1 ? 1 / sigmas : 1) / (kRunSigma_m * kRunSigma_m);
+}
+
+// The shift that runs agree on, where all of them lie `outset` outside of the map's.
+Eigen::Vector2d CommonShift(const std::vector<const Run*>& runs, double outset) {
   constexpr int kRounds = 10;
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() / (kLikely_m * kLikely_m);
     Eigen::Vector2d right = Eigen::Vector2d::Zero();
     for (const Run* run : runs) {
-      const double off = std::abs(*run->offset - run->outwards.dot(shift)) / kSigma_m;
-      const double weight = (off > 1 ? 1 / off : 1) / (kSigma_m * kSigma_m);
+      const double offset = *run->offset - outset;
+      const double weight = WeightOf(offset - run->outwards.dot(shift));
       normal += weight * run->outwards * run->outwards.transpose();
-      right += weight * *run->offset * run->outwards;
+      right += weight * offset * run->outwards;
     }
     shift = normal.inverse() * right;
   }
   return shift;
+}
+
+// How the map's buildings lie against the walls: each group shifted, and all of them too large or
+// too small, as where a map traces eaves. Found together: of a building that shows one wall only,
+// nothing else tells the one from the other.
+struct MapErrors {
+  std::vector<Eigen::Vector2d> shifts;  // by group
+  double outset = 0;                    // of the walls from the outlines
+};
+
+MapErrors ErrorsOf(const std::vector<std::vector<const Run*>>& groups) {
+  constexpr int kRounds = 30;
+  MapErrors errors{.shifts = std::vector<Eigen::Vector2d>(groups.size(), Eigen::Vector2d::Zero())};
+  for (int round = 0; round < kRounds; ++round) {
+    double total = 1 / (kLikely_m * kLikely_m), sum = 0;
+    for (size_t g = 0; g < groups.size(); ++g) {
+      errors.shifts[g] = CommonShift(groups[g], errors.outset);
+      for (const Run* run : groups[g]) {
+        const double off = *run->offset - run->outwards.dot(errors.shifts[g]);
+        const double weight = WeightOf(off - errors.outset);
+        total += weight;
+        sum += weight * off;
+      }
+    }
+    errors.outset = sum / total;
+  }
+  return errors;
 }
 
 // Where a corner between two edges goes when they move outwards.
@@ -230,19 +261,15 @@ Eigen::Vector2d CornerMove(const Eigen::Vector2d& n1, double o1, const Eigen::Ve
   return move;
 }
 
-// The building with every run where its points are, and what does not hold by itself shifted.
-MapBuilding Fitted(const MapBuilding& building, const Fitting& fitting,
-                   const Eigen::Vector2d& shift) {
-  Eigen::Isometry2d motion = Eigen::Isometry2d::Identity();
-  motion.translation() = shift;
-  MapBuilding shifted = Moved(building, motion);
-  MapBuilding fitted = shifted;
+// The building with every run where its points are; as it was where that crosses itself.
+MapBuilding Fitted(const MapBuilding& building, const Fitting& fitting, double outset) {
+  MapBuilding fitted = building;
   for (const RingPlace& place : fitting.rings) {
-    const Ring& ring = shifted.parts[place.part].rings[place.ring];
+    const Ring& ring = building.parts[place.part].rings[place.ring];
     Ring& moved = fitted.parts[place.part].rings[place.ring];
     const auto offset_of = [&](size_t edge) {
       const Run& run = place.runs[place.run_of_edge[edge]];
-      return run.offset ? *run.offset - run.outwards.dot(shift) : 0;
+      return run.offset.value_or(run.party ? 0 : outset);
     };
     for (size_t i = 0; i < ring.size(); ++i) {
       const size_t before = (i + ring.size() - 1) % ring.size();
@@ -251,9 +278,12 @@ MapBuilding Fitted(const MapBuilding& building, const Fitting& fitting,
     }
   }
   for (size_t p = 0; p < fitted.parts.size(); ++p) {
-    const double before = Area(shifted.parts[p]), after = Area(fitted.parts[p]);
+    const double before = Area(building.parts[p]), after = Area(fitted.parts[p]);
     const bool kept = after > before / 2 && after < 2 * before;
-    if (!kept || !IsSimple(fitted.parts[p])) return shifted;
+    if (!kept || !IsSimple(fitted.parts[p])) {
+      fitted = building;
+      break;
+    }
   }
   return fitted;
 }
@@ -393,7 +423,7 @@ std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
     const Touching touching = TouchingOf(buildings, b);
     for (const int o : touching.neighbours) groups.Join(static_cast<int>(b), o);
     Fitting& fitting = fittings[b];
-    fitting.near = survey.bins.In(BoundsOf(buildings[b], kReach_m));
+    fitting.near = survey.bins.In(BoundsOf(buildings[b], 2 * kReach_m));
     fitting.ground =
         GroundAround(survey, buildings[b]).value_or(buildings[b].z_m.from_m + plan_to_survey_m);
     for (size_t p = 0; p < buildings[b].parts.size(); ++p) {
@@ -401,20 +431,37 @@ std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
         fitting.rings.push_back(RunsOf(buildings[b], p, r, touching.party[p][r]));
       }
     }
-    FindOffsets(survey, buildings[b], Eigen::Vector2d::Zero(), fitting);
   }
-  std::map<int, std::vector<const Fitting*>> members;
+  std::map<int, std::vector<size_t>> members;
   for (size_t b = 0; b < buildings.size(); ++b) {
-    members[groups.Find(static_cast<int>(b))].push_back(&fittings[b]);
+    members[groups.Find(static_cast<int>(b))].push_back(b);
   }
-  std::map<int, Eigen::Vector2d> shifts;
-  for (const auto& [group, of_group] : members) shifts[group] = CommonShift(HeldRuns(of_group));
+  std::vector<MapBuilding> shifted(buildings.begin(), buildings.end());
+  double outset = 0;
+  // Once the buildings are shifted, more of their walls are within reach.
+  constexpr int kRounds = 2;
+  for (int round = 0; round < kRounds; ++round) {
+    for (size_t b = 0; b < buildings.size(); ++b) {
+      FindOffsets(survey, shifted[b], outset, fittings[b]);
+    }
+    std::vector<std::vector<const Run*>> held;
+    for (const auto& [group, of_group] : members) {
+      auto& runs = held.emplace_back();
+      for (const size_t b : of_group) AddHeldRuns(fittings[b], runs);
+    }
+    const MapErrors errors = ErrorsOf(held);
+    outset = errors.outset;
+    auto shift = errors.shifts.begin();
+    for (const auto& [group, of_group] : members) {
+      Eigen::Isometry2d motion = Eigen::Isometry2d::Identity();
+      motion.translation() = *shift++;
+      for (const size_t b : of_group) shifted[b] = Moved(shifted[b], motion);
+    }
+  }
   std::vector<FittedBuilding> fitted(buildings.size());
   for (size_t b = 0; b < buildings.size(); ++b) {
-    const Eigen::Vector2d shift = shifts.at(groups.Find(static_cast<int>(b)));
-    // Once more, now that it is known where the walls are likely.
-    FindOffsets(survey, buildings[b], shift, fittings[b]);
-    fitted[b].building = Fitted(buildings[b], fittings[b], shift);
+    FindOffsets(survey, shifted[b], outset, fittings[b]);
+    fitted[b].building = Fitted(shifted[b], fittings[b], outset);
     fitted[b].edges = EdgesOf(buildings[b], fitted[b].building, fittings[b], facades);
     fitted[b].ground = fittings[b].ground;
     fitted[b].held = HeldShare(fittings[b]);
