@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "proxy/export_cityjson.h"
@@ -12,6 +13,7 @@
 #include "proxy/facade_ids.h"
 #include "proxy/facets.h"
 #include "proxy/ground.h"
+#include "proxy/map_solids.h"
 #include "proxy/plane_view.h"
 #include "proxy/scene.h"
 #include "proxy/solid.h"
@@ -103,10 +105,11 @@ std::vector<Solid> CloseBuildings(const PlanarScene& scene, const PlaneTable& ta
 }
 
 // The plan is a prior: one that is of another place changes nothing.
-void NameAfterPlan(const Georef& georef, const StageContext& context, Proxy& proxy) {
-  const std::optional<Plan> plan = PlanOfSurvey(context);
-  if (!plan) return;
-  Progress& progress = *context.progress;
+void NameAfterPlan(const std::optional<Plan>& plan, const Georef& georef, Progress& progress,
+                   Proxy& proxy) {
+  const bool named = std::ranges::any_of(
+      proxy.buildings, [](const Building& building) { return building.source == "map"; });
+  if (!plan || named) return;
   if (georef.frame != "enu") {
     progress.Note("without positions nothing says which facade of the plan a wall is");
     return;
@@ -127,7 +130,13 @@ void NameAfterPlan(const Georef& georef, const StageContext& context, Proxy& pro
 
 Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
                     ProxyFindings& findings) {
-  const PlanarScene scene = UnderstandCloud(input, options, threads, findings);
+  PlanarScene scene = UnderstandCloud(input, options, threads, findings);
+  std::optional<MapModel> mapped;
+  if (options.use_map && options.solids && input.plan && input.georef.metric &&
+      input.georef.frame == "enu") {
+    mapped = BuildFromMap(scene, input, options, threads, findings);
+  }
+  if (mapped) scene.buildings = OffTheMap(scene, mapped->outlines, findings);
   const PlaneTable table = TableOf(scene);
   const auto views =
       ViewPlanes(scene, table.planes, table.planes.size() - scene.ground.size(), threads);
@@ -155,10 +164,17 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
         findings.notes.push_back(fmt::format("{}: closed, points cover {:.0f} % of it", building.id,
                                              100 * solids[b].support));
       } else {
-        findings.notes.push_back(building.id + ": open facets, because as a solid " +
-                                 solids[b].why_not);
+        findings.notes.push_back(building.id + (mapped ? ": left out" : ": open facets") +
+                                 ", because as a solid " + solids[b].why_not);
+        // Beside the map's buildings stand trees: what does not close is none.
+        if (mapped) building.facets.clear();
       }
     }
+  }
+  if (mapped) {
+    proxy.buildings.insert(proxy.buildings.begin(),
+                           std::make_move_iterator(mapped->buildings.begin()),
+                           std::make_move_iterator(mapped->buildings.end()));
   }
   std::erase_if(proxy.buildings, [](const Building& building) { return building.facets.empty(); });
   if (proxy.buildings.empty()) {
@@ -183,7 +199,7 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
   // Nothing that ingest knows about a photo matters to the model: its captures are no input.
   const ProxyInput input{StreamOf(context.survey / kCloudFile),
                          JoinPhotos(ReadColmapModel(context.survey / kSparseFolder), {}),
-                         ReadGeoref(context.survey / kGeorefFile)};
+                         ReadGeoref(context.survey / kGeorefFile), PlanOfSurvey(context)};
   context.ThrowIfCancelled();
   progress.Advance();
   ProxyFindings findings;
@@ -202,7 +218,7 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
     throw Error(ErrorKind::kStageFailed, "the planar model is not sound: " + *problem,
                 "Please report this with the survey; proxy.solids = false may avoid it.");
   }
-  NameAfterPlan(input.georef, context, proxy);
+  NameAfterPlan(input.plan, input.georef, progress, proxy);
   WriteProxy(proxy, context.out / "facets.json");
   WriteFile(context.out / "proxy.obj", ObjText(proxy));
   WriteFile(context.out / "proxy.city.json", CityJsonText(proxy));

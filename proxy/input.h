@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "proxy/samples.h"
 #include "survey/georef.h"
+#include "survey/plan.h"
 #include "survey/survey_photo.h"
 
 namespace stucco {
@@ -15,6 +17,7 @@ struct ProxyInput {
   PointStream cloud;
   std::vector<SurveyPhoto> photos;  // the cloud's `views` are their ids
   Georef georef;
+  std::optional<Plan> plan = std::nullopt;  // that the survey was flown by
 };
 
 }  // namespace stucco

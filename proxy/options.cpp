@@ -35,6 +35,10 @@ void Describe(OptionTable& table, ProxyOptions& options) {
   table.Add("solids", options.solids,
             "Close buildings to watertight solids where the points support it; false: open facets "
             "only.");
+  table.Add("use_map", options.use_map,
+            "Make the buildings of the plan's map solids on its footprints, fitted to the cloud, "
+            "where the survey has a plan, positions, and shows that map; false: buildings are what "
+            "the cloud shows, and the map only names their walls.");
   table.Add("solid_support", options.solid_support, 0, 1,
             "A solid is accepted when points cover at least this share of its walls and roofs.");
   table.Add("max_planes", options.max_planes, 4, 200,

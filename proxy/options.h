@@ -21,6 +21,7 @@ struct ProxyOptions {
   double align_tolerance_deg = 6;
   int max_points = 2000000;
   bool solids = true;
+  bool use_map = true;
   double solid_support = 0.65;
   int max_planes = 60;
   std::vector<double> up = {};

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the Stucco authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Gives the map in a plan the errors of real maps, so that a model that goes by it has to find them.
+
+Usage: perturb_plan.py PLAN_JSON [--shift 1.5] [--turn 0.3] [--jitter 0.4] [--eaves 0.4]
+                       [--gone N] [--seed 1]
+
+Rewrites plan.json in place: all buildings shifted and turned together, each shifted by itself (one
+standard deviation), outlines moved outwards (eaves), and N rectangles added that are not there.
+Views keep their places: only what the model goes by changes.
+"""
+import argparse
+import json
+import math
+import os
+import pathlib
+import random
+
+
+def outwards(ring, by):
+    """The ring with every edge moved to its right by so many metres."""
+    moved = []
+    for i, corner in enumerate(ring):
+        before, after = ring[i - 1], ring[(i + 1) % len(ring)]
+        n = []
+        for a, b in ((before, corner), (corner, after)):
+            length = math.hypot(b[0] - a[0], b[1] - a[1])
+            n.append(((b[1] - a[1]) / length, (a[0] - b[0]) / length))
+        cross = n[0][0] * n[1][1] - n[0][1] * n[1][0]
+        if abs(cross) < 0.1:
+            step = (by * n[0][0], by * n[0][1])
+        else:
+            step = (by * (n[1][1] - n[0][1]) / cross, by * (n[0][0] - n[1][0]) / cross)
+        moved.append([corner[0] + step[0], corner[1] + step[1]])
+    return moved
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("plan", type=pathlib.Path)
+    for name, value in (("shift", 1.5), ("turn", 0.3), ("jitter", 0.4), ("eaves", 0.4)):
+        parser.add_argument(f"--{name}", type=float, default=value)
+    parser.add_argument("--gone", type=int, default=0)
+    parser.add_argument("--seed", type=int, default=1)
+    wanted = parser.parse_args()
+    dice = random.Random(wanted.seed)
+    plan = json.loads(wanted.plan.read_text())
+    angle = dice.uniform(0, 2 * math.pi)
+    shift = (wanted.shift * math.cos(angle), wanted.shift * math.sin(angle))
+    turn = math.radians(wanted.turn)
+
+    def common(p, own):
+        return [round(math.cos(turn) * p[0] - math.sin(turn) * p[1] + shift[0] + own[0], 3),
+                round(math.sin(turn) * p[0] + math.cos(turn) * p[1] + shift[1] + own[1], 3)]
+
+    corners = {}  # of a building: where each corner went
+    for footprint in plan["footprints"]:
+        own = (dice.gauss(0, wanted.jitter), dice.gauss(0, wanted.jitter))
+        table = corners.setdefault(footprint["building"], [])
+        for r, ring in enumerate(footprint["rings_m"]):
+            moved = [common(p, own) for p in outwards(ring, wanted.eaves)]
+            table += zip(ring, moved)
+            footprint["rings_m"][r] = moved
+    for facade in plan["facades"]:
+        table = corners[facade["id"].split("/")[0]]
+        for end in ("a_m", "b_m"):
+            facade[end] = min(table, key=lambda pair: math.dist(pair[0], facade[end]))[1]
+    xs = [p[0] for f in plan["footprints"] for p in f["rings_m"][0]]
+    ys = [p[1] for f in plan["footprints"] for p in f["rings_m"][0]]
+    boxes = [(min(p[0] for p in f["rings_m"][0]), min(p[1] for p in f["rings_m"][0]),
+              max(p[0] for p in f["rings_m"][0]), max(p[1] for p in f["rings_m"][0]))
+             for f in plan["footprints"]]
+    added = 0
+    for _ in range(10000):
+        if added == wanted.gone:
+            break
+        x, y = dice.uniform(min(xs), max(xs) - 6), dice.uniform(min(ys), max(ys) - 5)
+        if any(x < b[2] + 2 and x + 6 > b[0] - 2 and y < b[3] + 2 and y + 5 > b[1] - 2
+               for b in boxes):
+            continue
+        boxes.append((x, y, x + 6, y + 5))
+        added += 1
+        ring = [[x, y], [x + 6, y], [x + 6, y + 5], [x, y + 5]]
+        name = f"B09{added:02}"
+        plan["footprints"].append({"building": name, "z_m": [0.0, 5.0], "blocked_to_m": 15.0,
+                                   "rings_m": [[[round(c, 3) for c in p] for p in ring]]})
+    scratch = wanted.plan.with_suffix(".new")  # the old file may have other names
+    scratch.write_text(json.dumps(plan))
+    os.replace(scratch, wanted.plan)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "survey/geometry2d.h"
+#include "survey/georef.h"
+#include "survey/plan.h"
+
+namespace stucco {
+
+// A facade of the plan in the ground plan of the survey, the building on its left.
+struct MapFacade {
+  std::string id;
+  Segment2d line;
+};
+
+// A building of the plan: what of it stands on the ground, in the ground plan of the survey.
+struct MapBuilding {
+  std::string id;
+  std::vector<Polygon> parts;  // without overlaps
+  Interval z_m;                // foot and top, in the plan's heights
+  bool top_known = false;
+  bool to_capture = false;  // the plan has facades of it
+};
+
+// What the plan says of the place, in metres of the survey's upright frame: x and y in the ground
+// plan, z along `up`. Obstacles and parts of buildings that stand on other parts are left out.
+struct OutlineMap {
+  std::vector<MapBuilding> buildings;  // in the plan's order, each id once
+  std::vector<MapFacade> facades;      // in the plan's order
+};
+
+// The same building somewhere else.
+MapBuilding Moved(const MapBuilding& building, const Eigen::Isometry2d& motion);
+
+Eigen::AlignedBox2d BoundsOf(const MapBuilding& building, double margin);
+// 0 inside.
+double DistanceTo(const MapBuilding& building, const Eigen::Vector2d& p);
+// To the nearest edge, from either side.
+double ToOutline(const MapBuilding& building, const Eigen::Vector2d& p);
+
+// From a frame whose z is `up` into the world, and back: the smallest rotation.
+Eigen::Matrix3d UprightFromWorld(const Eigen::Vector3d& up);
+
+// Requires georef.frame "enu". Positions are as the plan has them: the survey may show them some
+// metres elsewhere (map_registration.h).
+OutlineMap OutlinesOf(const Plan& plan, const Georef& georef, const Eigen::Vector3d& up);
+
+}  // namespace stucco

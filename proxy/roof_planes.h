@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "proxy/options.h"
+#include "proxy/outline_fit.h"
+#include "proxy/plane.h"
+#include "proxy/samples.h"
+#include "proxy/upright_survey.h"
+
+namespace stucco {
+
+// What the cloud shows above a footprint, in the upright frame.
+struct RoofEvidence {
+  Samples samples;            // above the ground, inside of the outline
+  std::vector<Plane> planes;  // roofs, by falling area; `points` are indices into `samples`
+  std::vector<Plane> steps;   // upright, inside of the outline
+  double raised_m2 = 0;       // of the footprint, below samples above the ground
+  double bare_m2 = 0;         // of the footprint where the cloud shows the ground itself
+  double seen_m2 = 0;         // of both together
+};
+
+// The planes of a building's roof, found among the samples above its own footprint, with details
+// that do not depend on the rest of the survey, and regularised by themselves and its walls. Rough
+// surfaces (crowns of trees) are none.
+RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& building,
+                            const ProxyOptions& options);
+
+// The samples by their indices; the cameras stay behind.
+Samples SubsetOf(const Samples& samples, const std::vector<int>& indices);
+
+}  // namespace stucco

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "proxy/plan_bins.h"
+#include "proxy/samples.h"
+#include "proxy/scale.h"
+#include "proxy/scene.h"
+
+namespace stucco {
+
+// What the cloud shows in the frame whose z is up: what a map is held against.
+struct UprightSurvey {
+  Samples samples;
+  PlanBins bins;  // of the samples
+  Tolerances tolerances;
+};
+
+UprightSurvey UprightSurveyOf(const PlanarScene& scene);
+
+}  // namespace stucco

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/proxy/map_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "survey/triangulate.h"
+
+namespace stucco::testing {
+
+Ring Rectangle(double x0, double y0, double x1, double y1) {
+  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+}
+
+Ring Court(double x0, double y0, double x1, double y1) {
+  Ring ring = Rectangle(x0, y0, x1, y1);
+  std::reverse(ring.begin(), ring.end());
+  return ring;
+}
+
+Plan PlanOf(const std::vector<MapEntry>& entries) {
+  Plan plan;
+  plan.origin = {.latitude_deg = 50, .longitude_deg = 14};
+  for (const MapEntry& entry : entries) {
+    plan.footprints.push_back(
+        {.building = entry.id, .rings_m = entry.rings, .z_m = {0, entry.top}});
+    int number = 0;
+    for (const Ring& ring : entry.rings) {
+      for (size_t i = 0; i < ring.size(); ++i) {
+        PlannedFacade& facade = plan.facades.emplace_back();
+        facade.id = fmt::format("{}/F{:02}", entry.id, number++);
+        facade.a_m = ring[i];
+        facade.b_m = ring[(i + 1) % ring.size()];
+        facade.z_m = {0, entry.top};
+        facade.top_known = true;
+      }
+    }
+  }
+  return plan;
+}
+
+Georef MapGeoref() {
+  Georef georef;
+  georef.frame = "enu";
+  georef.origin_latitude_deg = 50;
+  georef.origin_longitude_deg = 14;
+  georef.up = Eigen::Vector3d::UnitZ();
+  georef.metric = true;
+  georef.source = "rtk";
+  return georef;
+}
+
+std::vector<MapEntry> Displaced(std::vector<MapEntry> entries, double turn_deg,
+                                const Eigen::Vector2d& shift) {
+  const Eigen::Rotation2Dd turn(turn_deg * std::numbers::pi / 180);
+  for (MapEntry& entry : entries) {
+    for (Ring& ring : entry.rings) {
+      for (Eigen::Vector2d& corner : ring) corner = turn * corner + shift;
+    }
+  }
+  return entries;
+}
+
+House FlatHouse(const Ring& ring, double height) {
+  House house;
+  TruePolygon roof{.name = "roof", .ring = {}};
+  for (size_t i = 0; i < ring.size(); ++i) {
+    const Eigen::Vector2d a = ring[i], b = ring[(i + 1) % ring.size()];
+    house.polygons.push_back(
+        {"wall",
+         {{a.x(), a.y(), 0}, {b.x(), b.y(), 0}, {b.x(), b.y(), height}, {a.x(), a.y(), height}}});
+    roof.ring.emplace_back(a.x(), a.y(), height);
+  }
+  house.polygons.push_back(roof);
+  return house;
+}
+
+House HipHouse(double length, double width, double height) {
+  const double x = length / 2, y = width / 2, r = x - y, top = height + y;
+  House house = FlatHouse(Rectangle(-x, -y, x, y), height);
+  house.polygons.pop_back();
+  const double h = height;
+  house.polygons.push_back({"south roof", {{-x, -y, h}, {x, -y, h}, {r, 0, top}, {-r, 0, top}}});
+  house.polygons.push_back({"north roof", {{x, y, h}, {-x, y, h}, {-r, 0, top}, {r, 0, top}}});
+  house.polygons.push_back({"east roof", {{x, -y, h}, {x, y, h}, {r, 0, top}}});
+  house.polygons.push_back({"west roof", {{-x, y, h}, {-x, -y, h}, {-r, 0, top}}});
+  return house;
+}
+
+double VolumeOf(const Building& building) {
+  const TriangleSoup soup = TriangulateFacets(building.facets);
+  double volume = 0;
+  for (const auto& t : soup.triangles) {
+    volume += soup.points[t[0]].dot(soup.points[t[1]].cross(soup.points[t[2]])) / 6;
+  }
+  return volume;
+}
+
+double AreaOf(const Building& building, FacetClass facet_class) {
+  double area = 0;
+  for (const Facet& facet : building.facets) {
+    if (facet.facet_class == facet_class) area += facet.area;
+  }
+  return area;
+}
+
+const Building* Find(const Proxy& proxy, const std::string& id) {
+  const auto found = std::ranges::find(proxy.buildings, id, &Building::id);
+  return found == proxy.buildings.end() ? nullptr : &*found;
+}
+
+}  // namespace stucco::testing

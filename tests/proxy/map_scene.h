@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "proxy/input.h"
+#include "survey/geometry2d.h"
+#include "survey/plan.h"
+#include "survey/proxy.h"
+#include "tests/proxy/scene.h"
+
+namespace stucco::testing {
+
+// A building of a made map: rings as plans have them, the outer one counter-clockwise.
+struct MapEntry {
+  std::string id;
+  std::vector<Ring> rings;
+  double top = 6;
+};
+
+Ring Rectangle(double x0, double y0, double x1, double y1);
+// The other way round: a courtyard.
+Ring Court(double x0, double y0, double x1, double y1);
+
+// A plan with these buildings whose frame is that of MapGeoref; every edge is a facade.
+Plan PlanOf(const std::vector<MapEntry>& entries);
+Georef MapGeoref();
+
+// The same map, turned counter-clockwise about the origin and shifted.
+std::vector<MapEntry> Displaced(std::vector<MapEntry> entries, double turn_deg,
+                                const Eigen::Vector2d& shift);
+
+// Walls from the ground to the roof's height over each corner, and the roof.
+House FlatHouse(const Ring& ring, double height);
+// A hip roof of 45 degrees over a rectangle that is longer in x.
+House HipHouse(double length, double width, double height);
+
+// Enclosed volume and the area of one class; facets must be closed for the volume.
+double VolumeOf(const Building& building);
+double AreaOf(const Building& building, FacetClass facet_class);
+const Building* Find(const Proxy& proxy, const std::string& id);
+
+}  // namespace stucco::testing

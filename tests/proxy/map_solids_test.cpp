@@ -1,0 +1,305 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/map_solids.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "proxy/abstract.h"
+#include "proxy/closed_check.h"
+#include "tests/proxy/map_scene.h"
+#include "tests/proxy/scene.h"
+
+namespace stucco {
+namespace {
+
+using testing::Captured;
+using testing::Court;
+using testing::Displaced;
+using testing::FlatHouse;
+using testing::MapEntry;
+using testing::Rectangle;
+using testing::VolumeOf;
+
+constexpr testing::CaptureOptions kCapture{.spacing = 0.2, .noise = 0.02};
+
+struct Made {
+  Proxy proxy;
+  ProxyFindings findings;
+};
+
+Made Make(const Captured& captured, const std::vector<MapEntry>& map,
+          const ProxyOptions& options = {}) {
+  Made made;
+  ProxyInput input = testing::InputOf(captured, testing::MapGeoref());
+  input.plan = testing::PlanOf(map);
+  made.proxy = AbstractCloud(input, options, 2, made.findings);
+  EXPECT_EQ(FindProblem(made.proxy), std::nullopt);
+  return made;
+}
+
+bool Says(const std::vector<std::string>& lines, const std::string& text) {
+  return std::ranges::any_of(
+      lines, [&](const std::string& line) { return line.find(text) != std::string::npos; });
+}
+
+// The building, closed, or a failed test.
+const Building& Closed(const Made& made, const std::string& id) {
+  static const Building kNone;
+  const Building* building = testing::Find(made.proxy, id);
+  EXPECT_NE(building, nullptr) << id;
+  if (building == nullptr) return kNone;
+  EXPECT_TRUE(building->watertight);
+  EXPECT_EQ(FindOpening(building->facets), std::nullopt) << id;
+  EXPECT_EQ(building->source, "map");
+  return *building;
+}
+
+std::vector<const Facet*> Of(const Building& building, FacetClass facet_class) {
+  std::vector<const Facet*> facets;
+  for (const Facet& facet : building.facets) {
+    if (facet.facet_class == facet_class) facets.push_back(&facet);
+  }
+  return facets;
+}
+
+double Highest(const Facet& facet) {
+  double top = -1e9;
+  for (const auto& p : facet.outer) top = std::max(top, p.z());
+  return top;
+}
+
+// Every facade of the building's ring is on exactly one wall, and that wall lies on it.
+void ExpectFacades(const Building& building, size_t count) {
+  std::multiset<std::string> ids;
+  for (const Facet* wall : Of(building, FacetClass::kWall)) {
+    ids.insert(wall->planned_facades.begin(), wall->planned_facades.end());
+  }
+  EXPECT_EQ(ids.size(), count);
+  EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), count);
+}
+
+TEST(MapSolids, ClosesAGableHouse) {
+  const auto captured =
+      testing::Capture({testing::GableHouse()}, {testing::GroundSquare(25)}, kCapture);
+  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 9.5}});
+  const Building& house = Closed(made, "B0001");
+  EXPECT_EQ(Of(house, FacetClass::kWall).size(), 4u);
+  EXPECT_EQ(Of(house, FacetClass::kRoof).size(), 2u);
+  EXPECT_EQ(house.facets.size(), 7u);
+  ExpectFacades(house, 4);
+  // 12 x 8 x 6 and half of 12 x 8 x 3.5.
+  EXPECT_NEAR(VolumeOf(house), 744, 10);
+  for (const Facet* roof : Of(house, FacetClass::kRoof)) EXPECT_NEAR(Highest(*roof), 9.5, 0.08);
+  for (const Facet* wall : Of(house, FacetClass::kWall)) EXPECT_GT(wall->seen, 0.8);
+  EXPECT_TRUE(Says(made.findings.notes, "B0001: closed, full"));
+}
+
+TEST(MapSolids, ClosesAHipRoof) {
+  const auto captured =
+      testing::Capture({testing::HipHouse(14, 8, 5)}, {testing::GroundSquare(25)}, kCapture);
+  const Made made = Make(captured, {{"B0001", {Rectangle(-7, -4, 7, 4)}, 9}});
+  const Building& house = Closed(made, "B0001");
+  EXPECT_EQ(Of(house, FacetClass::kRoof).size(), 4u);
+  EXPECT_EQ(Of(house, FacetClass::kWall).size(), 4u);
+  ExpectFacades(house, 4);
+  // Below the hip roof: 14 x 8 x 5; the roof: a ridge of 6 m, 4 m above the eaves.
+  EXPECT_NEAR(VolumeOf(house), 560 + 4.0 / 6 * 8 * (2 * 14 + 6), 12);
+}
+
+TEST(MapSolids, StepsBetweenTwoHeights) {
+  // An L whose wings have flat roofs at 8 and 5 m.
+  testing::House tall = FlatHouse(Rectangle(-8, -5, 0, 5), 8);
+  testing::House low = FlatHouse(Rectangle(0, -5, 8, 0), 5);
+  low.polygons.erase(low.polygons.begin() + 3);  // inside of the tall wing
+  const auto captured = testing::Capture({tall, low}, {testing::GroundSquare(25)}, kCapture);
+  const Ring ring = {{-8, -5}, {8, -5}, {8, 0}, {0, 0}, {0, 5}, {-8, 5}};
+  const Made made = Make(captured, {{"B0001", {ring}, 8}});
+  const Building& house = Closed(made, "B0001");
+  const auto roofs = Of(house, FacetClass::kRoof);
+  ASSERT_EQ(roofs.size(), 2u);
+  EXPECT_NEAR(Highest(*roofs[0]), 8, 0.05);
+  EXPECT_NEAR(roofs[0]->area, 80, 1.5);
+  EXPECT_NEAR(Highest(*roofs[1]), 5, 0.05);
+  EXPECT_NEAR(roofs[1]->area, 40, 1.5);
+  // Six walls of the map; the step goes on in the wall that it is in line with.
+  EXPECT_EQ(Of(house, FacetClass::kWall).size(), 6u);
+  ExpectFacades(house, 6);
+  EXPECT_NEAR(VolumeOf(house), 840, 10);
+}
+
+TEST(MapSolids, KeepsCourtyards) {
+  testing::House block = FlatHouse(Rectangle(-11, -11, 11, 11), 5);
+  block.polygons.pop_back();
+  for (auto& polygon : FlatHouse(Court(-5, -5, 5, 5), 5).polygons) {
+    if (polygon.name == "wall") block.polygons.push_back(polygon);
+  }
+  // The roof in four pieces around the court.
+  for (const Ring& ring : {Rectangle(-11, -11, 11, -5), Rectangle(-11, 5, 11, 11),
+                           Rectangle(-11, -5, -5, 5), Rectangle(5, -5, 11, 5)}) {
+    block.polygons.push_back(FlatHouse(ring, 5).polygons.back());
+  }
+  const auto captured = testing::Capture({block}, {testing::GroundSquare(25)}, kCapture);
+  const Made made =
+      Make(captured, {{"B0001", {Rectangle(-11, -11, 11, 11), Court(-5, -5, 5, 5)}, 5}});
+  const Building& house = Closed(made, "B0001");
+  EXPECT_EQ(Of(house, FacetClass::kWall).size(), 8u);
+  ASSERT_EQ(Of(house, FacetClass::kRoof).size(), 1u);
+  EXPECT_EQ(Of(house, FacetClass::kRoof)[0]->holes.size(), 1u);
+  ExpectFacades(house, 8);
+  EXPECT_NEAR(VolumeOf(house), (484 - 100) * 5, 25);
+}
+
+TEST(MapSolids, WithoutRoofPointsEndsWhereItsWallsEnd) {
+  testing::CaptureOptions options = kCapture;
+  options.hide = {"roof"};
+  const auto captured =
+      testing::Capture({testing::BoxHouse(10, 8, 6)}, {testing::GroundSquare(25)}, options);
+  const Made made = Make(captured, {{"B0001", {Rectangle(-5, -4, 5, 4)}, 9}});
+  const Building& house = Closed(made, "B0001");
+  EXPECT_EQ(house.facets.size(), 6u);
+  EXPECT_NEAR(VolumeOf(house), 80 * 6, 80 * 0.6);  // the walls' top, within their last 10 %
+  EXPECT_EQ(Of(house, FacetClass::kRoof)[0]->seen, 0);
+  EXPECT_TRUE(Says(made.findings.notes, "B0001: closed, LoD1.2"));
+}
+
+// A street of boxes of different sizes.
+struct Street {
+  std::vector<testing::House> houses;
+  std::vector<MapEntry> map;
+};
+
+Street MakeStreet() {
+  Street street;
+  const std::vector<Ring> rings = {Rectangle(-18, -12, -8, -4), Rectangle(-2, -13, 5, -4),
+                                   Rectangle(9, -11, 19, -5), Rectangle(-16, 4, -9, 15),
+                                   Rectangle(-1, 5, 12, 12)};
+  for (size_t i = 0; i < rings.size(); ++i) {
+    const double height = 5 + static_cast<double>(i);
+    street.houses.push_back(FlatHouse(rings[i], height));
+    street.map.push_back({"B000" + std::to_string(i + 1), {rings[i]}, height});
+  }
+  return street;
+}
+
+TEST(MapSolids, FindsADisplacedMap) {
+  const Street street = MakeStreet();
+  const auto captured = testing::Capture(street.houses, {testing::GroundSquare(30)}, kCapture);
+  const Made made = Make(captured, Displaced(street.map, 0.3, {1.4, -1.4}));
+  const std::vector<double> areas = {80, 63, 60, 77, 91};
+  for (size_t i = 0; i < 5; ++i) {
+    const Building& house = Closed(made, street.map[i].id);
+    EXPECT_EQ(house.facets.size(), 6u);
+    EXPECT_NEAR(testing::AreaOf(house, FacetClass::kRoof), areas[i], 0.02 * areas[i]);
+    // Each corner is where the house stands, not where the map has it.
+    for (const Facet* roof : Of(house, FacetClass::kRoof)) {
+      for (const auto& p : roof->outer) {
+        double nearest = 1e9;
+        for (const auto& corner : street.map[i].rings[0]) {
+          nearest = std::min(nearest, (corner - p.head<2>()).norm());
+        }
+        EXPECT_LT(nearest, 0.12);
+      }
+    }
+    ExpectFacades(house, 4);
+  }
+}
+
+TEST(MapSolids, RefusesAMapOfAnotherTown) {
+  const Street street = MakeStreet();
+  const auto captured = testing::Capture(street.houses, {testing::GroundSquare(30)}, kCapture);
+  const std::vector<MapEntry> elsewhere = {{"B0001", {Rectangle(-24, -2, -12, 2)}, 6},
+                                           {"B0002", {Rectangle(-6, -3, 8, 3)}, 6},
+                                           {"B0003", {Rectangle(14, -26, 20, 20)}, 6},
+                                           {"B0004", {Rectangle(-8, 16, 10, 28)}, 6},
+                                           {"B0005", {Rectangle(-28, -26, -20, -14)}, 6}};
+  const Made with = Make(captured, elsewhere);
+  EXPECT_TRUE(Says(with.findings.warnings, "the plan's map gives no shape"));
+  // The same as without any map.
+  ProxyFindings findings;
+  const Proxy without =
+      AbstractCloud(testing::InputOf(captured, testing::MapGeoref()), {}, 2, findings);
+  ASSERT_EQ(with.proxy.buildings.size(), without.buildings.size());
+  for (size_t b = 0; b < without.buildings.size(); ++b) {
+    EXPECT_EQ(with.proxy.buildings[b].id, without.buildings[b].id);
+    EXPECT_EQ(with.proxy.buildings[b].facets.size(), without.buildings[b].facets.size());
+  }
+}
+
+TEST(MapSolids, NamesWhatIsGoneAndWhatIsNew) {
+  Street street = MakeStreet();
+  street.houses.erase(street.houses.begin() + 1);  // B0002 is no more
+  const Ring fresh = Rectangle(16, 4, 25, 13);
+  street.houses.push_back(FlatHouse(fresh, 6));  // no map has it
+  const auto captured = testing::Capture(street.houses, {testing::GroundSquare(30)}, kCapture);
+  const Made made = Make(captured, street.map);
+  EXPECT_EQ(testing::Find(made.proxy, "B0002"), nullptr);
+  EXPECT_TRUE(Says(made.findings.warnings, "B0002: not built, or demolished"));
+  for (const char* id : {"B0001", "B0003", "B0004", "B0005"}) Closed(made, id);
+  EXPECT_TRUE(Says(made.findings.notes, "on no footprint of the map"));
+  const Building* found = testing::Find(made.proxy, "C0001");
+  ASSERT_NE(found, nullptr);
+  EXPECT_TRUE(found->watertight);
+  EXPECT_NEAR(VolumeOf(*found), 81 * 6, 15);
+}
+
+TEST(MapSolids, ExtrudesWhatNobodySaw) {
+  const Street street = MakeStreet();
+  auto map = street.map;
+  map.push_back({"B0009", {Rectangle(60, 60, 70, 70)}, 7});
+  const auto captured = testing::Capture(street.houses, {testing::GroundSquare(30)}, kCapture);
+  const Made made = Make(captured, map);
+  const Building& house = Closed(made, "B0009");
+  EXPECT_NEAR(VolumeOf(house), 700, 20);
+  for (const Facet& facet : house.facets) EXPECT_EQ(facet.seen, 0);
+  EXPECT_TRUE(Says(made.findings.warnings, "B0009: the cloud shows too little"));
+}
+
+TEST(MapSolids, TreesAreNoPartOfABuilding) {
+  auto captured =
+      testing::Capture({testing::BoxHouse(12, 9, 6)}, {testing::GroundSquare(25)}, kCapture);
+  testing::AddTree({9, 2, 5}, 2.8, 4000, 3, captured);  // beside the eastern wall, and over it
+  testing::AddTree({-3, 1, 9}, 2, 2500, 4, captured);   // over the roof
+  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4.5, 6, 4.5)}, 6}});
+  const Building& house = Closed(made, "B0001");
+  EXPECT_EQ(house.facets.size(), 6u);
+  EXPECT_NEAR(VolumeOf(house), 12 * 9 * 6, 10);
+  EXPECT_EQ(made.proxy.buildings.size(), 2u);  // the house and the ground: no tree
+}
+
+TEST(MapSolids, NeighboursKeepTouching) {
+  // Two houses of different height wall to wall; the map is 0.4 m off.
+  testing::House tall = FlatHouse(Rectangle(-8, -4, 0, 4), 8);
+  testing::House low = FlatHouse(Rectangle(0, -4, 9, 4), 5);
+  low.polygons.erase(low.polygons.begin() + 3);
+  const auto captured = testing::Capture({tall, low}, {testing::GroundSquare(25)}, kCapture);
+  const Made made = Make(captured, Displaced({{"B0001", {Rectangle(-8, -4, 0, 4)}, 8},
+                                              {"B0002", {Rectangle(0, -4, 9, 4)}, 5}},
+                                             0, {0.4, 0.2}));
+  const Building& left = Closed(made, "B0001");
+  const Building& right = Closed(made, "B0002");
+  EXPECT_NEAR(VolumeOf(left), 8 * 8 * 8, 12);
+  EXPECT_NEAR(VolumeOf(right), 9 * 8 * 5, 10);
+  const auto faces = [](const Building& building, const Eigen::Vector3d& normal) {
+    for (const Facet& facet : building.facets) {
+      if (facet.normal.dot(normal) > 0.99) return facet.offset;
+    }
+    return 1e9;
+  };
+  EXPECT_NEAR(faces(left, Eigen::Vector3d::UnitX()), -faces(right, -Eigen::Vector3d::UnitX()),
+              1e-9);
+}
+
+TEST(MapSolids, UsesNoMapWhenToldSo) {
+  const auto captured =
+      testing::Capture({testing::GableHouse()}, {testing::GroundSquare(25)}, kCapture);
+  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 9.5}}, {.use_map = false});
+  EXPECT_EQ(testing::Find(made.proxy, "B0001"), nullptr);
+  EXPECT_NE(testing::Find(made.proxy, "C0001"), nullptr);
+}
+
+}  // namespace
+}  // namespace stucco
