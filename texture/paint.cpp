@@ -51,6 +51,11 @@ struct Selected {
   Ownership ownership;            // indices into `views`
 };
 
+TexelGrid GridToPaint(const Facet& facet, const FacetLook& look, const Eigen::Vector3d& up,
+                      const TextureOptions& options) {
+  return look.grid ? *look.grid : MakeGrid(facet, up, look.texel, options.max_texture_px);
+}
+
 void ApplyGain(const Eigen::Vector3d& gain, std::vector<float>& rgb) {
   for (size_t i = 0; i < rgb.size(); ++i) {
     rgb[i] = std::min(255.0f, rgb[i] * static_cast<float>(gain[static_cast<int>(i % 3)]));
@@ -255,7 +260,7 @@ void FillAndCount(const TextureOptions& options, PaintedFacet& painted) {
 uint64_t PaintingBytes(const Facet& facet, const FacetLook& look, const PaintScene& scene,
                        const TextureOptions& options) {
   if (look.candidates.empty()) return 0;
-  const TexelGrid grid = MakeGrid(facet, scene.up, look.texel, options.max_texture_px);
+  const TexelGrid grid = GridToPaint(facet, look, scene.up, options);
   const auto texels = static_cast<double>(grid.size());
   const auto count = static_cast<double>(look.candidates.size());
   const double step = CellSide(grid, options.cell_px, look.candidates.size()) / kCellSplit;
@@ -280,7 +285,7 @@ PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
                         const TextureOptions& options) {
   PaintedFacet painted;
   if (look.candidates.empty()) return painted;
-  painted.grid = MakeGrid(facet, scene.up, look.texel, options.max_texture_px);
+  painted.grid = GridToPaint(facet, look, scene.up, options);
   painted.wanted_texel = look.texel;
   painted.mask = RasterizeFacet(facet, painted.grid);
 

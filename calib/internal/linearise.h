@@ -16,8 +16,9 @@ struct Linearised {
   Eigen::Matrix<double, 2, 3, Eigen::RowMajor> point;
 };
 
-// Residual and derivatives of an observation; false where the point has no picture. The pose changes
-// as Ceres' manifold does: the rotation by twice the vector d (q' = exp(d) q), and the translation.
+// Residual and derivatives of an observation; false where the point has no picture. The pose
+// changes as Ceres' manifold does: the rotation by twice the vector d (q' = exp(d) q), and the
+// translation.
 bool Linearise(const Scene& scene, const SceneElement& element, const Eigen::Vector3d& point,
                Linearised& out);
 

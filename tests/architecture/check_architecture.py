@@ -37,8 +37,10 @@ MODULES = set(ARROWS)
 # by its front door.
 FOLDER_ARROWS = {
     "pipeline/engine/": ("pipeline/engine/", "survey/"),
-    "pipeline/verbs/": ("pipeline/engine/", "pipeline/verbs/", "calib/placement.h",
-                        "exchange/", "plan/", "survey/"),
+    "pipeline/verbs/": ("pipeline/engine/", "pipeline/verbs/", "calib/localise.h",
+                        "calib/options.h", "calib/placement.h", "capture_ingest/ingest.h",
+                        "exchange/", "plan/", "survey/", "texture/options.h",
+                        "texture/repaint.h"),
     "cli/": ("cli/", "evaluate/", "pipeline/default_stages.h", "pipeline/engine/engine.h",
              "pipeline/verbs/", "simulate/", "survey/"),
 }
