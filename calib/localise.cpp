@@ -163,8 +163,7 @@ std::vector<std::vector<int>> ChooseModelPhotos(const CalibOptions& options,
     std::vector<double> nearness;
     for (size_t m = 0; m < num_model; ++m) {
       const std::vector<float>& own = signatures[num_model + i];
-      alike.push_back(
-          std::inner_product(own.begin(), own.end(), signatures[m].begin(), 0.0));
+      alike.push_back(std::inner_product(own.begin(), own.end(), signatures[m].begin(), 0.0));
       if (positions[m] && positions[num_model + i]) {
         nearness.push_back(-(*positions[m] - *positions[num_model + i]).norm());
       }
@@ -211,12 +210,12 @@ PairMatches MatchPair(const Work& work, int added, int old) {
   verify.max_error_px = 4 * std::max(DetectionScale(work.options, photo), old_scale);
   const SceneCamera& camera = work.cameras[photo.camera];
   if (camera.focal_sigma_ratio < kGuessedFocal) {
-    verify.cameras = PairCameras{camera.intrinsics,
-                                 work.model.reconstruction.cameras.at(image.camera),
-                                 camera.focal_sigma_ratio};
+    verify.cameras =
+        PairCameras{camera.intrinsics, work.model.reconstruction.cameras.at(image.camera),
+                    camera.focal_sigma_ratio};
   }
-  const std::vector<Match> matches = MatchDescriptors(
-      UnitDescriptors(first), UnitDescriptors(second), work.options.match_ratio);
+  const std::vector<Match> matches =
+      MatchDescriptors(UnitDescriptors(first), UnitDescriptors(second), work.options.match_ratio);
   const auto pair = VerifyPair(PixelsOf(first), PixelsOf(second), matches, verify);
   if (!pair) return {};
   const std::vector<PointId> points = PointsOfKeypoints(second.keypoints, image, old_scale);

@@ -62,7 +62,8 @@ double LimitPx(const Scene& scene, int photo, double times) {
 int ChooseInliers(double limit_px, int photo, Scene& scene) {
   int count = 0;
   for (const Sighting& sighting : SightingsOf(scene, photo)) {
-    sighting.element->used = ReprojectionError(scene, *sighting.element, *sighting.point) < limit_px;
+    sighting.element->used =
+        ReprojectionError(scene, *sighting.element, *sighting.point) < limit_px;
     count += sighting.element->used;
   }
   return count;
@@ -150,13 +151,15 @@ void Refine(Scene& scene) {
 
 std::string WhyTooFew(const PlacedPhoto& placed) {
   if (placed.num_points < kFewestInliers) {
-    return fmt::format("only {} of its details are points of the survey, {} are needed: it shows "
-                       "something else, or from where no photo of the survey saw it",
-                       placed.num_points, kFewestInliers);
+    return fmt::format(
+        "only {} of its details are points of the survey, {} are needed: it shows "
+        "something else, or from where no photo of the survey saw it",
+        placed.num_points, kFewestInliers);
   }
-  return fmt::format("of {} details that look like points of the survey {} agree on a place to see "
-                     "them from, no more than chance lets",
-                     placed.num_points, placed.num_inliers);
+  return fmt::format(
+      "of {} details that look like points of the survey {} agree on a place to see "
+      "them from, no more than chance lets",
+      placed.num_points, placed.num_inliers);
 }
 
 bool IsAboveChance(double limit_px, int photo, const PlacedPhoto& placed, Scene& scene) {
@@ -193,9 +196,10 @@ void DropUncertain(const std::vector<PoseSigma>& sigmas, std::vector<PlacedPhoto
     if (sigmas[i].picture_px >= 0 && px <= kMostSigma * scene.photos[i].keypoint_sigma_px) continue;
     placed[i].why = sigmas[i].picture_px < 0
                         ? "how surely it is placed could not be computed"
-                        : fmt::format("its place is good to {:.1f} pixels only, from {} points: "
-                                      "edges would be painted beside where they are",
-                                      px, placed[i].num_inliers);
+                        : fmt::format(
+                              "its place is good to {:.1f} pixels only, from {} points: "
+                              "edges would be painted beside where they are",
+                              px, placed[i].num_inliers);
     scene.photos[i].pose.reset();
   }
 }

@@ -42,8 +42,10 @@ void PrintReport(const RetextureReport& report, const CommonOptions& common) {
                         {"repainted", facet.repainted},
                         {"other", facet.other}});
     }
-    const Json json = {{"epoch", epoch.name},       {"folder", report.folder.string()},
-                       {"photos", epoch.photos.size()}, {"placed", placed},
+    const Json json = {{"epoch", epoch.name},
+                       {"folder", report.folder.string()},
+                       {"photos", epoch.photos.size()},
+                       {"placed", placed},
                        {"facets", facets}};
     PrintJson(json);
     return;

@@ -93,12 +93,9 @@ std::string_view Name(FacetChoice choice) {
 }
 
 void WriteEpoch(const Epoch& epoch, const std::filesystem::path& path) {
-  Json json = {{"version", internal::kJsonVersion},
-               {"name", epoch.name},
-               {"replace", Name(epoch.replace)},
-               {"photo_folder", epoch.photo_folder},
-               {"photos", Json::array()},
-               {"facets", Json::array()}};
+  Json json = {{"version", internal::kJsonVersion}, {"name", epoch.name},
+               {"replace", Name(epoch.replace)},    {"photo_folder", epoch.photo_folder},
+               {"photos", Json::array()},           {"facets", Json::array()}};
   for (const EpochPhoto& photo : epoch.photos) json["photos"].push_back(ToJson(photo));
   for (const EpochFacet& facet : epoch.facets) json["facets"].push_back(ToJson(facet));
   internal::SaveJson(json, path);

@@ -34,25 +34,25 @@ std::string_view Name(FacetChoice choice);  // "kept", "replaced", "filled", "pa
 struct EpochFacet {
   std::string id;
   FacetChoice choice = FacetChoice::kKept;
-  std::string why;             // for people
-  double shown = 0;            // painted from new photos, if all of them were taken
-  double taken = 0;            // that are in the epoch's picture
-  double compared = 0;         // shown by photos then and now
-  double repainted = 0;        // of another colour
-  double other = 0;            // of another pattern: something new, or gone
-  double gsd_before_m = 0;     // median size of a photo pixel; 0: not painted
+  std::string why;          // for people
+  double shown = 0;         // painted from new photos, if all of them were taken
+  double taken = 0;         // that are in the epoch's picture
+  double compared = 0;      // shown by photos then and now
+  double repainted = 0;     // of another colour
+  double other = 0;         // of another pattern: something new, or gone
+  double gsd_before_m = 0;  // median size of a photo pixel; 0: not painted
   double gsd_after_m = 0;
-  double shift_px = -1;        // median distance of details then and now, texels; -1: not measured
+  double shift_px = -1;  // median distance of details then and now, texels; -1: not measured
 };
 
 struct EpochPhoto {
   std::string path;  // relative to the photo folder
   std::string hash;
   bool placed = false;
-  std::string why;     // not placed: the reason
-  int matched_photos = 0;  // of the survey
-  int points = 0;      // of the survey that it seems to show
-  int inliers = 0;     // of these, in agreement with its pose
+  std::string why;             // not placed: the reason
+  int matched_photos = 0;      // of the survey
+  int points = 0;              // of the survey that it seems to show
+  int inliers = 0;             // of these, in agreement with its pose
   double position_sigma = -1;  // of its pose: world units, -1: not known
   double picture_sigma_px = -1;
   Pose cam_from_world;  // where placed

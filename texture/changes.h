@@ -18,7 +18,9 @@ struct FacetPicture {
 };
 
 // Whether a label means a photo.
-inline bool IsPainted(uint8_t label) { return label != 0 && label != 255; }
+inline bool IsPainted(uint8_t label) {
+  return label != 0 && label != 255;
+}
 
 // What differs between two pictures of a facet, as shares of the facet's area.
 struct FacetChanges {
@@ -31,10 +33,11 @@ struct FacetChanges {
 // Compares two pictures on the same grid block by block (16 texels a side, where both are painted),
 // so that small shifts do not count. What light can do does not count either: blocks that are
 // brighter or darker with the same pattern and about the same hue are in the sun or in the shade.
-// So a plain wall that is painted darker in the same hue does not count. A block is of another colour where its hue differs
-// by more than sun and sky do; of another pattern where blocks of 4 texels inside do not go
-// together (correlation) although they have contrast. Single blocks do not count: windows mirror
-// something else every day. `mask` is not zero inside the facet. Requires pictures of one size.
+// So a plain wall that is painted darker in the same hue does not count. A block is of another
+// colour where its hue differs by more than sun and sky do; of another pattern where blocks of 4
+// texels inside do not go together (correlation) although they have contrast. Single blocks do not
+// count: windows mirror something else every day. `mask` is not zero inside the facet. Requires
+// pictures of one size.
 FacetChanges FindChanges(const FacetPicture& before, const FacetPicture& after,
                          std::span<const uint8_t> mask);
 

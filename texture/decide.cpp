@@ -7,8 +7,8 @@
 namespace stucco {
 namespace {
 
-constexpr double kWellCovered = 0.8;   // of what any photo shows
-constexpr double kChanged = 0.1;       // of what both show
+constexpr double kWellCovered = 0.8;  // of what any photo shows
+constexpr double kChanged = 0.1;      // of what both show
 constexpr double kClearlyFiner = 2.0 / 3;
 constexpr double kWorthFilling = 0.05;  // of the facet
 
@@ -30,8 +30,8 @@ FacetDecision Decide(ReplaceMode mode, const FacetEvidence& evidence) {
   }
   const double gained = evidence.painted_after - evidence.both;
   if (mode == ReplaceMode::kAlways) {
-    return {FacetChoice::kReplaced, fmt::format("new photos show {} of it",
-                                                Percent(evidence.painted_after))};
+    return {FacetChoice::kReplaced,
+            fmt::format("new photos show {} of it", Percent(evidence.painted_after))};
   }
   if (mode == ReplaceMode::kNever) {
     if (gained > 0) return Fill(gained);

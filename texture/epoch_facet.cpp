@@ -35,8 +35,8 @@ Image Decode(const std::string& bytes, const std::string& name, const TexturedFa
 
 GreyPicture GreyOf(const FacetPicture& facet, int step) {
   GreyPicture grey;
-  grey.width = facet.picture.width_px / step;
-  grey.height = facet.picture.height_px / step;
+  grey.width = (facet.picture.width_px + step - 1) / step;
+  grey.height = (facet.picture.height_px + step - 1) / step;
   for (int y = 0; y < grey.height; ++y) {
     for (int x = 0; x < grey.width; ++x) {
       const size_t texel = static_cast<size_t>(y) * step * facet.picture.width_px + x * step;
@@ -54,9 +54,8 @@ double ShiftBetween(const FacetPicture& before, const FacetPicture& after, doubl
   const int longest = std::max(before.picture.width_px, before.picture.height_px);
   const int step = (longest + kShiftSide - 1) / kShiftSide;
   const std::vector<GreyPicture> pictures = {GreyOf(before, step), GreyOf(after, step)};
-  const Alignment alignment =
-      AlignPictures(pictures, Eigen::Vector2d(pictures[0].width, pictures[0].height),
-                    limit_px / step);
+  const Alignment alignment = AlignPictures(
+      pictures, Eigen::Vector2d(pictures[0].width, pictures[0].height), limit_px / step);
   return alignment.before_px < 0 ? -1 : alignment.before_px * step;
 }
 
@@ -100,8 +99,7 @@ PhotosOfBoth JoinPhotosOfBoth(const EpochFacetInput& input, const EpochStyle& st
   for (const std::string& path : input.painted.facet.photos) {
     both.photos.push_back(*by_path.at(path));
     both.photos.back().captured.path = fmt::format("{}:{}", style.epoch, path);
-    both.gains.emplace_back(
-        Eigen::Vector3d::Constant(level * input.painted.facet.gains.at(path)));
+    both.gains.emplace_back(Eigen::Vector3d::Constant(level * input.painted.facet.gains.at(path)));
   }
   for (const std::string& path : input.old.photos) {
     SurveyPhoto& photo = both.photos.emplace_back();
@@ -220,9 +218,9 @@ EpochPicture MakeEpochPicture(EpochFacetInput input, const EpochStyle& style) {
   const std::vector<uint8_t> take = TexelsToTake(decision.choice, *input.before, *after);
   result.found.taken = ShareOf(take, all, mask);
   const bool is_mostly_old = decision.choice == FacetChoice::kFilled || result.found.taken < 0.5;
-  result.files = FilesOf(
-      MergePictures(*input.before, *after, take, mask, input.painted.facet.photos.size()), input,
-      grid, std::move(mask), style, is_mostly_old);
+  FacetPicture merged =
+      MergePictures(*input.before, *after, take, mask, input.painted.facet.photos.size());
+  result.files = FilesOf(std::move(merged), input, grid, std::move(mask), style, is_mostly_old);
   return result;
 }
 

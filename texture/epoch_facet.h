@@ -36,7 +36,7 @@ struct EpochFacetInput {
   const Facet& facet;
   const TexturedFacet& old;  // as the texture stage left it
   std::optional<FacetPicture> before;
-  const FacetFiles& painted;  // from new photos alone, on the same grid
+  const FacetFiles& painted;                        // from new photos alone, on the same grid
   Eigen::Vector3d level = Eigen::Vector3d::Ones();  // brings new colours to the old ones
 };
 

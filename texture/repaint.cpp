@@ -51,10 +51,9 @@ std::vector<const Facet*> FacetsOf(const TextureSet& textures, const Proxy& prox
   for (const TexturedFacet& textured : textures.facets) {
     const auto facet = by_id.find(textured.id);
     if (facet == by_id.end()) {
-      throw Error(
-          ErrorKind::kBadInput,
-          fmt::format("{}: facet {} is not in {}", kTexturesFile, textured.id, kFacetsFile),
-          "make the survey's textures again first: stucco texture SURVEY");
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("{}: facet {} is not in {}", kTexturesFile, textured.id, kFacetsFile),
+                  "make the survey's textures again first: stucco texture SURVEY");
     }
     facets.push_back(facet->second);
   }
@@ -96,8 +95,8 @@ FacetFiles PaintNew(const Work& work, size_t i) {
 Eigen::Vector3d PaintAllNew(const Work& work) {
   uint64_t largest = 1;
   for (size_t i = 0; i < work.facets.size(); ++i) {
-    largest = std::max(
-        largest, PaintingBytes(*work.facets[i], work.looks[i], work.scene, work.options));
+    largest =
+        std::max(largest, PaintingBytes(*work.facets[i], work.looks[i], work.scene, work.options));
   }
   std::vector<std::optional<ColourRatio>> ratios(work.facets.size());
   work.context.progress->Begin("painting facets", work.facets.size());
@@ -138,8 +137,7 @@ std::vector<EpochFacet> WritePictures(const Work& work, TextureSet& textures) {
     largest = std::max(largest, kBytesPerTexel * old.width_px * old.height_px);
   }
   const std::vector<std::string> names = FileNames(ids);
-  const EpochStyle style{work.request.epoch, work.request.replace, work.input.photos,
-                         work.options};
+  const EpochStyle style{work.request.epoch, work.request.replace, work.input.photos, work.options};
   std::vector<EpochFacet> found(ids.size());
   textures.facets.resize(ids.size());
   work.context.progress->Begin("comparing pictures", ids.size());

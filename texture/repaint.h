@@ -19,8 +19,8 @@ struct RepaintRequest {
   ReplaceMode replace = ReplaceMode::kAuto;
 };
 
-// Paints the facets of a finished texture stage from other photos, on the grids that the stage left,
-// decides facet by facet what becomes of its picture (Decide), and writes a whole epoch below
+// Paints the facets of a finished texture stage from other photos, on the grids that the stage
+// left, decides facet by facet what becomes of its picture (Decide), and writes a whole epoch below
 // `context.out`: textures.json, textures/, labels/, orthophotos/, model.glb and model.obj. Pictures
 // that are kept have the bytes they had. Of the survey nothing is written, and its photos need not
 // be there. In the order of texture/textures.json. Throws Error (kBadInput) where the survey's

@@ -43,18 +43,18 @@ constexpr size_t kMostExamples = 3;
 
 std::string EpochName(const RetextureRequest& request) {
   const bool given = !request.epoch.empty();
-  const std::string name =
-      given ? request.epoch : RealPath(request.photos).filename().string();
+  const std::string name = given ? request.epoch : RealPath(request.photos).filename().string();
   const bool plain = !name.empty() && name.size() <= kLongestName && name.front() != '.' &&
                      std::ranges::all_of(name, [](unsigned char c) {
                        return std::isalnum(c) || c == '-' || c == '_' || c == '.';
                      });
   if (plain) return name;
-  throw Error(ErrorKind::kUsage,
-              given ? fmt::format("--epoch: \"{}\" is no name of an epoch", name)
-                    : fmt::format("an epoch cannot be called \"{}\" as the photo folder is", name),
-              "give one with --epoch, of letters, digits, '-', '_' and '.', such as 2026-spring: it "
-              "becomes a folder below epochs");
+  throw Error(
+      ErrorKind::kUsage,
+      given ? fmt::format("--epoch: \"{}\" is no name of an epoch", name)
+            : fmt::format("an epoch cannot be called \"{}\" as the photo folder is", name),
+      "give one with --epoch, of letters, digits, '-', '_' and '.', such as 2026-spring: it "
+      "becomes a folder below epochs");
 }
 
 void RequirePhotoFolder(const fs::path& photos) {
@@ -164,7 +164,7 @@ Captures IngestNew(const Settings& settings, const Captures& of_survey, StageCon
 }
 
 std::vector<EpochPhoto> DescribePhotos(const Captures& captures,
-                                 const std::vector<LocalisedPhoto>& localised) {
+                                       const std::vector<LocalisedPhoto>& localised) {
   std::vector<EpochPhoto> photos;
   for (const CapturedPhoto& captured : captures.photos) {
     EpochPhoto& photo = photos.emplace_back();
@@ -237,7 +237,7 @@ Epoch MakeEpoch(const RetextureRequest& request, const std::string& name, const 
   epoch.replace = request.replace;
   epoch.photo_folder = context.photos.string();
   epoch.photos = DescribePhotos(captures, LocalisePhotos(OptionsOf<CalibOptions>(settings, "calib"),
-                                                   model, captures, context));
+                                                         model, captures, context));
   RequirePlaced(epoch.photos, *context.progress);
   epoch.facets =
       RepaintSurvey(OptionsOf<TextureOptions>(settings, "texture"),
@@ -269,8 +269,8 @@ RetextureReport RetextureSurvey(const fs::path& survey, const RetextureRequest& 
   RetextureReport report{folder, {}};
   {
     StageProgress progress(kVerb, console, events, platform.interrupted);
-    const double memory_gb = request.memory_limit_gb > 0 ? request.memory_limit_gb
-                                                         : settings.run.memory_limit_gb;
+    const double memory_gb =
+        request.memory_limit_gb > 0 ? request.memory_limit_gb : settings.run.memory_limit_gb;
     StageContext context;
     context.survey = survey;
     context.photos = fs::absolute(request.photos).lexically_normal();

@@ -27,12 +27,12 @@ struct RetextureReport {
 };
 
 // Places photos of another day in a finished survey and makes an epoch of it, a folder epochs/NAME
-// with the pictures and the model as these photos show them (docs/retexture.md). Nothing else of the
-// survey changes, and the folder is there whole or not at all: it is made in the scratch folder, and
-// what an interrupted run has finished is used by the next. Throws Error: kUsage for a name that
-// cannot be one; kBadInput where the survey has no textures yet, the epoch exists, there is no new
-// photo or what they are compared with is gone; kStageFailed where no photo can be placed, with the
-// reasons.
+// with the pictures and the model as these photos show them (docs/retexture.md). Nothing else of
+// the survey changes, and the folder is there whole or not at all: it is made in the scratch
+// folder, and what an interrupted run has finished is used by the next. Throws Error: kUsage for a
+// name that cannot be one; kBadInput where the survey has no textures yet, the epoch exists, there
+// is no new photo or what they are compared with is gone; kStageFailed where no photo can be
+// placed, with the reasons.
 RetextureReport RetextureSurvey(const std::filesystem::path& survey,
                                 const RetextureRequest& request, const StageTable& table,
                                 Console& console, const Platform& platform);
