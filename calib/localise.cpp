@@ -110,15 +110,16 @@ std::vector<SceneCamera> CamerasFor(const CalibOptions& options, const FinishedM
   std::vector<SceneCamera> cameras;
   for (const CapturedCamera& captured : captures.cameras) {
     SceneCamera& camera = cameras.emplace_back();
+    camera.focal_sigma_ratio = FocalSigmaRatio(captured);
     const auto calibrated = known.find(captured.key);
     if (calibrated == known.end()) {
       camera.intrinsics = AsModel(captured.intrinsics, wished);
-      camera.focal_sigma_ratio = FocalSigmaRatio(captured);
     } else {
       const bool full = calibrated->second->model == CameraModel::kFullOpenCv;
       camera.intrinsics =
           AsModel(*calibrated->second, full ? CameraModel::kFullOpenCv : CameraModel::kOpenCv);
-      camera.focal_sigma_ratio = 0;
+      // Without metadata cameras of one size look the same: a beginning, no more.
+      if (camera.focal_sigma_ratio < kGuessedFocal) camera.focal_sigma_ratio = 0;
     }
     camera.prior = camera.intrinsics;
   }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 namespace stucco {
 namespace {
@@ -24,6 +25,11 @@ constexpr double kOtherHue = 0.3;
 // logarithms): plaster, noise, the edge of a soft shadow.
 constexpr double kContrast = 0.12;
 constexpr double kSamePattern = 0.3;  // correlation
+// How far relief may look shifted, texels, and how well a block and what is around it must then
+// agree.
+constexpr int kReach = 24;
+constexpr int kAround = 4;
+constexpr double kFoundAgain = 0.7;
 constexpr int kFewestNeighbours = 3;  // of the eight around a block that changed too
 
 using Pattern = std::array<double, kParts * kParts>;
@@ -132,7 +138,7 @@ class Comparison {
       if (!blocks_[i].shown) continue;
       const Eigen::Vector3d& d = blocks_[i].difference;
       const double hue = (d.array() - d.mean()).matrix().norm();
-      if (!GoTogether(blocks_[i].before, blocks_[i].after)) {
+      if (!GoTogether(blocks_[i].before, blocks_[i].after) && !IsFoundAgain(static_cast<int>(i))) {
         found[i] = Change::kPattern;
       } else if (hue > kOtherHue) {
         found[i] = Change::kColour;
@@ -150,6 +156,31 @@ class Comparison {
     const double spread_a = std::sqrt(of_a.square().mean());
     if (std::max(spread_a, spread_b) < kContrast) return true;
     return (of_a * of_b).mean() >= kSamePattern * spread_a * spread_b;
+  }
+
+  // Whether what a block shows now was there before, some texels beside.
+  bool IsFoundAgain(int index) const {
+    const cv::Rect whole(0, 0, width_, before_.picture.height_px);
+    const cv::Rect block =
+        cv::Rect(index % columns_ * kBlock - kAround, index / columns_ * kBlock - kAround,
+                 kBlock + 2 * kAround, kBlock + 2 * kAround) &
+        whole;
+    const cv::Rect search = cv::Rect(block.x - kReach, block.y - kReach, block.width + 2 * kReach,
+                                     block.height + 2 * kReach) &
+                            whole;
+    cv::Mat score;
+    cv::matchTemplate(Grey(before_, search), Grey(after_, block), score, cv::TM_CCOEFF_NORMED);
+    double best = 0;
+    cv::minMaxLoc(score, nullptr, &best);
+    return best >= kFoundAgain;
+  }
+
+  static cv::Mat Grey(const FacetPicture& facet, const cv::Rect& area) {
+    const cv::Mat rgb(facet.picture.height_px, facet.picture.width_px, CV_8UC3,
+                      const_cast<uint8_t*>(facet.picture.data.data()));
+    cv::Mat grey;
+    cv::cvtColor(rgb(area), grey, cv::COLOR_RGB2GRAY);
+    return grey;
   }
 
   // Without what stands alone.

@@ -32,12 +32,13 @@ struct FacetChanges {
 
 // Compares two pictures on the same grid block by block (16 texels a side, where both are painted),
 // so that small shifts do not count. What light can do does not count either: blocks that are
-// brighter or darker with the same pattern and about the same hue are in the sun or in the shade.
-// So a plain wall that is painted darker in the same hue does not count. A block is of another
+// brighter or darker with the same pattern and about the same hue are in the sun or in the shade;
+// so a plain wall that is painted darker in the same hue does not count. A block is of another
 // colour where its hue differs by more than sun and sky do; of another pattern where blocks of 4
-// texels inside do not go together (correlation) although they have contrast. Single blocks do not
-// count: windows mirror something else every day. `mask` is not zero inside the facet. Requires
-// pictures of one size.
+// texels inside do not go together (correlation) although they have contrast, and what is there now
+// was not there before a little beside either: relief, and planes that are not quite right, look
+// shifted when they are seen from elsewhere. Single blocks do not count: windows mirror something
+// else every day. `mask` is not zero inside the facet. Requires pictures of one size.
 FacetChanges FindChanges(const FacetPicture& before, const FacetPicture& after,
                          std::span<const uint8_t> mask);
 

@@ -26,7 +26,7 @@ constexpr int kAlignSide = 1600;          // longest side of the alignment raste
 // Memory: bytes per texel of the picture (with masks, rasters, encoded files), per raster texel and
 // candidate, per seam, per texel of an aligned photo and of one being resampled, per photo pixel
 // (three channels and their halvings).
-constexpr double kBytesPerTexel = 24;
+constexpr double kBytesPerTexel = 25;
 constexpr double kBytesPerRasterView = 60;
 constexpr double kBytesPerSeam = 4;
 constexpr double kBytesPerAligned = 2;
@@ -220,6 +220,19 @@ void AlignChosen(const Selected& selected, const TextureOptions& options,
   }
 }
 
+// Texels whose photo sees points of the cloud before the facet.
+std::vector<uint8_t> FindInFront(const Selected& selected, const PaintedFacet& painted) {
+  std::vector<uint8_t> in_front(painted.labels.size(), 0);
+  for (size_t i = 0; i < in_front.size(); ++i) {
+    if (painted.labels[i] == 0) continue;
+    const size_t texel = selected.ownership.RasterIndex(static_cast<int>(i % painted.grid.width),
+                                                        static_cast<int>(i / painted.grid.width));
+    const RasterView& view = selected.views[painted.labels[i] - 1];
+    in_front[i] = view.texels[texel].sight == Sight::kBehind;
+  }
+  return in_front;
+}
+
 // Continues colours into holes and beyond the facet, copies texture into the holes, and counts.
 void FillAndCount(const TextureOptions& options, PaintedFacet& painted) {
   std::vector<uint8_t> known(painted.labels.size());
@@ -308,6 +321,7 @@ PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
     nothing.grid = painted.grid;
     return nothing;
   }
+  painted.in_front = FindInFront(selected, painted);
   FillAndCount(options, painted);
 
   // 4. Measure.

@@ -86,7 +86,11 @@ FacetFiles PaintNew(const Work& work, size_t i) {
                               look.grid->texel, look.grid->width, look.grid->height));
   }
   return UnpackFiles(ComputeUnit(work.context, "facet", HashParts(key), [&] {
-    const PaintedFacet painted = PaintFacet(facet, look, work.gains, work.scene, work.options);
+    PaintedFacet painted = PaintFacet(facet, look, work.gains, work.scene, work.options);
+    // What stands before the facet is not the facet, neither to be compared nor to be taken.
+    for (size_t texel = 0; texel < painted.in_front.size(); ++texel) {
+      if (painted.in_front[texel]) painted.labels[texel] = 255;
+    }
     return PackFiles(MakeFacetFiles(facet, painted, work.input.photos, work.gains, false));
   }));
 }
