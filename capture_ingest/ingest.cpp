@@ -51,14 +51,15 @@ std::string Examples(const std::vector<PhotoRecord>& records) {
   return fmt::format("{}", fmt::join(examples, "\n  "));
 }
 
-void RequireTwoUsable(const std::vector<PhotoRecord>& records, const StageContext& context) {
+void RequireUsable(size_t fewest, const std::vector<PhotoRecord>& records,
+                   const StageContext& context) {
   const std::string folder = context.photos.string();
   if (records.empty()) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: there are no photos in this folder", folder),
                 "put the JPEG photos of the survey there, or name another folder");
   }
   const size_t usable = CountUsable(records);
-  if (usable >= 2) return;
+  if (usable >= fewest) return;
   std::string what = fmt::format("{}: {} of {} photos can be used", folder,
                                  usable == 0 ? "none" : "only 1", records.size());
   if (records.size() > usable) what += "\n  " + Examples(records);
@@ -129,7 +130,7 @@ void Describe(OptionTable& table, IngestOptions& options) {
 void RunIngest(const IngestOptions& options, StageContext& context) {
   std::vector<PhotoRecord> records = InspectAll(FindPhotoFiles(context.photos), options, context);
   RejectDuplicates(records);
-  RequireTwoUsable(records, context);
+  RequireUsable(static_cast<size_t>(options.fewest_usable), records, context);
   QuarantineOutliers(records);
   if (UseHeightAboveTakeoff(records)) {
     context.progress->Warn("no photo has a height above sea; heights above take-off are used");

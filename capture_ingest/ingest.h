@@ -15,13 +15,16 @@ struct IngestOptions {
   std::vector<double> prior_camera;
   bool prior_camera_fixed = false;  // calibration holds them
   int min_side_px = 200;            // photos with a shorter side are not used
+  // No setting: a model needs two photos; to be placed in one that there is already, one is enough.
+  int fewest_usable = 2;
 };
 
 void Describe(OptionTable& table, IngestOptions& options);
 
 // Reads every photo below `context.photos` (never written to), checks its health and metadata and
 // writes captures.json and contact-sheet.jpg into `context.out`. A broken photo is listed with the
-// reason; only a folder that leaves fewer than two usable photos is an Error (kBadInput).
+// reason; only a folder that leaves fewer usable photos than `fewest_usable` is an Error
+// (kBadInput).
 void RunIngest(const IngestOptions& options, StageContext& context);
 
 }  // namespace stucco

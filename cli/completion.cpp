@@ -48,7 +48,10 @@ std::map<std::string, std::string> Choices(const StageTable& table) {
   for (const ExportFormat& format : ExportFormats()) {
     formats += (formats.empty() ? "" : " ") + format.name;
   }
-  return {{"--until", stages}, {"--from", stages}, {"--format", formats}};
+  return {{"--until", stages},
+          {"--from", stages},
+          {"--format", formats},
+          {"--replace", "auto always never"}};
 }
 
 std::string VerbNames(const std::vector<Verb>& verbs) {

@@ -39,6 +39,7 @@ void AddVerbs(CLI::App& app, stucco::Program& program) {
   stucco::AddInit(app, program);
   stucco::AddCheck(app, program);
   stucco::AddRun(app, program);
+  stucco::AddRetexture(app, program);
   stucco::AddStatus(app, program);
   stucco::AddStageVerbs(app, program);
   stucco::AddImport(app, program);

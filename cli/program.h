@@ -57,6 +57,7 @@ void AddSimulate(CLI::App& app, Program& program);
 void AddLint(CLI::App& app, Program& program);
 void AddInit(CLI::App& app, Program& program);
 void AddCheck(CLI::App& app, Program& program);
+void AddRetexture(CLI::App& app, Program& program);
 void AddRun(CLI::App& app, Program& program);
 void AddStageVerbs(CLI::App& app, Program& program);
 void AddStatus(CLI::App& app, Program& program);

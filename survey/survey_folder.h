@@ -18,6 +18,7 @@ inline constexpr char kCloudFile[] = "dense/cloud.ply";
 inline constexpr char kFacetsFile[] = "proxy/facets.json";
 inline constexpr char kTexturesFile[] = "texture/textures.json";
 inline constexpr char kReportFile[] = "report/report.html";
+inline constexpr char kEpochsFolder[] = "epochs";
 inline constexpr char kWorkFolder[] = ".stucco";
 
 }  // namespace stucco

@@ -22,6 +22,7 @@ constexpr double kManyTexels = 200;
 constexpr double kHuberWidth = 0.06;
 constexpr int kRounds = 8;
 constexpr double kLargestGain = 4;
+constexpr size_t kFewestFacets = 3;  // of which one may have another colour
 
 // One channel: log gains.
 Eigen::VectorXd SolveChannel(std::span<const ColourRatio> ratios, size_t photos, int channel) {
@@ -86,6 +87,17 @@ std::vector<Eigen::Vector3d> SolveGains(std::span<const ColourRatio> ratios, siz
     }
   }
   return gains;
+}
+
+Eigen::Vector3d CommonGain(std::span<const ColourRatio> ratios) {
+  Eigen::Vector3d log_ratio = Eigen::Vector3d::Zero();
+  for (int channel = 0; channel < 3; ++channel) {
+    std::vector<double> values;
+    for (const ColourRatio& ratio : ratios) values.push_back(ratio.log_ratio[channel]);
+    log_ratio[channel] = Median(std::move(values)).value_or(0);
+  }
+  if (ratios.size() < kFewestFacets) log_ratio.setConstant(log_ratio.mean());
+  return (-log_ratio).array().exp().min(kLargestGain).max(1 / kLargestGain);
 }
 
 }  // namespace stucco

@@ -29,4 +29,10 @@ std::optional<ColourRatio> MeasureRatio(int a, int b, std::span<const float> rgb
 // Image Stitching using Invariant Features", 2007, on ratios). Photos without overlap keep 1.
 std::vector<Eigen::Vector3d> SolveGains(std::span<const ColourRatio> ratios, size_t photos);
 
+// What brings all of `a` to their `b`, when each ratio is of another facet and of the same two
+// days: the median of each channel, so that a facade that was painted over does not recolour the
+// others. Of fewer than three facets one value for all channels: a new colour and another light
+// look the same there. 1 without ratios.
+Eigen::Vector3d CommonGain(std::span<const ColourRatio> ratios);
+
 }  // namespace stucco

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "survey/proxy.h"
+#include "survey/texture_set.h"
 
 namespace stucco {
 
@@ -37,6 +38,9 @@ struct TexelGrid {
 // (within 6 degrees) u is the world's x axis, so that a map's east stays on the right.
 // Requires texel > 0, max_px >= 1 and a facet with at least 3 vertices.
 TexelGrid MakeGrid(const Facet& facet, const Eigen::Vector3d& up, double texel, int max_px);
+
+// The grid that a facet's picture was painted on. Requires one with a picture.
+TexelGrid GridOf(const TexturedFacet& textured, const Facet& facet);
 
 // A coarser raster over a facet, and how much of it is the facet's.
 struct FacetRaster {

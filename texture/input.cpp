@@ -51,7 +51,7 @@ std::vector<Eigen::Vector3d> ReadThinned(const std::filesystem::path& cloud) {
 
 }  // namespace
 
-TextureInput ReadTextureInput(const StageContext& context, const TextureOptions& options) {
+TextureInput ReadSurfaces(const StageContext& context, const TextureOptions& options) {
   TextureInput input;
   const std::filesystem::path facets = context.survey / kFacetsFile;
   input.proxy = ReadProxy(facets);
@@ -69,6 +69,11 @@ TextureInput ReadTextureInput(const StageContext& context, const TextureOptions&
   input.geometry_hash = HashParts(parts);
   const std::filesystem::path georef = context.survey / kGeorefFile;
   if (std::filesystem::exists(georef)) input.georef = ReadGeoref(georef);
+  return input;
+}
+
+TextureInput ReadTextureInput(const StageContext& context, const TextureOptions& options) {
+  TextureInput input = ReadSurfaces(context, options);
   input.photos = ReadPhotos(context, options.guided);
   if (input.photos.empty()) {
     throw Error(ErrorKind::kBadInput,

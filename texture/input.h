@@ -23,6 +23,10 @@ struct TextureInput {
   std::string geometry_hash;           // of the proxy and the cloud
 };
 
+// All but the photos: proxy/facets.json and, where they are, calib/georef.json and dense/cloud.ply
+// (option `occluders`). Throws Error (kBadInput).
+TextureInput ReadSurfaces(const StageContext& context, const TextureOptions& options);
+
 // Reads proxy/facets.json, calib/sparse/0 and, where they are, calib/georef.json,
 // ingest/captures.json, dense/cloud.ply (option `occluders`) and plan/plan.json (`guided`). Throws
 // Error (kBadInput) when a posed photo's file is gone: painting without it would look finished and

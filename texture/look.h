@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct FacetLook {
   double texel = 0;                   // world units; 0 without candidates
   std::vector<ColourRatio> ratios;    // between candidates; indices are photos
   ViewLimits limits;                  // follow from where all photos of the survey are
+  // The grid to paint on where one is given; else it follows from `texel`.
+  std::optional<TexelGrid> grid;
 };
 
 FacetLook LookAtFacet(const Facet& facet, const PaintScene& scene, const TextureOptions& options);

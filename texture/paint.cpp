@@ -26,7 +26,7 @@ constexpr int kAlignSide = 1600;          // longest side of the alignment raste
 // Memory: bytes per texel of the picture (with masks, rasters, encoded files), per raster texel and
 // candidate, per seam, per texel of an aligned photo and of one being resampled, per photo pixel
 // (three channels and their halvings).
-constexpr double kBytesPerTexel = 24;
+constexpr double kBytesPerTexel = 25;
 constexpr double kBytesPerRasterView = 60;
 constexpr double kBytesPerSeam = 4;
 constexpr double kBytesPerAligned = 2;
@@ -50,6 +50,11 @@ struct Selected {
   std::vector<RasterView> views;  // of the used photos, most painted first
   Ownership ownership;            // indices into `views`
 };
+
+TexelGrid GridToPaint(const Facet& facet, const FacetLook& look, const Eigen::Vector3d& up,
+                      const TextureOptions& options) {
+  return look.grid ? *look.grid : MakeGrid(facet, up, look.texel, options.max_texture_px);
+}
 
 void ApplyGain(const Eigen::Vector3d& gain, std::vector<float>& rgb) {
   for (size_t i = 0; i < rgb.size(); ++i) {
@@ -215,6 +220,19 @@ void AlignChosen(const Selected& selected, const TextureOptions& options,
   }
 }
 
+// Texels whose photo sees points of the cloud before the facet.
+std::vector<uint8_t> FindInFront(const Selected& selected, const PaintedFacet& painted) {
+  std::vector<uint8_t> in_front(painted.labels.size(), 0);
+  for (size_t i = 0; i < in_front.size(); ++i) {
+    if (painted.labels[i] == 0) continue;
+    const size_t texel = selected.ownership.RasterIndex(static_cast<int>(i % painted.grid.width),
+                                                        static_cast<int>(i / painted.grid.width));
+    const RasterView& view = selected.views[painted.labels[i] - 1];
+    in_front[i] = view.texels[texel].sight == Sight::kBehind;
+  }
+  return in_front;
+}
+
 // Continues colours into holes and beyond the facet, copies texture into the holes, and counts.
 void FillAndCount(const TextureOptions& options, PaintedFacet& painted) {
   std::vector<uint8_t> known(painted.labels.size());
@@ -255,7 +273,7 @@ void FillAndCount(const TextureOptions& options, PaintedFacet& painted) {
 uint64_t PaintingBytes(const Facet& facet, const FacetLook& look, const PaintScene& scene,
                        const TextureOptions& options) {
   if (look.candidates.empty()) return 0;
-  const TexelGrid grid = MakeGrid(facet, scene.up, look.texel, options.max_texture_px);
+  const TexelGrid grid = GridToPaint(facet, look, scene.up, options);
   const auto texels = static_cast<double>(grid.size());
   const auto count = static_cast<double>(look.candidates.size());
   const double step = CellSide(grid, options.cell_px, look.candidates.size()) / kCellSplit;
@@ -280,7 +298,7 @@ PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
                         const TextureOptions& options) {
   PaintedFacet painted;
   if (look.candidates.empty()) return painted;
-  painted.grid = MakeGrid(facet, scene.up, look.texel, options.max_texture_px);
+  painted.grid = GridToPaint(facet, look, scene.up, options);
   painted.wanted_texel = look.texel;
   painted.mask = RasterizeFacet(facet, painted.grid);
 
@@ -303,6 +321,7 @@ PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
     nothing.grid = painted.grid;
     return nothing;
   }
+  painted.in_front = FindInFront(selected, painted);
   FillAndCount(options, painted);
 
   // 4. Measure.

@@ -22,8 +22,10 @@ struct PaintedFacet {
   std::vector<uint8_t> mask;    // 1 inside the facet
   Image picture;                // colours go on smoothly outside the facet
   std::vector<uint8_t> labels;  // 1 + index into `photos`, 255 inpainted, 0 outside or empty
-  std::vector<int> photos;      // indices of the survey's photos, most painted first
-  double painted = 0;           // shares of the facet's texels
+  // 1 where what painted a texel is seen in front of the facet: a tree, a car.
+  std::vector<uint8_t> in_front;
+  std::vector<int> photos;  // indices of the survey's photos, most painted first
+  double painted = 0;       // shares of the facet's texels
   double inpainted = 0;
   double misregistration_px = -1;  // after alignment, texels; -1: only one photo
   double misregistration_before_px = -1;

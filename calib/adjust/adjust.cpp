@@ -195,6 +195,7 @@ class Adjustment {
     used_cameras_.insert(photo.camera);
     problem_.AddResidualBlock(CreateCost(camera, mark.pixel, sigma), &loss, camera.params.data(),
                               pose, point.data());
+    if (options_.hold_points) problem_.SetParameterBlockConstant(point.data());
     if (!is_new) return;
     problem_.SetManifold(pose, &pose_manifold_);
     if (!IsVariable(mark.photo)) {
@@ -246,7 +247,9 @@ class Adjustment {
     for (const int index : used_cameras_) {
       SceneCamera& camera = scene_.cameras[index];
       std::vector<double>& params = camera.intrinsics.params;
-      const RefineIntrinsics refine = std::min(options_.refine, LevelFor(NumRegisteredOf(index)));
+      const RefineIntrinsics refine =
+          options_.hold_points ? options_.refine
+                               : std::min(options_.refine, LevelFor(NumRegisteredOf(index)));
       if (camera.focal_sigma_ratio == 0 || refine == RefineIntrinsics::kNone) {
         problem_.SetParameterBlockConstant(params.data());
         continue;
@@ -324,6 +327,7 @@ class Adjustment {
   // Two photos that do not move hold the frame. Without any, the first one is held; with one, the
   // scale is still free and one coordinate of the photo farthest from it holds that.
   void HoldFrame() {
+    if (options_.hold_points) return;
     std::vector<PoseBlock*> fixed;
     for (auto& [index, pose] : poses_) {
       if (!IsVariable(index)) fixed.push_back(&pose);

@@ -14,7 +14,9 @@ enum class RefineIntrinsics { kNone, kFocal, kDistortion, kPrincipalPoint };
 struct AdjustOptions {
   // Photos whose poses may change, by index; empty: all registered ones. The others hold the frame.
   std::vector<int> variable_photos;
-  // At most; a camera of which few photos take part gets less.
+  // Points are what they are, and hold the frame: only poses and intrinsics change.
+  bool hold_points = false;
+  // At most; a camera of which few photos take part gets less, unless points are held.
   RefineIntrinsics refine = RefineIntrinsics::kDistortion;
   // Residuals beyond this many standard deviations lose weight (Cauchy loss).
   double loss_scale = 2;

@@ -412,8 +412,8 @@ class ReducedSystem {
   std::vector<Cross> cross_;      // likewise
 };
 
-// Each pose with the points held.
-std::vector<PoseSigma> OwnSigmas(const Scene& scene) {
+// Each pose with the points held, which were unknowns of the adjustment or given.
+std::vector<PoseSigma> OwnSigmas(const Scene& scene, bool points_are_given) {
   std::vector<Matrix6> normals(scene.photos.size(), Matrix6::Zero());
   for (const SceneTrack& track : scene.tracks) {
     if (!track.position) continue;
@@ -424,7 +424,9 @@ std::vector<PoseSigma> OwnSigmas(const Scene& scene) {
     }
   }
   int num_points = 0;
-  const double variance = ScatterOf(scene, num_points).Get(3.0 * num_points);
+  const RobustVariance scatter = ScatterOf(scene, num_points);
+  const double variance = scatter.Get(points_are_given ? 6.0 * NumRegistered(scene)  //
+                                                       : 3.0 * num_points);
   std::vector<PoseSigma> sigmas(scene.photos.size());
   for (size_t i = 0; i < sigmas.size(); ++i) {
     if (!scene.photos[i].pose) continue;
@@ -444,8 +446,9 @@ std::vector<PoseSigma> OwnSigmas(const Scene& scene) {
 SceneSigmas EstimateSigmas(const SigmaOptions& options, const Scene& scene) {
   assert(IsConsistent(scene));
   const int registered = NumRegistered(scene);
+  if (options.points_are_given) return {{}, OwnSigmas(scene, true)};
   if (registered < 2) return {{}, std::vector<PoseSigma>(scene.photos.size())};
-  if (registered > options.max_photos) return {{}, OwnSigmas(scene)};
+  if (registered > options.max_photos) return {{}, OwnSigmas(scene, false)};
   ReducedSystem system(scene);
   if (options.tracks.empty()) {
     for (const SceneTrack& track : scene.tracks) system.AddTrack(track);

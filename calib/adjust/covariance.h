@@ -27,7 +27,9 @@ struct SigmaOptions {
   // With more registered photos intrinsics are not computed, and poses with all points held: each
   // photo's own part of the error.
   int max_photos = 800;
-  bool use_priors = false;       // took part in the adjustment
+  bool use_priors = false;  // took part in the adjustment
+  // Points were held: intrinsics are not computed, and poses as if these were known.
+  bool points_are_given = false;
   std::vector<int> tracks = {};  // that did, by index; empty: all that have a point
   int threads = 1;
 };

@@ -22,6 +22,18 @@ constexpr int kAlikeWithPlan = 5;
 // With fewer pairs the plan says too little of a photo.
 constexpr int kEnoughByPlan = 10;
 
+// How many of the pairs each photo is in.
+std::vector<int> PairsPerPhoto(const PhotoPairs& pairs, size_t num_photos) {
+  std::vector<int> count(num_photos, 0);
+  for (const auto& [a, b] : pairs) {
+    ++count[a];
+    ++count[b];
+  }
+  return count;
+}
+
+}  // namespace
+
 std::vector<std::optional<Eigen::Vector3d>> RoughPositions(
     const std::vector<const CapturedPhoto*>& photos) {
   std::vector<std::optional<Eigen::Vector3d>> positions(photos.size());
@@ -58,18 +70,6 @@ std::vector<std::vector<float>> Signatures(int count,
   });
   return signatures;
 }
-
-// How many of the pairs each photo is in.
-std::vector<int> PairsPerPhoto(const PhotoPairs& pairs, size_t num_photos) {
-  std::vector<int> count(num_photos, 0);
-  for (const auto& [a, b] : pairs) {
-    ++count[a];
-    ++count[b];
-  }
-  return count;
-}
-
-}  // namespace
 
 PairChoice ChoosePairs(const CalibOptions& options, const PhotoSet& set,
                        const std::function<Features(int)>& features_of, int threads) {

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,6 +23,15 @@ struct PairChoice {
   bool by_plan = false;
   PhotoPairs otherwise;  // too, when the photos do not show what the plan says
 };
+
+// Where the photos were recorded, metres in a frame about the first of them.
+std::vector<std::optional<Eigen::Vector3d>> RoughPositions(
+    const std::vector<const CapturedPhoto*>& photos);
+
+// Appearance of each of `count` photos (see Signature in pairs.h), in words of their own.
+std::vector<std::vector<float>> Signatures(int count,
+                                           const std::function<Features(int)>& features_of,
+                                           int threads);
 
 // All pairs of a small set. Else by the plan, where there is one: those that should overlap, the
 // most similar in appearance, and those near in position of photos of which the plan says little.

@@ -37,8 +37,10 @@ MODULES = set(ARROWS)
 # by its front door.
 FOLDER_ARROWS = {
     "pipeline/engine/": ("pipeline/engine/", "survey/"),
-    "pipeline/verbs/": ("pipeline/engine/", "pipeline/verbs/", "calib/records/placement.h",
-                        "exchange/", "plan/", "survey/"),
+    "pipeline/verbs/": ("pipeline/engine/", "pipeline/verbs/", "calib/localise/localise.h",
+                        "calib/options/calib_options.h", "calib/records/placement.h",
+                        "capture_ingest/ingest.h", "exchange/", "plan/", "survey/",
+                        "texture/options.h", "texture/repaint.h"),
     "cli/": ("cli/", "evaluate/", "pipeline/default_stages.h", "pipeline/engine/engine.h",
              "pipeline/verbs/", "simulate/", "survey/"),
 }
@@ -47,7 +49,7 @@ FOLDER_ARROWS = {
 # folders.
 FLOORS = {
     "calib": ("options", "expect", "features", "scene", "two_view", "adjust", "records", "mapping",
-              "matching", "control", "parts", "results", "."),
+              "matching", "control", "parts", "localise", "results", "."),
     "evaluate": ("figures", "geometry", "picture", "page", "."),
     "plan": ("options", "camera", "safety", "map", "space", "quality", "evaluate", "dipping",
              "planar", "match", "baseline", "path", "output", "mission", "field", "."),

@@ -69,6 +69,19 @@ TEST(SolveGains, OutvotesAWrongRatio) {
   EXPECT_NEAR(gains[1][2] / gains[0][2], 1.2, 0.05);
 }
 
+TEST(CommonGain, OneRepaintedFacetDoesNotRecolourTheOthers) {
+  std::vector<ColourRatio> ratios(4, Ratio(0, 1, 1.25));
+  ratios[2].log_ratio = {0.1, -0.6, -0.7};
+  for (const double gain : CommonGain(ratios)) EXPECT_NEAR(gain, 0.8, 1e-9);
+}
+
+TEST(CommonGain, OfFewFacetsKeepsTheHue) {
+  std::vector<ColourRatio> ratios(1, Ratio(0, 1, 1));
+  ratios[0].log_ratio = {0.3, 0, 0};
+  for (const double gain : CommonGain(ratios)) EXPECT_NEAR(gain, std::exp(-0.1), 1e-9);
+  EXPECT_EQ(CommonGain({}), Eigen::Vector3d::Ones());
+}
+
 TEST(SolveGains, OfNothingIsOne) {
   for (const auto& gain : SolveGains({}, 3)) EXPECT_EQ(gain, Eigen::Vector3d::Ones());
 }

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/changes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "tests/texture/synthetic.h"
+
+namespace stucco {
+namespace {
+
+using testing::Colour;
+using testing::MakeWall;
+using testing::WallPicture;
+
+// A wall of 256 x 192 texels, painted by one photo.
+FacetPicture Wall() {
+  const TexelGrid grid = MakeGrid(MakeWall(4, 3), Eigen::Vector3d::UnitZ(), 1.0 / 64, 4096);
+  FacetPicture wall{WallPicture(grid), {}};
+  wall.labels.assign(grid.size(), 1);
+  return wall;
+}
+
+using Repaint = std::function<Colour(int x, int y, const Colour& before)>;
+
+FacetPicture Painted(const FacetPicture& before, const Repaint& repaint) {
+  FacetPicture after = before;
+  for (int y = 0; y < after.picture.height_px; ++y) {
+    for (int x = 0; x < after.picture.width_px; ++x) {
+      uint8_t* rgb = after.picture.Pixel(x, y);
+      const Colour colour = repaint(x, y, Colour(rgb[0], rgb[1], rgb[2]));
+      for (int k = 0; k < 3; ++k) {
+        rgb[k] = static_cast<uint8_t>(std::clamp(colour[k], 0.0, 255.0));
+      }
+    }
+  }
+  return after;
+}
+
+FacetChanges Changes(const FacetPicture& before, const FacetPicture& after) {
+  return FindChanges(before, after, std::vector<uint8_t>(before.labels.size(), 1));
+}
+
+TEST(FindChanges, NothingChangedInTheSamePicture) {
+  const FacetChanges changes = Changes(Wall(), Wall());
+  EXPECT_DOUBLE_EQ(changes.compared, 1);
+  EXPECT_DOUBLE_EQ(changes.share(), 0);
+}
+
+TEST(FindChanges, LightIsNoChange) {
+  const FacetPicture wall = Wall();
+  // In the shade on the left, which is bluer; all of it exposed less.
+  const FacetPicture shaded = Painted(wall, [](int x, int, const Colour& c) -> Colour {
+    return x < 90 ? Colour(0.45 * c.x(), 0.5 * c.y(), 0.55 * c.z()) : 0.8 * c;
+  });
+  EXPECT_LT(Changes(wall, shaded).share(), 0.02);
+}
+
+TEST(FindChanges, SmallShiftIsNoChange) {
+  const FacetPicture wall = Wall();
+  const FacetPicture shifted = Painted(wall, [&](int x, int y, const Colour&) -> Colour {
+    const uint8_t* rgb = wall.picture.Pixel(std::min(255, x + 5), y);
+    return {static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2])};
+  });
+  EXPECT_LT(Changes(wall, shifted).share(), 0.05);
+}
+
+TEST(FindChanges, NewColourIsFound) {
+  const FacetPicture wall = Wall();
+  const FacetPicture repainted = Painted(wall, [](int x, int, const Colour& c) -> Colour {
+    return x < 128 ? Colour(c.x(), 0.55 * c.y(), 0.5 * c.z()) : c;
+  });
+  const FacetChanges changes = Changes(wall, repainted);
+  EXPECT_NEAR(changes.repainted, 0.5, 0.05);
+  EXPECT_LT(changes.other, 0.02);
+}
+
+TEST(FindChanges, NewPatternIsFound) {
+  const FacetPicture wall = Wall();
+  const FacetPicture with_sign = Painted(wall, [](int x, int y, const Colour& c) -> Colour {
+    const bool in_sign = x >= 64 && x < 192 && y >= 48 && y < 144;
+    if (!in_sign) return c;
+    return (x / 9 + y / 7) % 2 == 0 ? Colour(20, 20, 20) : Colour(230, 230, 230);
+  });
+  EXPECT_NEAR(Changes(wall, with_sign).other, 0.25, 0.08);
+}
+
+TEST(FindChanges, OnlyWhatBothShowIsCompared) {
+  const FacetPicture wall = Wall();
+  FacetPicture after = Painted(wall, [](int, int, const Colour&) { return Colour(255, 0, 0); });
+  for (size_t i = 0; i < after.labels.size(); ++i) {
+    if (i % 256 >= 64) after.labels[i] = 255;  // filled in, seen by nobody
+  }
+  const FacetChanges changes = Changes(wall, after);
+  EXPECT_DOUBLE_EQ(changes.compared, 0.25);
+  EXPECT_NEAR(changes.repainted + changes.other, 0.25, 0.03);
+  std::ranges::fill(after.labels, uint8_t{0});
+  EXPECT_DOUBLE_EQ(Changes(wall, after).compared, 0);
+  EXPECT_DOUBLE_EQ(Changes(wall, after).share(), 0);
+}
+
+}  // namespace
+}  // namespace stucco

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "survey/image.h"
+
+namespace stucco {
+
+// A facet's picture and who painted each texel (labels as in textures.json: 0 outside or nobody,
+// 255 inpainted, else a photo).
+struct FacetPicture {
+  Image picture;
+  std::vector<uint8_t> labels;
+};
+
+// Whether a label means a photo.
+inline bool IsPainted(uint8_t label) {
+  return label != 0 && label != 255;
+}
+
+// What differs between two pictures of a facet, as shares of the facet's area.
+struct FacetChanges {
+  double compared = 0;   // painted from photos in both
+  double repainted = 0;  // of another colour, with the same pattern or none
+  double other = 0;      // of another pattern: something new, or gone
+  double share() const { return compared > 0 ? (repainted + other) / compared : 0; }
+};
+
+// Compares two pictures on the same grid block by block (16 texels a side, where both are painted),
+// so that small shifts do not count. What light can do does not count either: blocks that are
+// brighter or darker with the same pattern and about the same hue are in the sun or in the shade;
+// so a plain wall that is painted darker in the same hue does not count. A block is of another
+// colour where its hue differs by more than sun and sky do; of another pattern where blocks of 4
+// texels inside do not go together (correlation) although they have contrast, and what is there now
+// was not there before a little beside either: relief, and planes that are not quite right, look
+// shifted when they are seen from elsewhere. Single blocks do not count: windows mirror something
+// else every day. `mask` is not zero inside the facet. Requires pictures of one size.
+FacetChanges FindChanges(const FacetPicture& before, const FacetPicture& after,
+                         std::span<const uint8_t> mask);
+
+}  // namespace stucco

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "survey/epoch.h"
+
+namespace stucco {
+
+// What is known of a facet that both the survey's photos and new ones may have painted. Shares are
+// of the facet's area.
+struct FacetEvidence {
+  double painted_before = 0;  // from photos
+  double painted_after = 0;
+  double both = 0;          // painted before and after
+  double gsd_before_m = 0;  // median size of a photo pixel on it; 0: not known
+  double gsd_after_m = 0;
+  double changed_share = 0;  // of `both`: FacetChanges::share
+};
+
+struct FacetDecision {
+  FacetChoice choice = FacetChoice::kKept;
+  std::string why;  // for people
+};
+
+// What becomes of a facet's picture.
+// kAlways: wherever new photos show it. kNever: only what was not painted before.
+// kAuto: a picture that new photos show well enough, four fifths of what any photo shows, is
+// replaced where the wall changed (a tenth of what both show) or where they show it clearly finer
+// (by more than a third); what no photo had shown is filled where that is a twentieth of the facet
+// or more; all else is kept.
+FacetDecision Decide(ReplaceMode mode, const FacetEvidence& evidence);
+
+}  // namespace stucco

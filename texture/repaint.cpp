@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/repaint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/parallel.h"
+#include "survey/survey_folder.h"
+#include "survey/texture_set.h"
+#include "texture/colour.h"
+#include "texture/epoch_facet.h"
+#include "texture/file_names.h"
+#include "texture/paint.h"
+#include "texture/steps.h"
+
+namespace stucco {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Bytes per texel that comparing and joining two pictures needs, files included.
+constexpr uint64_t kBytesPerTexel = 48;
+
+// All that repainting works with.
+struct Work {
+  const TextureOptions& options;
+  const RepaintRequest& request;
+  const TextureInput& input;  // with the new photos
+  const PaintScene& scene;
+  const StageContext& context;
+  const TextureSet& old;
+  std::vector<const Facet*> facets = {};            // by facet of `old`
+  std::vector<FacetLook> looks = {};                // likewise
+  std::vector<Eigen::Vector3d> gains = {};          // by new photo, against each other
+  Eigen::Vector3d level = Eigen::Vector3d::Ones();  // of all new photos, against the old pictures
+
+  fs::path OldFolder() const { return (context.survey / kTexturesFile).parent_path(); }
+};
+
+std::vector<const Facet*> FacetsOf(const TextureSet& textures, const Proxy& proxy) {
+  std::map<std::string, const Facet*> by_id;
+  for (const Facet* facet : FacetsToPaint(proxy, true)) by_id[facet->id] = facet;
+  std::vector<const Facet*> facets;
+  for (const TexturedFacet& textured : textures.facets) {
+    const auto facet = by_id.find(textured.id);
+    if (facet == by_id.end()) {
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("{}: facet {} is not in {}", kTexturesFile, textured.id, kFacetsFile),
+                  "make the survey's textures again first: stucco texture SURVEY");
+    }
+    facets.push_back(facet->second);
+  }
+  return facets;
+}
+
+// Looks at every facet, to be painted on the grid that it has.
+void LookAtFacets(Work& work) {
+  work.looks = LookAtAll(work.facets, work.input, work.scene, work.options, work.context);
+  for (size_t i = 0; i < work.facets.size(); ++i) {
+    const TexturedFacet& old = work.old.facets[i];
+    if (!old.image.empty()) work.looks[i].grid = GridOf(old, *work.facets[i]);
+  }
+  if (std::ranges::all_of(work.looks, [](const FacetLook& l) { return l.candidates.empty(); })) {
+    throw Error(ErrorKind::kStageFailed, "the new photos show no facet of the model",
+                "check that they show the buildings of the survey; a wider texture.max_angle_deg "
+                "admits more oblique photos");
+  }
+  work.gains = GainsFrom(work.looks, work.input.photos.size());
+}
+
+// The facet from new photos alone, not levelled; checkpointed.
+FacetFiles PaintNew(const Work& work, size_t i) {
+  const Facet& facet = *work.facets[i];
+  const FacetLook& look = work.looks[i];
+  std::vector<std::string> key = {FilesKey(facet, look, work.input, work.gains, work.options)};
+  if (look.grid) {
+    const Eigen::Vector3d& origin = look.grid->origin;
+    key.push_back(fmt::format("{} {} {} {} {} {}", origin.x(), origin.y(), origin.z(),
+                              look.grid->texel, look.grid->width, look.grid->height));
+  }
+  return UnpackFiles(ComputeUnit(work.context, "facet", HashParts(key), [&] {
+    PaintedFacet painted = PaintFacet(facet, look, work.gains, work.scene, work.options);
+    // What stands before the facet is not the facet, neither to be compared nor to be taken.
+    for (size_t texel = 0; texel < painted.in_front.size(); ++texel) {
+      if (painted.in_front[texel]) painted.labels[texel] = 255;
+    }
+    return PackFiles(MakeFacetFiles(facet, painted, work.input.photos, work.gains, false));
+  }));
+}
+
+// Paints all from new photos and measures how much brighter they are than the old pictures.
+Eigen::Vector3d PaintAllNew(const Work& work) {
+  uint64_t largest = 1;
+  for (size_t i = 0; i < work.facets.size(); ++i) {
+    largest =
+        std::max(largest, PaintingBytes(*work.facets[i], work.looks[i], work.scene, work.options));
+  }
+  std::vector<std::optional<ColourRatio>> ratios(work.facets.size());
+  work.context.progress->Begin("painting facets", work.facets.size());
+  ParallelFor(work.facets.size(), ThreadsThatFit(largest, work.context), [&](size_t i) {
+    work.context.ThrowIfCancelled();
+    const std::optional<FacetPicture> after = PictureOf(PaintNew(work, i));
+    const auto before = ReadPicture(work.old.facets[i], work.OldFolder());
+    if (before && after) ratios[i] = BrightnessRatio(*before, *after);
+    work.context.progress->Advance();
+  });
+  std::vector<ColourRatio> measured;
+  for (const std::optional<ColourRatio>& ratio : ratios) {
+    if (ratio) measured.push_back(*ratio);
+  }
+  return work.options.colour ? CommonGain(measured) : Eigen::Vector3d::Ones();
+}
+
+// Copies the files of a picture that stays.
+void CopyFiles(const TexturedFacet& facet, const fs::path& from, const fs::path& out) {
+  std::vector<std::string> files = {facet.image, facet.label_image, facet.orthophoto};
+  if (!facet.orthophoto.empty()) {
+    for (const char* extension : {".pgw", ".json"}) {
+      files.push_back(fs::path(facet.orthophoto).replace_extension(extension).generic_string());
+    }
+  }
+  for (const std::string& file : files) {
+    if (!file.empty()) WriteFile(out / file, ReadFile(from / file));
+  }
+}
+
+// Decides facet by facet, and writes what the epoch has of each.
+std::vector<EpochFacet> WritePictures(const Work& work, TextureSet& textures) {
+  std::vector<std::string> ids;
+  uint64_t largest = 1;
+  for (size_t i = 0; i < work.facets.size(); ++i) {
+    ids.push_back(work.facets[i]->id);
+    const TexturedFacet& old = work.old.facets[i];
+    largest = std::max(largest, kBytesPerTexel * old.width_px * old.height_px);
+  }
+  const std::vector<std::string> names = FileNames(ids);
+  const EpochStyle style{work.request.epoch, work.request.replace, work.input.photos, work.options};
+  std::vector<EpochFacet> found(ids.size());
+  textures.facets.resize(ids.size());
+  work.context.progress->Begin("comparing pictures", ids.size());
+  ParallelFor(ids.size(), ThreadsThatFit(largest, work.context), [&](size_t i) {
+    work.context.ThrowIfCancelled();
+    const TexturedFacet& old = work.old.facets[i];
+    const FacetFiles painted = PaintNew(work, i);
+    EpochPicture made = MakeEpochPicture(
+        {*work.facets[i], old, ReadPicture(old, work.OldFolder()), painted, work.level}, style);
+    found[i] = made.found;
+    if (made.files) {
+      textures.facets[i] = StoreFacet(std::move(*made.files), *work.facets[i], names[i], work.input,
+                                      work.context.out);
+    } else {
+      CopyFiles(old, work.OldFolder(), work.context.out);
+      textures.facets[i] = old;
+    }
+    work.context.progress->Advance();
+  });
+  return found;
+}
+
+}  // namespace
+
+std::vector<EpochFacet> RepaintSurvey(const TextureOptions& options, const RepaintRequest& request,
+                                      StageContext& context) {
+  const TextureSet old = ReadTextureSet(context.survey / kTexturesFile);
+  TextureInput input = ReadSurfaces(context, options);
+  input.photos = request.photos;
+  for (const char* folder : {"textures", "labels", "orthophotos"}) {
+    fs::create_directories(context.out / folder);
+  }
+  const OcclusionScene occlusion(input.proxy);
+  const std::vector<NearestPoints> nearest = SplatAll(input, context);
+  PhotoCache cache(context.photos, context.memory_limit_bytes / 3);
+  const PaintScene scene{
+      {input.photos, &occlusion, nearest, input.cloud}, &cache, input.proxy.up.normalized()};
+  Work work{options, request, input, scene, context, old};
+  work.facets = FacetsOf(old, input.proxy);
+  LookAtFacets(work);
+  work.level = PaintAllNew(work);
+  TextureSet textures;
+  std::vector<EpochFacet> found = WritePictures(work, textures);
+  context.ThrowIfCancelled();
+  WriteModels(input.proxy, options, context, textures);
+  WriteTextureSet(textures, context.out / fs::path(kTexturesFile).filename());
+  return found;
+}
+
+}  // namespace stucco

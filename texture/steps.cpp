@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/steps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "survey/files.h"
+#include "survey/parallel.h"
+#include "texture/colour.h"
+#include "texture/orthophoto.h"
+#include "texture/write_model.h"
+
+namespace stucco {
+namespace {
+
+// Widest rasters in which points of the cloud in front of facets are looked up.
+constexpr int kNearestWidth = 640;
+// Bytes per texel that putting a finished picture into the model needs: decoded and turned round.
+constexpr uint64_t kBytesPerEncodedTexel = 9;
+
+// As many pictures are read and encoded at once as fit.
+int EncodingThreads(const TextureSet& textures, const StageContext& context) {
+  uint64_t largest = 1;
+  for (const TexturedFacet& facet : textures.facets) {
+    largest = std::max(largest, kBytesPerEncodedTexel * static_cast<uint64_t>(facet.width_px) *
+                                    static_cast<uint64_t>(facet.height_px));
+  }
+  return ThreadsThatFit(largest, context);
+}
+
+}  // namespace
+
+std::vector<const Facet*> FacetsToPaint(const Proxy& proxy, bool ground) {
+  std::vector<const Facet*> facets;
+  for (const Building& building : proxy.buildings) {
+    for (const Facet& facet : building.facets) {
+      if (facet.outer.size() < 3) continue;
+      if (facet.facet_class == FacetClass::kGround && !ground) continue;
+      facets.push_back(&facet);
+    }
+  }
+  return facets;
+}
+
+std::vector<NearestPoints> SplatAll(const TextureInput& input, const StageContext& context) {
+  std::vector<NearestPoints> nearest(input.cloud.empty() ? 0 : input.photos.size());
+  if (nearest.empty()) return nearest;
+  context.progress->Begin("foreground", nearest.size());
+  ParallelFor(nearest.size(), context.threads, [&](size_t i) {
+    context.ThrowIfCancelled();
+    nearest[i] = SplatNearest(input.photos[i], input.cloud, kNearestWidth);
+    context.progress->Advance();
+  });
+  return nearest;
+}
+
+std::vector<FacetLook> LookAtAll(const std::vector<const Facet*>& facets, const TextureInput& input,
+                                 const PaintScene& scene, const TextureOptions& options,
+                                 const StageContext& context) {
+  std::vector<FacetLook> looks(facets.size());
+  context.progress->Begin("choosing candidate photos", facets.size());
+  ParallelFor(facets.size(), context.threads, [&](size_t i) {
+    context.ThrowIfCancelled();
+    looks[i] =
+        UnpackLook(ComputeUnit(context, "texture_look", LookKey(*facets[i], input, options),
+                               [&] { return PackLook(LookAtFacet(*facets[i], scene, options)); }));
+    context.progress->Advance();
+  });
+  return looks;
+}
+
+std::vector<Eigen::Vector3d> GainsFrom(const std::vector<FacetLook>& looks, size_t photos) {
+  std::vector<ColourRatio> ratios;
+  for (const FacetLook& look : looks) {
+    ratios.insert(ratios.end(), look.ratios.begin(), look.ratios.end());
+  }
+  return SolveGains(ratios, photos);
+}
+
+int ThreadsThatFit(uint64_t bytes_each, const StageContext& context) {
+  const uint64_t fit = std::max<uint64_t>(1, context.memory_limit_bytes / 2 / bytes_each);
+  return static_cast<int>(std::min<uint64_t>(fit, std::max(1, context.threads)));
+}
+
+TexturedFacet StoreFacet(FacetFiles files, const Facet& facet, const std::string& name,
+                         const TextureInput& input, const std::filesystem::path& out) {
+  TexturedFacet& textured = files.facet;
+  if (files.texture_png.empty()) return textured;
+  textured.image = fmt::format("textures/{}.png", name);
+  textured.label_image = fmt::format("labels/{}.png", name);
+  WriteFile(out / textured.image, files.texture_png);
+  WriteFile(out / textured.label_image, files.label_png);
+  if (!files.orthophoto_png.empty()) {
+    textured.orthophoto = fmt::format("orthophotos/{}.png", name);
+    WriteFile(out / textured.orthophoto, files.orthophoto_png);
+    WriteFile(out / fmt::format("orthophotos/{}.pgw", name),
+              WorldFile(textured, facet, input.proxy));
+    WriteFile(out / fmt::format("orthophotos/{}.json", name),
+              OrthophotoJson(textured, facet, input.proxy, input.georef));
+  }
+  return textured;
+}
+
+void WriteModels(const Proxy& proxy, const TextureOptions& options, const StageContext& context,
+                 TextureSet& textures) {
+  context.progress->Begin("writing the model", 2);
+  textures.model_offset = ModelOffset(proxy);
+  WriteObj(proxy, textures, context.out);
+  context.progress->Advance();
+  WriteGlb(proxy, textures, context.out,
+           {options.glb_max_px, options.glb_quality, EncodingThreads(textures, context)});
+  context.progress->Advance();
+  textures.model_obj = "model.obj";
+  textures.model_glb = "model.glb";
+}
+
+}  // namespace stucco

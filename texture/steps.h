@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "survey/stage.h"
+#include "survey/texture_set.h"
+#include "texture/facet_unit.h"
+#include "texture/input.h"
+#include "texture/look.h"
+#include "texture/options.h"
+#include "texture/visibility.h"
+
+namespace stucco {
+
+// Steps that painting a survey and repainting it with other photos share.
+
+// Facets with an area, in the order of the proxy.
+std::vector<const Facet*> FacetsToPaint(const Proxy& proxy, bool ground);
+
+// By photo; empty without a cloud.
+std::vector<NearestPoints> SplatAll(const TextureInput& input, const StageContext& context);
+
+// By facet; checkpointed.
+std::vector<FacetLook> LookAtAll(const std::vector<const Facet*>& facets, const TextureInput& input,
+                                 const PaintScene& scene, const TextureOptions& options,
+                                 const StageContext& context);
+
+// By photo: what makes them agree with each other.
+std::vector<Eigen::Vector3d> GainsFrom(const std::vector<FacetLook>& looks, size_t photos);
+
+// As many threads as fit beside the photo cache when each needs this much.
+int ThreadsThatFit(uint64_t bytes_each, const StageContext& context);
+
+// Writes a facet's files, called `name`, below `out` and fills in their paths.
+TexturedFacet StoreFacet(FacetFiles files, const Facet& facet, const std::string& name,
+                         const TextureInput& input, const std::filesystem::path& out);
+
+// model.obj and model.glb below `context.out` from the pictures there; their names and offset go
+// into `textures`.
+void WriteModels(const Proxy& proxy, const TextureOptions& options, const StageContext& context,
+                 TextureSet& textures);
+
+}  // namespace stucco
