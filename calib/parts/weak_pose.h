@@ -10,8 +10,8 @@
 
 namespace stucco {
 
-// Why a pose is not to be trusted alone, for people: few points hold it, or it is much less sure than
-// `usual`, the standard deviation of the middle one of its part; empty where neither is so.
+// Why a pose is not to be trusted alone, for people: few points hold it, or it is much less sure
+// than `usual`, the standard deviation of the middle one of its part; empty where neither is so.
 // `position_sigma` below 0: not known.
 std::string WhyWeak(double position_sigma, int observations, double usual);
 
