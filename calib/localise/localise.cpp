@@ -9,14 +9,14 @@
 #include <numeric>
 #include <set>
 
-#include "calib/scene/as_model.h"
-#include "calib/matching/choose_pairs.h"
 #include "calib/features/descriptors.h"
-#include "calib/matching/detect_photos.h"
 #include "calib/features/matches.h"
-#include "calib/matching/photo_set.h"
 #include "calib/localise/place_in_model.h"
 #include "calib/localise/point_keypoints.h"
+#include "calib/matching/choose_pairs.h"
+#include "calib/matching/detect_photos.h"
+#include "calib/matching/photo_set.h"
+#include "calib/scene/as_model.h"
 #include "calib/scene/tracks.h"
 #include "calib/two_view/verify.h"
 #include "survey/error.h"
