@@ -91,7 +91,6 @@ Standing StandingOf(const BuildingEvidence& evidence) {
 
 // One way to close a building.
 struct Attempt {
-  SolidDetail detail = SolidDetail::kFull;
   FittedBuilding building;
   RoofCells cells;
 };
@@ -173,7 +172,7 @@ class BuildingCloser {
  private:
   Attempt AttemptOf(SolidDetail detail, const BuildingEvidence& evidence, const MapBuilding& mapped,
                     const std::vector<int>& planes) const {
-    Attempt attempt{.detail = detail, .building = evidence.fitted, .cells = {}};
+    Attempt attempt{.building = evidence.fitted, .cells = {}};
     const double lowest = evidence.fitted.ground + kRaised_m;
     if (detail == SolidDetail::kFull || detail == SolidDetail::kCoarse) {
       attempt.cells = LabelRoof(evidence.fitted, evidence.roof, planes, scene_.tolerances);

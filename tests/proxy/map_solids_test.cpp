@@ -208,6 +208,37 @@ TEST(MapSolids, FindsADisplacedMap) {
   }
 }
 
+TEST(MapSolids, TellsEavesFromShifts) {
+  Street street = MakeStreet();
+  // Every building digitised by itself along its eaves, and of each one wall that no photo shows.
+  const std::vector<Eigen::Vector2d> shifts = {
+      {0.4, 0.1}, {-0.3, 0.4}, {0.1, -0.4}, {-0.4, -0.2}, {0.3, 0.3}};
+  std::vector<MapEntry> map;
+  for (size_t i = 0; i < street.map.size(); ++i) {
+    street.houses[i].polygons[i % 4].name = "hidden";
+    const Ring& ring = street.map[i].rings[0];
+    const Eigen::Vector2d low = ring[0] + shifts[i], high = ring[2] + shifts[i];
+    map.push_back({street.map[i].id,
+                   {Rectangle(low.x() - 0.5, low.y() - 0.5, high.x() + 0.5, high.y() + 0.5)},
+                   street.map[i].top});
+  }
+  testing::CaptureOptions options = kCapture;
+  options.hide = {"hidden"};
+  const auto captured = testing::Capture(street.houses, {testing::GroundSquare(30)}, options);
+  const Made made = Make(captured, map);
+  for (const MapEntry& entry : street.map) {
+    const Building& house = Closed(made, entry.id);
+    // The three walls in sight, and the fourth where they and the other houses say.
+    for (const Facet* wall : Of(house, FacetClass::kWall)) {
+      double nearest = 1e9;
+      for (const auto& corner : entry.rings[0]) {
+        nearest = std::min(nearest, std::abs(wall->normal.head<2>().dot(corner) - wall->offset));
+      }
+      EXPECT_LT(nearest, wall->seen > 0 ? 0.05 : 0.2) << wall->id;
+    }
+  }
+}
+
 TEST(MapSolids, RefusesAMapOfAnotherTown) {
   const Street street = MakeStreet();
   const auto captured = testing::Capture(street.houses, {testing::GroundSquare(30)}, kCapture);
