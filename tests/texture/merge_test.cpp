@@ -32,7 +32,8 @@ TEST(TexelsToTake, ReplacingTakesWhatIsPaintedAndFillingOnlyGaps) {
   after.labels[1] = 2;
   const auto replaced = TexelsToTake(FacetChoice::kReplaced, before, after);
   const auto filled = TexelsToTake(FacetChoice::kFilled, before, after);
-  EXPECT_THAT(std::vector<uint8_t>(replaced.begin(), replaced.begin() + 4), ElementsAre(1, 1, 0, 1));
+  EXPECT_THAT(std::vector<uint8_t>(replaced.begin(), replaced.begin() + 4),
+              ElementsAre(1, 1, 0, 1));
   EXPECT_THAT(std::vector<uint8_t>(filled.begin(), filled.begin() + 4), ElementsAre(1, 1, 0, 0));
 }
 

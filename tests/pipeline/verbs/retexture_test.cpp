@@ -69,9 +69,8 @@ void WriteTrueProxy(const fs::path& survey) {
   }
   const Similarity world_from_truth = AlignPoints(from, to);
   const auto json = nlohmann::json::parse(ReadFile(kSample / "truth/planes.json"));
-  const std::map<std::string, FacetClass> classes = {{"wall", FacetClass::kWall},
-                                                     {"roof", FacetClass::kRoof},
-                                                     {"ground", FacetClass::kGround}};
+  const std::map<std::string, FacetClass> classes = {
+      {"wall", FacetClass::kWall}, {"roof", FacetClass::kRoof}, {"ground", FacetClass::kGround}};
   Proxy proxy;
   proxy.metric = true;
   for (const auto& plane : json.at("planes")) {
