@@ -23,6 +23,9 @@ constexpr double kHuberWidth = 0.06;
 constexpr int kRounds = 8;
 constexpr double kLargestGain = 4;
 constexpr size_t kFewestFacets = 3;  // of which one may have another colour
+// Hues of facets that lie farther apart than this, in the middle, have no white balance in common:
+// logarithms of encoded colours, about what eyes see beside each other.
+constexpr double kAgreeingHues = 0.05;
 
 // One channel: log gains.
 Eigen::VectorXd SolveChannel(std::span<const ColourRatio> ratios, size_t photos, int channel) {
@@ -96,7 +99,16 @@ Eigen::Vector3d CommonGain(std::span<const ColourRatio> ratios) {
     for (const ColourRatio& ratio : ratios) values.push_back(ratio.log_ratio[channel]);
     log_ratio[channel] = Median(std::move(values)).value_or(0);
   }
-  if (ratios.size() < kFewestFacets) log_ratio.setConstant(log_ratio.mean());
+  const auto hue_of = [](const Eigen::Vector3d& v) {
+    return Eigen::Vector3d(v.array() - v.mean());
+  };
+  std::vector<double> apart;
+  for (const ColourRatio& ratio : ratios) {
+    apart.push_back((hue_of(ratio.log_ratio) - hue_of(log_ratio)).norm());
+  }
+  if (ratios.size() < kFewestFacets || *Median(std::move(apart)) > kAgreeingHues) {
+    log_ratio.setConstant(log_ratio.mean());
+  }
   return (-log_ratio).array().exp().min(kLargestGain).max(1 / kLargestGain);
 }
 

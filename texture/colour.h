@@ -31,8 +31,8 @@ std::vector<Eigen::Vector3d> SolveGains(std::span<const ColourRatio> ratios, siz
 
 // What brings all of `a` to their `b`, when each ratio is of another facet and of the same two
 // days: the median of each channel, so that a facade that was painted over does not recolour the
-// others. Of fewer than three facets one value for all channels: a new colour and another light
-// look the same there. 1 without ratios.
+// others. One value for all channels of fewer than three facets, where a new colour and another
+// light look the same, and where facets do not agree on the hue. 1 without ratios.
 Eigen::Vector3d CommonGain(std::span<const ColourRatio> ratios);
 
 }  // namespace stucco

@@ -73,6 +73,10 @@ void LookAtFacets(Work& work) {
                 "admits more oblique photos");
   }
   work.gains = GainsFrom(work.looks, work.input.photos.size());
+  // Nothing may become too bright before the new pictures are brought to the level of the old ones.
+  double largest = 1;
+  for (const Eigen::Vector3d& gain : work.gains) largest = std::max(largest, gain.maxCoeff());
+  for (Eigen::Vector3d& gain : work.gains) gain /= largest;
 }
 
 // The facet from new photos alone, not levelled; checkpointed.

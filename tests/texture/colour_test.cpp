@@ -75,6 +75,14 @@ TEST(CommonGain, OneRepaintedFacetDoesNotRecolourTheOthers) {
   for (const double gain : CommonGain(ratios)) EXPECT_NEAR(gain, 0.8, 1e-9);
 }
 
+TEST(CommonGain, FacetsThatDisagreeOnTheHueKeepIt) {
+  std::vector<ColourRatio> ratios(5, Ratio(0, 1, 1));
+  for (int i = 0; i < 5; ++i) ratios[i].log_ratio = {0.2 + 0.1 * i, 0.2, 0.2 - 0.15 * i};
+  const Eigen::Vector3d gain = CommonGain(ratios);
+  EXPECT_EQ(gain.x(), gain.y());
+  EXPECT_EQ(gain.y(), gain.z());
+}
+
 TEST(CommonGain, OfFewFacetsKeepsTheHue) {
   std::vector<ColourRatio> ratios(1, Ratio(0, 1, 1));
   ratios[0].log_ratio = {0.3, 0, 0};
