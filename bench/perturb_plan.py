@@ -66,6 +66,7 @@ def main():
         table = corners[facade["id"].split("/")[0]]
         for end in ("a_m", "b_m"):
             facade[end] = min(table, key=lambda pair: math.dist(pair[0], facade[end]))[1]
+        facade["unobservable_m"] = []  # of the wall as it was
     xs = [p[0] for f in plan["footprints"] for p in f["rings_m"][0]]
     ys = [p[1] for f in plan["footprints"] for p in f["rings_m"][0]]
     boxes = [(min(p[0] for p in f["rings_m"][0]), min(p[1] for p in f["rings_m"][0]),
