@@ -24,7 +24,7 @@ bool JoinGroups(const Scene& scene, int least_points, DisjointSets& groups) {
       if (e.used) seen_by.push_back(groups.Find(e.photo));
     }
     std::ranges::sort(seen_by);
-    seen_by.erase(std::ranges::unique(seen_by).begin(), seen_by.end());
+    seen_by.erase(std::unique(seen_by.begin(), seen_by.end()), seen_by.end());
     for (size_t i = 0; i < seen_by.size(); ++i) {
       for (size_t j = i + 1; j < seen_by.size(); ++j) ++shared[{seen_by[i], seen_by[j]}];
     }

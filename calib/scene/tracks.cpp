@@ -125,6 +125,7 @@ std::vector<SceneTrack> BuildTracksOf(const std::vector<size_t>& num_keypoints,
 std::vector<SceneTrack> BuildTracks(const std::vector<size_t>& num_keypoints,
                                     const std::vector<PhotoPair>& pairs) {
   std::vector<const PhotoPair*> pointers;
+  pointers.reserve(pairs.size());
   for (const PhotoPair& pair : pairs) pointers.push_back(&pair);
   return BuildTracksOf(num_keypoints, std::move(pointers));
 }
