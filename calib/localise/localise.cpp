@@ -267,6 +267,7 @@ std::vector<LocalisedPhoto> LocalisePhotos(const CalibOptions& options, const Fi
                                            const Captures& captures, const StageContext& context) {
   const std::vector<ModelPhoto> model_photos = PhotosWithFeatures(options, model, context);
   std::vector<const CapturedPhoto*> captured;
+  captured.reserve(model_photos.size());
   for (const ModelPhoto& photo : model_photos) captured.push_back(photo.captured);
   StageContext of_model = context;
   of_model.photos = model.photos;

@@ -36,6 +36,7 @@ std::vector<PointVote> MostVoted(const std::vector<PointVote>& votes) {
   std::map<std::pair<int, PointId>, int> counts;
   for (const PointVote& vote : votes) ++counts[{vote.keypoint, vote.point}];
   std::vector<std::tuple<int, int, PointId>> ranked;  // (minus votes, keypoint, point)
+  ranked.reserve(counts.size());
   for (const auto& [which, count] : counts) ranked.emplace_back(-count, which.first, which.second);
   std::ranges::sort(ranked);
   std::set<int> keypoints;

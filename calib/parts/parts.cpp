@@ -53,6 +53,7 @@ std::vector<std::vector<int>> TiedGroups(const Scene& scene, int least_points) {
     if (scene.photos[i].pose) by_first[sets.Find(i)].push_back(i);
   }
   std::vector<std::vector<int>> groups;
+  groups.reserve(by_first.size());
   for (auto& [first, photos] : by_first) groups.push_back(std::move(photos));
   std::ranges::stable_sort(groups, std::ranges::greater{}, &std::vector<int>::size);
   return groups;
