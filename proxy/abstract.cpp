@@ -79,7 +79,9 @@ std::vector<std::vector<Facet>> OpenFacets(const PlanarScene& scene, const Plane
   });
   for (size_t p = 0; p < views.size(); ++p) {
     const std::string owner = table.building[p] < 0 ? "G0" : ClusterId(table.building[p]);
-    for (const auto& warning : warnings[p]) findings.warnings.push_back(owner + ": " + warning);
+    for (const auto& warning : warnings[p]) {
+      findings.warnings.push_back(fmt::format("{}: {}", owner, warning));
+    }
   }
   return facets;
 }

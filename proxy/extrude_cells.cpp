@@ -129,6 +129,7 @@ class Extruder {
       const auto lifted = [&](std::vector<int> ring) {
         if (kind == ExtrudedFace::Kind::kFloor) std::reverse(ring.begin(), ring.end());
         std::vector<Corner> corners;
+        corners.reserve(ring.size());
         for (const int v : ring) corners.emplace_back(v, NumberOf(v, label));
         return corners;
       };
@@ -324,6 +325,28 @@ bool TouchesInEdge(const Fan& fan, const std::vector<double>& heights) {
   return false;
 }
 
+double AreaOfCell(const Arrangement& arrangement, int cell) {
+  std::vector<Eigen::Vector2d> ring;
+  for (const int v : arrangement.faces[cell]) ring.push_back(arrangement.vertices[v]);
+  return SignedArea(std::span<const Eigen::Vector2d>(ring));
+}
+
+// Place in the fan of the smallest cell whose next neighbour has another roof; -1: there is none,
+// parts of the footprint itself touch in a point.
+int SmallestToJoin(const Arrangement& arrangement, const Fan& fan, const std::vector<int>& labels) {
+  int smallest = -1;
+  for (size_t i = 0; i < fan.cells.size(); ++i) {
+    const int cell = fan.cells[i];
+    if (cell < 0 || labels[cell] < 0) continue;
+    const int next = fan.cells[(i + 1) % fan.cells.size()];
+    if (next < 0 || labels[next] < 0 || labels[next] == labels[cell]) continue;
+    const bool smaller = smallest < 0 || AreaOfCell(arrangement, cell) <
+                                             AreaOfCell(arrangement, fan.cells[smallest]);
+    if (smaller) smallest = static_cast<int>(i);
+  }
+  return smallest;
+}
+
 }  // namespace
 
 std::vector<ExtrudedFace> ExtrudeCells(Arrangement arrangement, std::span<const CutLine> lines,
@@ -337,11 +360,6 @@ void JoinAtCorners(const Arrangement& arrangement, std::span<const RoofPlane> ro
                    std::vector<int>& labels) {
   constexpr int kMostRounds = 20;
   const std::vector<Fan> fans = FansOf(arrangement);
-  const auto area_of = [&](int face) {
-    std::vector<Eigen::Vector2d> ring;
-    for (const int v : arrangement.faces[face]) ring.push_back(arrangement.vertices[v]);
-    return SignedArea(std::span<const Eigen::Vector2d>(ring));
-  };
   for (int round = 0; round < kMostRounds; ++round) {
     bool changed = false;
     for (size_t v = 0; v < fans.size(); ++v) {
@@ -352,18 +370,8 @@ void JoinAtCorners(const Arrangement& arrangement, std::span<const RoofPlane> ro
         heights.push_back(label < 0 ? -1e9 : roofs[label].At(arrangement.vertices[v]));
       }
       if (!TouchesInEdge(fan, heights)) continue;
-      // The smallest of the cells becomes one with a neighbour around this corner.
-      int smallest = -1;
-      for (size_t i = 0; i < fan.cells.size(); ++i) {
-        const int cell = fan.cells[i];
-        if (cell < 0 || labels[cell] < 0) continue;
-        const int next = fan.cells[(i + 1) % fan.cells.size()];
-        if (next < 0 || labels[next] < 0 || labels[next] == labels[cell]) continue;
-        if (smallest < 0 || area_of(cell) < area_of(fan.cells[smallest])) {
-          smallest = static_cast<int>(i);
-        }
-      }
-      if (smallest < 0) continue;  // parts of the footprint itself touch in a point
+      const int smallest = SmallestToJoin(arrangement, fan, labels);
+      if (smallest < 0) continue;
       labels[fan.cells[smallest]] =
           labels[fan.cells[(smallest + 1) % static_cast<int>(fan.cells.size())]];
       changed = true;

@@ -29,10 +29,9 @@ class GridIndex {
         for (int z = low.z(); z <= high.z(); ++z) {
           const auto found = ranges_.find(Key({x, y, z}));
           if (found == ranges_.end()) continue;
-          for (uint32_t i = found->second.first; i < found->second.second; ++i) {
-            if ((points_[order_[i]] - center).squaredNorm() <= squared) {
-              fn(static_cast<int>(order_[i]));
-            }
+          const auto [begin, end] = found->second;
+          for (const uint32_t point : std::span(order_).subspan(begin, end - begin)) {
+            if ((points_[point] - center).squaredNorm() <= squared) fn(static_cast<int>(point));
           }
         }
       }

@@ -319,8 +319,20 @@ std::vector<std::pair<int, const Polygon*>> Beside(std::span<const MapBuilding> 
   return beside;
 }
 
-Touching TouchingOf(std::span<const MapBuilding> buildings, size_t b) {
+// Whether an edge of building `b` runs against others, whose buildings join `neighbours`.
+bool IsParty(const Segment2d& edge, const std::vector<std::pair<int, const Polygon*>>& beside,
+             size_t b, std::set<int>& neighbours) {
   constexpr double kLeastShare = 0.5;  // of an edge
+  double shared = 0;
+  for (const auto& [owner, polygon] : beside) {
+    const double with = Against(edge, *polygon);
+    shared += with;
+    if (with > 0 && owner != static_cast<int>(b)) neighbours.insert(owner);
+  }
+  return shared > kLeastShare * (edge.b - edge.a).norm();
+}
+
+Touching TouchingOf(std::span<const MapBuilding> buildings, size_t b) {
   Touching touching;
   for (size_t p = 0; p < buildings[b].parts.size(); ++p) {
     const auto beside = Beside(buildings, b, p);
@@ -328,14 +340,7 @@ Touching TouchingOf(std::span<const MapBuilding> buildings, size_t b) {
     for (const Ring& ring : buildings[b].parts[p].rings) {
       auto& of_ring = of_part.emplace_back(ring.size(), false);
       for (size_t i = 0; i < ring.size(); ++i) {
-        const Segment2d edge = EdgeOf(ring, i);
-        double shared = 0;
-        for (const auto& [owner, polygon] : beside) {
-          const double with = Against(edge, *polygon);
-          shared += with;
-          if (with > 0 && owner != static_cast<int>(b)) touching.neighbours.insert(owner);
-        }
-        of_ring[i] = shared > kLeastShare * (edge.b - edge.a).norm();
+        of_ring[i] = IsParty(EdgeOf(ring, i), beside, b, touching.neighbours);
       }
     }
   }
@@ -380,6 +385,48 @@ std::vector<FittedEdge> EdgesOf(const MapBuilding& mapped, const MapBuilding& fi
   return edges;
 }
 
+struct Fittings {
+  std::vector<Fitting> of_buildings;
+  std::vector<std::vector<size_t>> groups;  // of buildings that touch
+};
+
+Fittings FittingsOf(const UprightSurvey& survey, std::span<const MapBuilding> buildings,
+                    double plan_to_survey_m) {
+  Fittings result;
+  DisjointSets sets(buildings.size());
+  for (size_t b = 0; b < buildings.size(); ++b) {
+    const Touching touching = TouchingOf(buildings, b);
+    for (const int o : touching.neighbours) sets.Join(static_cast<int>(b), o);
+    Fitting& fitting = result.of_buildings.emplace_back();
+    fitting.near = survey.bins.In(BoundsOf(buildings[b], 2 * kReach_m));
+    fitting.ground =
+        GroundAround(survey, buildings[b]).value_or(buildings[b].z_m.from_m + plan_to_survey_m);
+    for (size_t p = 0; p < buildings[b].parts.size(); ++p) {
+      for (size_t r = 0; r < buildings[b].parts[p].rings.size(); ++r) {
+        fitting.rings.push_back(RunsOf(buildings[b], p, r, touching.party[p][r]));
+      }
+    }
+  }
+  std::map<int, std::vector<size_t>> members;
+  for (size_t b = 0; b < buildings.size(); ++b) {
+    members[sets.Find(static_cast<int>(b))].push_back(b);
+  }
+  result.groups.reserve(members.size());
+  for (auto& [first, group] : members) result.groups.push_back(std::move(group));
+  return result;
+}
+
+// By group: the runs that points hold.
+std::vector<std::vector<const Run*>> HeldRuns(const std::vector<Fitting>& fittings,
+                                              const std::vector<std::vector<size_t>>& groups) {
+  std::vector<std::vector<const Run*>> held;
+  for (const std::vector<size_t>& group : groups) {
+    auto& runs = held.emplace_back();
+    for (const size_t b : group) AddHeldRuns(fittings[b], runs);
+  }
+  return held;
+}
+
 }  // namespace
 
 bool IsSimple(const Polygon& polygon) {
@@ -417,25 +464,7 @@ std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
                                         std::span<const MapBuilding> buildings,
                                         std::span<const MapFacade> facades,
                                         double plan_to_survey_m) {
-  std::vector<Fitting> fittings(buildings.size());
-  DisjointSets groups(buildings.size());
-  for (size_t b = 0; b < buildings.size(); ++b) {
-    const Touching touching = TouchingOf(buildings, b);
-    for (const int o : touching.neighbours) groups.Join(static_cast<int>(b), o);
-    Fitting& fitting = fittings[b];
-    fitting.near = survey.bins.In(BoundsOf(buildings[b], 2 * kReach_m));
-    fitting.ground =
-        GroundAround(survey, buildings[b]).value_or(buildings[b].z_m.from_m + plan_to_survey_m);
-    for (size_t p = 0; p < buildings[b].parts.size(); ++p) {
-      for (size_t r = 0; r < buildings[b].parts[p].rings.size(); ++r) {
-        fitting.rings.push_back(RunsOf(buildings[b], p, r, touching.party[p][r]));
-      }
-    }
-  }
-  std::map<int, std::vector<size_t>> members;
-  for (size_t b = 0; b < buildings.size(); ++b) {
-    members[groups.Find(static_cast<int>(b))].push_back(b);
-  }
+  auto [fittings, groups] = FittingsOf(survey, buildings, plan_to_survey_m);
   std::vector<MapBuilding> shifted(buildings.begin(), buildings.end());
   double outset = 0;
   // Once the buildings are shifted, more of their walls are within reach.
@@ -444,18 +473,12 @@ std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
     for (size_t b = 0; b < buildings.size(); ++b) {
       FindOffsets(survey, shifted[b], outset, fittings[b]);
     }
-    std::vector<std::vector<const Run*>> held;
-    for (const auto& [group, of_group] : members) {
-      auto& runs = held.emplace_back();
-      for (const size_t b : of_group) AddHeldRuns(fittings[b], runs);
-    }
-    const MapErrors errors = ErrorsOf(held);
+    const MapErrors errors = ErrorsOf(HeldRuns(fittings, groups));
     outset = errors.outset;
-    auto shift = errors.shifts.begin();
-    for (const auto& [group, of_group] : members) {
+    for (size_t g = 0; g < groups.size(); ++g) {
       Eigen::Isometry2d motion = Eigen::Isometry2d::Identity();
-      motion.translation() = *shift++;
-      for (const size_t b : of_group) shifted[b] = Moved(shifted[b], motion);
+      motion.translation() = errors.shifts[g];
+      for (const size_t b : groups[g]) shifted[b] = Moved(shifted[b], motion);
     }
   }
   std::vector<FittedBuilding> fitted(buildings.size());

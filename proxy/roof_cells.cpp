@@ -317,6 +317,45 @@ std::vector<int> InsideOf(const Arrangement& arrangement, const MapBuilding& bui
   return labels;
 }
 
+// Faces of the arrangement inside of the footprint, and the other way round (-1: outside).
+struct CellNumbers {
+  std::vector<int> face_of_cell;
+  std::vector<int> cell_of_face;
+};
+
+CellNumbers NumberCells(const std::vector<int>& labels) {
+  CellNumbers numbers{{}, std::vector<int>(labels.size(), -1)};
+  for (size_t f = 0; f < labels.size(); ++f) {
+    if (labels[f] < 0) continue;
+    numbers.cell_of_face[f] = static_cast<int>(numbers.face_of_cell.size());
+    numbers.face_of_cell.push_back(static_cast<int>(f));
+  }
+  return numbers;
+}
+
+// What the raster's cells within each cell of the footprint cost under each roof.
+std::vector<std::vector<double>> DataOf(const RoofCells& roof, const CellNumbers& numbers,
+                                        const PlaneRaster& raster, const Costs& costs) {
+  std::vector<std::vector<double>> data(numbers.face_of_cell.size(),
+                                        std::vector<double>(roof.roofs.size(), 0));
+  const std::vector<int> face_at = FaceOfCells(raster, roof.arrangement, roof.labels);
+  const double area = raster.cell * raster.cell;
+  for (size_t at = 0; at < face_at.size(); ++at) {
+    if (face_at[at] < 0) continue;
+    for (size_t k = 0; k < roof.roofs.size(); ++k) {
+      data[numbers.cell_of_face[face_at[at]]][k] += area * costs[at][k];
+    }
+  }
+  return data;
+}
+
+// Whether a roof comes nearer to the ground than a building's may, over a face.
+bool IsBuried(const RoofCells& roof, size_t label, int face, double ground) {
+  return std::ranges::any_of(roof.arrangement.faces[face], [&](int v) {
+    return roof.roofs[label].At(roof.arrangement.vertices[v]) - ground < kRaised_m / 2;
+  });
+}
+
 }  // namespace
 
 RoofCells LabelRoof(const FittedBuilding& building, const RoofEvidence& evidence,
@@ -334,29 +373,14 @@ RoofCells LabelRoof(const FittedBuilding& building, const RoofEvidence& evidence
   roof.lines = LinesOf(building, evidence, cover, roof.roofs, tolerances);
   roof.arrangement = Arrange(BoxAround(building.building), roof.lines);
   roof.labels = InsideOf(roof.arrangement, building.building);
-  std::vector<int> cell_of_face(roof.labels.size(), -1), face_of_cell;
-  for (size_t f = 0; f < roof.labels.size(); ++f) {
-    if (roof.labels[f] < 0) continue;
-    cell_of_face[f] = static_cast<int>(face_of_cell.size());
-    face_of_cell.push_back(static_cast<int>(f));
-  }
-  CellProblem problem = ProblemOf(roof, cell_of_face, tolerances);
-  problem.data.assign(face_of_cell.size(), std::vector<double>(roof.roofs.size(), 0));
+  const CellNumbers numbers = NumberCells(roof.labels);
+  const std::vector<int>& face_of_cell = numbers.face_of_cell;
+  CellProblem problem = ProblemOf(roof, numbers.cell_of_face, tolerances);
   const Costs costs = CostsOf(evidence, planes, cover, roof.roofs, tolerances);
-  const std::vector<int> face_at = FaceOfCells(cover.raster, roof.arrangement, roof.labels);
-  const double area = cover.raster.cell * cover.raster.cell;
-  for (size_t at = 0; at < face_at.size(); ++at) {
-    if (face_at[at] < 0) continue;
-    for (size_t k = 0; k < roof.roofs.size(); ++k) {
-      problem.data[cell_of_face[face_at[at]]][k] += area * costs[at][k];
-    }
-  }
+  problem.data = DataOf(roof, numbers, cover.raster, costs);
   for (size_t c = 0; c < face_of_cell.size(); ++c) {
     for (size_t k = 0; k + 1 < roof.roofs.size(); ++k) {
-      for (const int v : roof.arrangement.faces[face_of_cell[c]]) {
-        const double above = roof.roofs[k].At(roof.arrangement.vertices[v]) - building.ground;
-        if (above < kRaised_m / 2) problem.data[c][k] = kForbidden;
-      }
+      if (IsBuried(roof, k, face_of_cell[c], building.ground)) problem.data[c][k] = kForbidden;
     }
   }
   const std::vector<int> labels = CheapestCellLabels(problem);

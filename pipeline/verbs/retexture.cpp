@@ -43,7 +43,7 @@ constexpr size_t kMostExamples = 3;
 
 std::string EpochName(const RetextureRequest& request) {
   const bool given = !request.epoch.empty();
-  const std::string name = given ? request.epoch : RealPath(request.photos).filename().string();
+  std::string name = given ? request.epoch : RealPath(request.photos).filename().string();
   const bool plain = !name.empty() && name.size() <= kLongestName && name.front() != '.' &&
                      std::ranges::all_of(name, [](unsigned char c) {
                        return std::isalnum(c) || c == '-' || c == '_' || c == '.';
