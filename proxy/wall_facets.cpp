@@ -51,6 +51,7 @@ std::vector<const FittedEdge*> EdgesBelow(const Segment2d& foot, const FittedBui
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<const FittedEdge*> edges;
+  edges.reserve(found.size());
   for (const auto& [shared, edge] : found) edges.push_back(edge);
   return edges;
 }
@@ -79,6 +80,7 @@ Facet MeasuredFacet(const ExtrudedFace& face, const Samples& near, const Toleran
   Eigen::AlignedBox2d box;
   const auto flat = [&](const std::vector<Eigen::Vector3d>& ring) {
     std::vector<Eigen::Vector2d> points;
+    points.reserve(ring.size());
     for (const auto& p : ring) points.push_back(frame.ToPlane(p));
     return points;
   };
@@ -102,6 +104,20 @@ Facet MeasuredFacet(const ExtrudedFace& face, const Samples& near, const Toleran
   return facet;
 }
 
+// The plan's facades that a wall is part of, and whether its place is only the map's.
+void NameWall(const ExtrudedFace& face, const FittedBuilding& building, Facet& facet) {
+  const auto edges = EdgesBelow(face.foot, building);
+  std::set<std::string> known;
+  for (const FittedEdge* edge : edges) {
+    for (const std::string& id : edge->facades) {
+      if (known.insert(id).second) facet.planned_facades.push_back(id);
+    }
+  }
+  const bool fitted =
+      std::ranges::any_of(edges, [](const FittedEdge* edge) { return edge->fitted; });
+  if (!edges.empty() && !fitted) facet.source = "footprint";
+}
+
 }  // namespace
 
 std::vector<Facet> FacetsOf(const std::vector<ExtrudedFace>& faces, const FittedBuilding& building,
@@ -111,18 +127,7 @@ std::vector<Facet> FacetsOf(const std::vector<ExtrudedFace>& faces, const Fitted
   for (const ExtrudedFace& face : faces) {
     Facet facet = MeasuredFacet(face, near, tolerances, normal_angle_deg);
     facet.source = facet.seen > 0 ? "planes" : "extruded";
-    if (face.kind == ExtrudedFace::Kind::kWall) {
-      const auto edges = EdgesBelow(face.foot, building);
-      std::set<std::string> known;
-      for (const FittedEdge* edge : edges) {
-        for (const std::string& id : edge->facades) {
-          if (known.insert(id).second) facet.planned_facades.push_back(id);
-        }
-      }
-      const bool fitted =
-          std::ranges::any_of(edges, [](const FittedEdge* edge) { return edge->fitted; });
-      if (!edges.empty() && !fitted) facet.source = "footprint";
-    }
+    if (face.kind == ExtrudedFace::Kind::kWall) NameWall(face, building, facet);
     if (face.kind == ExtrudedFace::Kind::kFloor) facet.source = "extruded";
     facets.push_back(std::move(facet));
   }

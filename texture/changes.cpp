@@ -183,18 +183,23 @@ class Comparison {
     return grey;
   }
 
+  // Itself and its neighbours.
+  int NumChangedAround(const std::vector<Change>& found, int row, int column) const {
+    int count = 0;
+    for (int y = std::max(0, row - 1); y <= std::min(rows_ - 1, row + 1); ++y) {
+      for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x) {
+        count += found[static_cast<size_t>(y) * columns_ + x] != Change::kNone;
+      }
+    }
+    return count;
+  }
+
   // Without what stands alone.
   std::vector<Change> Together(const std::vector<Change>& found) const {
     std::vector<Change> kept = found;
     for (int row = 0; row < rows_; ++row) {
       for (int column = 0; column < columns_; ++column) {
-        int neighbours = -1;  // itself
-        for (int y = std::max(0, row - 1); y <= std::min(rows_ - 1, row + 1); ++y) {
-          for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x) {
-            neighbours += found[static_cast<size_t>(y) * columns_ + x] != Change::kNone;
-          }
-        }
-        if (neighbours < kFewestNeighbours) {
+        if (NumChangedAround(found, row, column) - 1 < kFewestNeighbours) {
           kept[static_cast<size_t>(row) * columns_ + column] = Change::kNone;
         }
       }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "survey/decode_image.h"
@@ -42,7 +43,7 @@ GreyPicture GreyOf(const FacetPicture& facet, int step) {
       const size_t texel = static_cast<size_t>(y) * step * facet.picture.width_px + x * step;
       const uint8_t* rgb = &facet.picture.data[3 * texel];
       grey.grey.push_back(
-          static_cast<uint8_t>(0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2] + 0.5f));
+          static_cast<uint8_t>(std::lround(0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2])));
       grey.valid.push_back(IsPainted(facet.labels[texel]));
     }
   }
@@ -114,12 +115,19 @@ PhotosOfBoth JoinPhotosOfBoth(const EpochFacetInput& input, const EpochStyle& st
   return both;
 }
 
+// Where a facet's texels are, and which of them are inside of it.
+struct Canvas {
+  TexelGrid grid;
+  std::vector<uint8_t> mask;
+};
+
 // The figures of the part that weighs more, and those of the whole picture measured anew.
-FacetFiles FilesOf(FacetPicture picture, const EpochFacetInput& input, const TexelGrid& grid,
-                   std::vector<uint8_t> mask, const EpochStyle& style, bool is_mostly_old) {
+FacetFiles FilesOf(FacetPicture picture, const EpochFacetInput& input, Canvas canvas,
+                   const EpochStyle& style, bool is_mostly_old) {
+  const std::vector<uint8_t>& mask = canvas.mask;
   const TexturedFacet& more = is_mostly_old ? input.old : input.painted.facet;
   PaintedFacet painted;
-  painted.grid = grid;
+  painted.grid = canvas.grid;
   painted.wanted_texel = more.wanted_metres_per_texel;
   painted.photos = Renumber(picture.labels);
   const std::vector<uint8_t> from_photos = PaintedTexels(picture);
@@ -130,7 +138,7 @@ FacetFiles FilesOf(FacetPicture picture, const EpochFacetInput& input, const Tex
   painted.misregistration_px = more.misregistration_px;
   painted.sharpness = MeasureSharpness(picture.picture, from_photos);
   painted.quality = {more.q_s, more.q_d, more.q_u, more.q_c, more.gsd_m};
-  painted.mask = std::move(mask);
+  painted.mask = std::move(canvas.mask);
   painted.picture = std::move(picture.picture);
   painted.labels = std::move(picture.labels);
   const PhotosOfBoth both = JoinPhotosOfBoth(input, style);
@@ -212,7 +220,7 @@ EpochPicture MakeEpochPicture(EpochFacetInput input, const EpochStyle& style) {
   const std::vector<uint8_t> all = PaintedTexels(*after);
   if (!input.before) {
     result.found.taken = result.found.shown;
-    result.files = FilesOf(std::move(*after), input, grid, std::move(mask), style, false);
+    result.files = FilesOf(std::move(*after), input, {grid, std::move(mask)}, style, false);
     return result;
   }
   const std::vector<uint8_t> take = TexelsToTake(decision.choice, *input.before, *after);
@@ -220,7 +228,7 @@ EpochPicture MakeEpochPicture(EpochFacetInput input, const EpochStyle& style) {
   const bool is_mostly_old = decision.choice == FacetChoice::kFilled || result.found.taken < 0.5;
   FacetPicture merged =
       MergePictures(*input.before, *after, take, mask, input.painted.facet.photos.size());
-  result.files = FilesOf(std::move(merged), input, grid, std::move(mask), style, is_mostly_old);
+  result.files = FilesOf(std::move(merged), input, {grid, std::move(mask)}, style, is_mostly_old);
   return result;
 }
 

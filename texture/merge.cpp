@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
@@ -64,7 +65,7 @@ FacetPicture MergePictures(const FacetPicture& before, const FacetPicture& after
     for (size_t k = 3 * i; k < 3 * i + 3; ++k) {
       const float mixed = share * static_cast<float>(after.picture.data[k]) +
                           (1 - share) * static_cast<float>(before.picture.data[k]);
-      merged.picture.data[k] = static_cast<uint8_t>(mixed + 0.5f);
+      merged.picture.data[k] = static_cast<uint8_t>(std::lround(mixed));
     }
   }
   FillPictureSmoothly(merged.picture, known);

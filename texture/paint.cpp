@@ -163,7 +163,8 @@ Tile FreeArea(const PhotoLayer& chosen, const Ownership& ownership, const TexelG
   for (size_t i = 0; i < chosen.sight.size(); ++i) {
     if (chosen.sight[i] != Sight::kFree) continue;
     const double x = scale * static_cast<double>(i % ownership.raster_width);
-    const double y = scale * static_cast<double>(i / ownership.raster_width);
+    const size_t row = i / ownership.raster_width;
+    const double y = scale * static_cast<double>(row);
     left = std::min(left, static_cast<int>(x));
     top = std::min(top, static_cast<int>(y));
     right = std::max(right, static_cast<int>(std::ceil(x + scale)));
@@ -184,7 +185,7 @@ GreyPicture MakeGreyPicture(const PhotoLayer& chosen, const TexelGrid& raster, i
   for (size_t i = 0; i < area.size(); ++i) {
     const float* rgb = &sampled.rgb[3 * i];
     out.grey.push_back(
-        static_cast<uint8_t>(0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2] + 0.5f));
+        static_cast<uint8_t>(std::lround(0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2])));
     const int x = area.x + static_cast<int>(i % area.width);
     const int y = area.y + static_cast<int>(i / area.width);
     const int column = std::min(canvas.grid.width - 1, x * step + step / 2);
@@ -201,6 +202,7 @@ void AlignChosen(const Selected& selected, const TextureOptions& options,
   const int step = (longest + kAlignSide - 1) / kAlignSide;
   const TexelGrid raster = Coarsened(painted.grid, step);
   std::vector<GreyPicture> pictures;
+  pictures.reserve(chosen.size());
   for (const PhotoLayer& photo : chosen) {
     pictures.push_back(MakeGreyPicture(photo, raster, step, painted, selected.ownership));
   }
@@ -276,8 +278,8 @@ uint64_t PaintingBytes(const Facet& facet, const FacetLook& look, const PaintSce
   const TexelGrid grid = GridToPaint(facet, look, scene.up, options);
   const auto texels = static_cast<double>(grid.size());
   const auto count = static_cast<double>(look.candidates.size());
-  const double step = CellSide(grid, options.cell_px, look.candidates.size()) / kCellSplit;
-  const double raster = texels / (step * step);
+  const int step = CellSide(grid, options.cell_px, look.candidates.size()) / kCellSplit;
+  const double raster = texels / (static_cast<double>(step) * step);
   const double cells = raster / (kCellSplit * kCellSplit);
   double shown = 0;
   double photo_px = 0;

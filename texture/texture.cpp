@@ -46,6 +46,7 @@ std::vector<TexturedFacet> PaintAll(const Painting& painting, const TextureInput
                                     const StageContext& context) {
   const std::vector<const Facet*>& facets = painting.facets;
   std::vector<std::string> ids;
+  ids.reserve(facets.size());
   for (const Facet* facet : facets) ids.push_back(facet->id);
   const std::vector<std::string> names = FileNames(ids);
   std::vector<TexturedFacet> textured(facets.size());
