@@ -7,8 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "proxy/consolidate.h"
-#include "proxy/detect.h"
+#include "proxy/find_planes.h"
 #include "proxy/grid_index.h"
 #include "proxy/normals.h"
 #include "proxy/regularise.h"
@@ -43,17 +42,7 @@ std::vector<Plane> Detect(const Samples& samples, const Tolerances& tolerances,
   const GridIndex index(samples.positions, tolerances.radius);
   Samples smooth = samples;  // the normals are smooth already: only the agreement is asked for
   const auto agreement = SmoothNormals(smooth, index, tolerances.radius, 1);
-  auto planes = DetectPlanes(
-      samples, index, agreement,
-      {.radius = tolerances.radius,
-       .epsilon = tolerances.epsilon,
-       .normal_angle_deg = options.normal_angle_deg,
-       .min_points = options.min_points > 0 ? options.min_points : LeastPoints(tolerances)});
-  MergeCoplanar(samples, tolerances, options.normal_angle_deg, planes);
-  AdoptNeighbours(samples, index, tolerances, options.normal_angle_deg, planes);
-  MergeCoplanar(samples, tolerances, options.normal_angle_deg, planes);
-  DropClutter(samples, tolerances, options.normal_angle_deg, planes);
-  return planes;
+  return FindPlanes(samples, index, agreement, tolerances, options);
 }
 
 // Upright planes along the outline, without samples: they only give roofs their directions.

@@ -10,8 +10,7 @@
 #include <utility>
 
 #include "proxy/clusters.h"
-#include "proxy/consolidate.h"
-#include "proxy/detect.h"
+#include "proxy/find_planes.h"
 #include "proxy/grid_index.h"
 #include "proxy/ground.h"
 #include "proxy/normals.h"
@@ -87,22 +86,10 @@ void WarnOfCoarseness(const CloudScale& scale, const Georef& georef, const Proxy
                              : "A finer dense quality gives more points."));
 }
 
-std::vector<Plane> FindPlanes(const ProxyOptions& options, int threads, PlanarScene& scene) {
-  Samples& samples = scene.samples;
-  const Tolerances& tolerances = scene.tolerances;
-  const GridIndex index(samples.positions, tolerances.radius);
-  const auto agreement = SmoothNormals(samples, index, tolerances.radius, threads);
-  auto planes = DetectPlanes(
-      samples, index, agreement,
-      {.radius = tolerances.radius,
-       .epsilon = tolerances.epsilon,
-       .normal_angle_deg = options.normal_angle_deg,
-       .min_points = options.min_points > 0 ? options.min_points : LeastPoints(tolerances)});
-  MergeCoplanar(samples, tolerances, options.normal_angle_deg, planes);
-  AdoptNeighbours(samples, index, tolerances, options.normal_angle_deg, planes);
-  MergeCoplanar(samples, tolerances, options.normal_angle_deg, planes);
-  DropClutter(samples, tolerances, options.normal_angle_deg, planes);
-  return planes;
+std::vector<Plane> PlanesOf(const ProxyOptions& options, int threads, PlanarScene& scene) {
+  const GridIndex index(scene.samples.positions, scene.tolerances.radius);
+  const auto agreement = SmoothNormals(scene.samples, index, scene.tolerances.radius, threads);
+  return FindPlanes(scene.samples, index, agreement, scene.tolerances, options);
 }
 
 void FindUp(const std::vector<Plane>& planes, const ProxyInput& input, const ProxyOptions& options,
@@ -162,7 +149,7 @@ PlanarScene UnderstandCloud(const ProxyInput& input, const ProxyOptions& options
                   input.cloud.count, scene.samples.size(), scene.samples.dropped, scale.noise,
                   scene.tolerances.level_of_detail, georef.metric ? "m" : "units"));
   WarnOfCoarseness(scale, georef, options, scene, findings);
-  auto planes = FindPlanes(options, threads, scene);
+  auto planes = PlanesOf(options, threads, scene);
   if (planes.empty()) {
     throw Error(ErrorKind::kStageFailed,
                 fmt::format("the dense cloud shows no plane of at least {:.3g} {}",

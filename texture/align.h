@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,6 +21,12 @@ struct GreyPicture {
   int x = 0;                   // of the first texel on the raster
   int y = 0;
 };
+
+// The brightness of a colour (ITU-R BT.601), rounded.
+template <typename T>
+uint8_t GreyOf(const T* rgb) {
+  return static_cast<uint8_t>(std::lround(0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2]));
+}
 
 // A rectangle of the raster, texels.
 struct GridArea {

@@ -34,7 +34,7 @@ Image Decode(const std::string& bytes, const std::string& name, const TexturedFa
   return image;
 }
 
-GreyPicture GreyOf(const FacetPicture& facet, int step) {
+GreyPicture GreyPictureOf(const FacetPicture& facet, int step) {
   GreyPicture grey;
   grey.width = (facet.picture.width_px + step - 1) / step;
   grey.height = (facet.picture.height_px + step - 1) / step;
@@ -42,8 +42,7 @@ GreyPicture GreyOf(const FacetPicture& facet, int step) {
     for (int x = 0; x < grey.width; ++x) {
       const size_t texel = static_cast<size_t>(y) * step * facet.picture.width_px + x * step;
       const uint8_t* rgb = &facet.picture.data[3 * texel];
-      grey.grey.push_back(
-          static_cast<uint8_t>(std::lround(0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2])));
+      grey.grey.push_back(GreyOf(rgb));
       grey.valid.push_back(IsPainted(facet.labels[texel]));
     }
   }
@@ -54,7 +53,8 @@ GreyPicture GreyOf(const FacetPicture& facet, int step) {
 double ShiftBetween(const FacetPicture& before, const FacetPicture& after, double limit_px) {
   const int longest = std::max(before.picture.width_px, before.picture.height_px);
   const int step = (longest + kShiftSide - 1) / kShiftSide;
-  const std::vector<GreyPicture> pictures = {GreyOf(before, step), GreyOf(after, step)};
+  const std::vector<GreyPicture> pictures = {GreyPictureOf(before, step),
+                                             GreyPictureOf(after, step)};
   const Alignment alignment = AlignPictures(
       pictures, Eigen::Vector2d(pictures[0].width, pictures[0].height), limit_px / step);
   return alignment.before_px < 0 ? -1 : alignment.before_px * step;

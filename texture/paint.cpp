@@ -184,8 +184,7 @@ GreyPicture MakeGreyPicture(const PhotoLayer& chosen, const TexelGrid& raster, i
   out.grey.reserve(area.size());
   for (size_t i = 0; i < area.size(); ++i) {
     const float* rgb = &sampled.rgb[3 * i];
-    out.grey.push_back(
-        static_cast<uint8_t>(std::lround(0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2])));
+    out.grey.push_back(GreyOf(rgb));
     const int x = area.x + static_cast<int>(i % area.width);
     const int y = area.y + static_cast<int>(i / area.width);
     const int column = std::min(canvas.grid.width - 1, x * step + step / 2);
