@@ -67,6 +67,11 @@ def main():
         for end in ("a_m", "b_m"):
             facade[end] = min(table, key=lambda pair: math.dist(pair[0], facade[end]))[1]
         facade["unobservable_m"] = []  # of the wall as it was
+    lengths = {f["id"]: math.dist(f["a_m"], f["b_m"]) for f in plan["facades"]}
+    for view in plan["views"]:
+        for target in view.get("targets", []):
+            length = lengths[target["facade"]]
+            target["along_m"] = [min(along, length) for along in target["along_m"]]
     xs = [p[0] for f in plan["footprints"] for p in f["rings_m"][0]]
     ys = [p[1] for f in plan["footprints"] for p in f["rings_m"][0]]
     boxes = [(min(p[0] for p in f["rings_m"][0]), min(p[1] for p in f["rings_m"][0]),

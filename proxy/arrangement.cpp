@@ -200,31 +200,8 @@ Arrangement Arrange(const Eigen::AlignedBox2d& box, std::span<const CutLine> lin
   return cutter.Take();
 }
 
-bool ContainsPoint(std::span<const Eigen::Vector2d> ring, const Eigen::Vector2d& p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const auto& a = ring[i];
-    const auto& b = ring[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) {
-      inside = !inside;
-    }
-  }
-  return inside;
-}
-
-double SignedArea(std::span<const Eigen::Vector2d> ring) {
-  double sum = 0;
-  for (size_t i = 1; i + 1 < ring.size(); ++i) {
-    sum += Cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
-  }
-  return sum / 2;
-}
-
-double AreaOf(const Polygon2& polygon) {
-  double area = SignedArea(polygon.outer);
-  for (const auto& hole : polygon.holes) area += SignedArea(hole);
-  return area;
+Ring RingOf(const Arrangement& arrangement, size_t face) {
+  return PointsOf(arrangement, arrangement.faces[face]);
 }
 
 std::vector<IndexPolygon> UnionOfIndices(const Arrangement& arrangement,
@@ -257,7 +234,7 @@ std::vector<IndexPolygon> UnionOfIndices(const Arrangement& arrangement,
     const Eigen::Vector2d middle =
         (arrangement.vertices[hole.vertices[0]] + arrangement.vertices[hole.vertices[1]]) / 2;
     for (IndexPolygon& polygon : candidates) {
-      if (candidates.size() > 1 && !ContainsPoint(PointsOf(arrangement, polygon.outer), middle)) {
+      if (candidates.size() > 1 && !Contains(PointsOf(arrangement, polygon.outer), middle)) {
         continue;
       }
       polygon.holes.push_back(std::move(hole.vertices));
@@ -271,16 +248,17 @@ std::vector<IndexPolygon> UnionOfIndices(const Arrangement& arrangement,
   return result;
 }
 
-std::vector<Polygon2> UnionOf(const Arrangement& arrangement, const std::vector<bool>& inside) {
-  std::vector<Polygon2> result;
+std::vector<Polygon> UnionOf(const Arrangement& arrangement, const std::vector<bool>& inside) {
+  std::vector<Polygon> result;
   for (const IndexPolygon& indices : UnionOfIndices(arrangement, inside)) {
-    Polygon2 polygon;
-    polygon.outer = WithoutStraightCorners(PointsOf(arrangement, indices.outer));
+    Ring outer = WithoutStraightCorners(PointsOf(arrangement, indices.outer));
+    if (outer.size() < 3) continue;
+    Polygon& polygon = result.emplace_back();
+    polygon.rings.push_back(std::move(outer));
     for (const auto& hole : indices.holes) {
-      auto ring = WithoutStraightCorners(PointsOf(arrangement, hole));
-      if (ring.size() >= 3) polygon.holes.push_back(std::move(ring));
+      Ring ring = WithoutStraightCorners(PointsOf(arrangement, hole));
+      if (ring.size() >= 3) polygon.rings.push_back(std::move(ring));
     }
-    if (polygon.outer.size() >= 3) result.push_back(std::move(polygon));
   }
   return result;
 }

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "survey/geometry2d.h"
+
 namespace stucco {
 
 // A line that may bound a facet, in plane coordinates.
@@ -51,18 +53,10 @@ struct Arrangement {
 // Requires lines that are not (nearly) the same line.
 Arrangement Arrange(const Eigen::AlignedBox2d& box, std::span<const CutLine> lines);
 
-// A simple polygon with holes: outer ring counter-clockwise, holes clockwise.
-struct Polygon2 {
-  std::vector<Eigen::Vector2d> outer;
-  std::vector<std::vector<Eigen::Vector2d>> holes;
-};
+// The corners of a face.
+Ring RingOf(const Arrangement& arrangement, size_t face);
 
-double SignedArea(std::span<const Eigen::Vector2d> ring);
-// By crossings: points on the ring may count either way.
-bool ContainsPoint(std::span<const Eigen::Vector2d> ring, const Eigen::Vector2d& p);
-double AreaOf(const Polygon2& polygon);
-
-// The same by vertex numbers.
+// A simple polygon with holes by vertex numbers: outer ring counter-clockwise, holes clockwise.
 struct IndexPolygon {
   std::vector<int> outer;
   std::vector<std::vector<int>> holes;
@@ -74,6 +68,6 @@ std::vector<IndexPolygon> UnionOfIndices(const Arrangement& arrangement,
 
 // The union of the faces with `inside`, one polygon for each set connected through edges, without
 // straight corners. Rings that would touch themselves in a vertex are split there.
-std::vector<Polygon2> UnionOf(const Arrangement& arrangement, const std::vector<bool>& inside);
+std::vector<Polygon> UnionOf(const Arrangement& arrangement, const std::vector<bool>& inside);
 
 }  // namespace stucco

@@ -15,7 +15,7 @@ namespace {
 // The best set of cells to take a label (Kolmogorov and Zabih, "What energy functions can be
 // minimized via graph cuts?", 2004, section 4.1).
 std::vector<int> Expanded(const CellProblem& problem, const std::vector<int>& labels, int grown) {
-  constexpr double kScale = 1e6;  // sums stay exact in whole numbers up to 9e12 of cost
+  constexpr double kScale = 1e9;  // sums stay exact in whole numbers up to 9e9 of cost
   const auto whole = [](double cost) { return static_cast<int64_t>(std::llround(cost * kScale)); };
   std::vector<FlowNode> nodes(labels.size());
   for (size_t i = 0; i < labels.size(); ++i) {

@@ -325,12 +325,6 @@ bool TouchesInEdge(const Fan& fan, const std::vector<double>& heights) {
   return false;
 }
 
-double AreaOfCell(const Arrangement& arrangement, int cell) {
-  std::vector<Eigen::Vector2d> ring;
-  for (const int v : arrangement.faces[cell]) ring.push_back(arrangement.vertices[v]);
-  return SignedArea(std::span<const Eigen::Vector2d>(ring));
-}
-
 // Place in the fan of the smallest cell whose next neighbour has another roof; -1: there is none,
 // parts of the footprint itself touch in a point.
 int SmallestToJoin(const Arrangement& arrangement, const Fan& fan, const std::vector<int>& labels) {
@@ -340,8 +334,8 @@ int SmallestToJoin(const Arrangement& arrangement, const Fan& fan, const std::ve
     if (cell < 0 || labels[cell] < 0) continue;
     const int next = fan.cells[(i + 1) % fan.cells.size()];
     if (next < 0 || labels[next] < 0 || labels[next] == labels[cell]) continue;
-    const bool smaller = smallest < 0 || AreaOfCell(arrangement, cell) <
-                                             AreaOfCell(arrangement, fan.cells[smallest]);
+    const bool smaller = smallest < 0 || SignedArea(RingOf(arrangement, cell)) <
+                                             SignedArea(RingOf(arrangement, fan.cells[smallest]));
     if (smaller) smallest = static_cast<int>(i);
   }
   return smallest;

@@ -14,22 +14,15 @@
 namespace stucco {
 namespace {
 
-bool InPolygon(const Polygon2& polygon, const Eigen::Vector2d& p) {
-  return ContainsPoint(polygon.outer, p) &&
-         std::none_of(polygon.holes.begin(), polygon.holes.end(),
-                      [&](const auto& hole) { return ContainsPoint(hole, p); });
-}
-
-double SeenShare(const PlaneView& view, const Polygon2& polygon) {
+double SeenShare(const PlaneView& view, const Polygon& polygon) {
   const PlaneRaster& raster = view.raster;
-  Eigen::AlignedBox2d box;
-  for (const auto& p : polygon.outer) box.extend(p);
+  const Eigen::AlignedBox2d box = BoundsOf(polygon);
   const Eigen::Array2d low = (box.min() - raster.origin).array() / raster.cell;
   const Eigen::Array2d high = (box.max() - raster.origin).array() / raster.cell;
   size_t inside = 0, seen = 0;
   for (int y = std::max(0, int(low.y())); y < std::min(raster.height, int(high.y()) + 1); ++y) {
     for (int x = std::max(0, int(low.x())); x < std::min(raster.width, int(high.x()) + 1); ++x) {
-      if (!InPolygon(polygon, raster.Center(x, y))) continue;
+      if (!Contains(polygon, raster.Center(x, y))) continue;
       ++inside;
       seen += view.evidence[raster.Index(x, y)] == Evidence::kSeen;
     }
@@ -64,22 +57,21 @@ char LetterOf(FacetClass facet_class) {
 
 }  // namespace
 
-Facet MakeFacet(const Samples& samples, const PlaneView& view, const Polygon2& polygon) {
+Facet MakeFacet(const Samples& samples, const PlaneView& view, const Polygon& polygon) {
   const PlaneFrame& frame = view.raster.frame;
   Facet facet;
   facet.facet_class = ClassOf(view.plane->role);
   facet.normal = view.plane->normal;
   facet.offset = view.plane->offset;
-  for (const auto& p : polygon.outer) facet.outer.push_back(frame.ToWorld(p));
-  for (const auto& hole : polygon.holes) {
-    auto& ring = facet.holes.emplace_back();
-    for (const auto& p : hole) ring.push_back(frame.ToWorld(p));
+  for (size_t r = 0; r < polygon.rings.size(); ++r) {
+    auto& ring = r == 0 ? facet.outer : facet.holes.emplace_back();
+    for (const auto& p : polygon.rings[r]) ring.push_back(frame.ToWorld(p));
   }
-  facet.area = AreaOf(polygon);
+  facet.area = Area(polygon);
   double squares = 0;
   int count = 0;
   for (const int i : view.plane->points) {
-    if (!InPolygon(polygon, frame.ToPlane(samples.positions[i]))) continue;
+    if (!Contains(polygon, frame.ToPlane(samples.positions[i]))) continue;
     const double d = view.plane->DistanceTo(samples.positions[i]);
     squares += d * d;
     ++count;
@@ -110,7 +102,7 @@ std::vector<Facet> OutlineFacets(const Samples& samples, const PlaneView& view,
   options.free_length =
       (view.plane->role == PlaneRole::kWall ? 10 : 5) * tolerances.level_of_detail;
   std::vector<Facet> facets;
-  for (const Polygon2& polygon :
+  for (const Polygon& polygon :
        Outline(view.raster, view.evidence, view.to_seen, creases, options)) {
     Facet facet = MakeFacet(samples, view, polygon);
     if (ground) facet.facet_class = FacetClass::kGround;

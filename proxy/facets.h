@@ -19,7 +19,7 @@ std::vector<Facet> OutlineFacets(const Samples& samples, const PlaneView& view,
                                  bool ground);
 
 // A facet out of a polygon in the plane of `view`, with area, rms, support and seen share measured.
-Facet MakeFacet(const Samples& samples, const PlaneView& view, const Polygon2& polygon);
+Facet MakeFacet(const Samples& samples, const PlaneView& view, const Polygon& polygon);
 
 // Ids by class and falling area: C0001/W00, C0001/W01 ... R0 ... O0 (overhangs). The ground's are
 // G0, G1 ...

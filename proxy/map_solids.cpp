@@ -8,10 +8,13 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <span>
 #include <tuple>
 #include <utility>
 
 #include "proxy/closed_check.h"
+#include "proxy/closer_look.h"
 #include "proxy/roof_cells.h"
 #include "proxy/soundness.h"
 #include "proxy/wall_facets.h"
@@ -22,7 +25,7 @@ namespace stucco {
 namespace {
 
 // What the plan's heights are in the survey: by the ground around its buildings.
-double HeightShift(const UprightSurvey& survey, const std::vector<MapBuilding>& buildings) {
+double HeightShift(const UprightSurvey& survey, std::span<const MapBuilding> buildings) {
   std::vector<double> shifts, feet, heights;
   for (const MapBuilding& building : buildings) {
     feet.push_back(building.z_m.from_m);
@@ -75,18 +78,29 @@ double AreaOf(const MapBuilding& building) {
 // What of the map stands, by what the cloud shows inside its outline.
 enum class Standing { kStands, kGone, kUnseen };
 
+// Nobody sees the ground below a building; below trees one does, between the leaves, and leaves are
+// no planes. What stands open may still be a roof on posts or a ring of walls with a yard.
 Standing StandingOf(const BuildingEvidence& evidence) {
-  constexpr double kHeld = 0.4;    // of the walls
-  constexpr double kRoofed = 0.3;  // of the footprint: crowns of trees are no planes
-  constexpr double kBare = 0.3;    // of what is seen of it
-  constexpr double kSeen = 0.2;    // of the footprint
+  constexpr double kBare = 0.5;         // of what is seen of the footprint
+  constexpr double kSeen = 0.2;         // of the footprint
+  constexpr double kRoofed = 0.3;       // of the footprint
+  constexpr double kSmooth = 0.75;      // of what lies above it
+  constexpr double kHeld = 0.4;         // of the walls
+  constexpr double kHeldAround = 0.75;  // of the walls, where the ground shows between them
   const double area = AreaOf(evidence.fitted.building);
   const RoofEvidence& roof = evidence.roof;
   double roofed = 0;
-  for (const Plane& plane : roof.planes) roofed += plane.area;
-  if (evidence.fitted.held > kHeld || roofed > kRoofed * area) return Standing::kStands;
-  const bool bare = roof.seen_m2 > kSeen * area && roof.bare_m2 > kBare * roof.seen_m2;
-  return bare ? Standing::kGone : Standing::kUnseen;
+  size_t on_planes = 0;
+  for (const Plane& plane : roof.planes) {
+    roofed += plane.area;
+    on_planes += plane.points.size();
+  }
+  const bool smooth =
+      static_cast<double>(on_planes) > kSmooth * static_cast<double>(roof.samples.size());
+  const bool open = roof.seen_m2 > kSeen * area && roof.bare_m2 > kBare * roof.seen_m2;
+  const bool walled = evidence.fitted.held > (open ? kHeldAround : kHeld);
+  if (walled || (smooth && roofed > kRoofed * area)) return Standing::kStands;
+  return open ? Standing::kGone : Standing::kUnseen;
 }
 
 // One way to close a building.
@@ -133,10 +147,11 @@ FittedBuilding AsMapped(FittedBuilding building, const MapBuilding& mapped) {
 
 class BuildingCloser {
  public:
-  BuildingCloser(const PlanarScene& scene, const ProxyOptions& options)
-      : scene_(scene),
+  BuildingCloser(const Tolerances& tolerances, const Eigen::Vector3d& up,
+                 const ProxyOptions& options)
+      : tolerances_(tolerances),
         options_(options),
-        world_from_upright_(UprightFromWorld(scene.up).transpose()) {}
+        world_from_upright_(UprightFromWorld(up).transpose()) {}
 
   // The finest solid that is sound, and its name; facets are empty where none is.
   std::pair<Solid, SolidDetail> Close(const BuildingEvidence& evidence,
@@ -159,7 +174,7 @@ class BuildingCloser {
       solid = CloseOrExplain([&] {
         const Attempt attempt =
             AttemptOf(detail, evidence, mapped, detail == SolidDetail::kFull ? all : large);
-        return SolidOf(attempt, evidence.near, scene_.tolerances, world_from_upright_,
+        return SolidOf(attempt, evidence.near, tolerances_, world_from_upright_,
                        options_.normal_angle_deg);
       });
       if (solid.why_not.empty()) return {std::move(solid), detail};
@@ -175,7 +190,7 @@ class BuildingCloser {
     Attempt attempt{.building = evidence.fitted, .cells = {}};
     const double lowest = evidence.fitted.ground + kRaised_m;
     if (detail == SolidDetail::kFull || detail == SolidDetail::kCoarse) {
-      attempt.cells = LabelRoof(evidence.fitted, evidence.roof, planes, scene_.tolerances);
+      attempt.cells = LabelRoof(evidence.fitted, evidence.roof, planes, tolerances_);
     } else if (detail == SolidDetail::kFlatTop) {
       attempt.cells = FlatRoof(evidence.fitted.building, std::max(lowest, *evidence.top));
     } else {
@@ -185,7 +200,7 @@ class BuildingCloser {
     return attempt;
   }
 
-  const PlanarScene& scene_;
+  const Tolerances& tolerances_;
   const ProxyOptions& options_;
   Eigen::Matrix3d world_from_upright_;
 };
@@ -247,6 +262,51 @@ Outcome CloseOne(const UprightSurvey& survey, const BuildingCloser& closer,
   return outcome;
 }
 
+// What all buildings of a map are closed with.
+struct Workshop {
+  const PlanarScene& scene;
+  const ProxyInput& input;
+  const ProxyOptions& options;
+  int threads;
+};
+
+// Of all buildings of a map that lies where the survey shows it. Of a large survey the cloud is
+// looked at once more for some of them at a time.
+std::vector<Outcome> CloseAll(const UprightSurvey& survey, const OutlineMap& map,
+                              const Workshop& with) {
+  const double plan_to_survey_m = HeightShift(survey, map.buildings);
+  std::vector<Outcome> outcomes(map.buildings.size());
+  const auto close = [&](const UprightSurvey& seen, const std::vector<size_t>& numbers) {
+    std::vector<MapBuilding> buildings;
+    for (const size_t b : numbers) buildings.push_back(map.buildings[b]);
+    const auto fitted = FitOutlines(seen, buildings, map.facades, plan_to_survey_m);
+    const BuildingCloser closer(seen.tolerances, with.scene.up, with.options);
+    ParallelFor(fitted.size(), with.threads, [&](size_t i) {
+      outcomes[numbers[i]] = CloseOne(seen, closer, buildings[i], fitted[i], plan_to_survey_m);
+    });
+  };
+  if (NeedsCloserLook(with.scene)) {
+    for (const auto& numbers : SetsOfBuildings(survey, map.buildings, with.options.max_points)) {
+      std::vector<MapBuilding> buildings;
+      for (const size_t b : numbers) buildings.push_back(map.buildings[b]);
+      close(CloserLook(with.scene, with.input, buildings, with.options, with.threads), numbers);
+    }
+  } else {
+    std::vector<size_t> all(map.buildings.size());
+    std::iota(all.begin(), all.end(), size_t{0});
+    close(survey, all);
+  }
+  return outcomes;
+}
+
+OutlineMap Moved(OutlineMap map, const Eigen::Isometry2d& motion) {
+  for (MapBuilding& building : map.buildings) building = Moved(building, motion);
+  for (MapFacade& facade : map.facades) {
+    facade.line = {motion * facade.line.a, motion * facade.line.b};
+  }
+  return map;
+}
+
 }  // namespace
 
 std::string_view Name(SolidDetail detail) {
@@ -280,21 +340,9 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
       "{:.2f} deg; of the ground below its buildings {:.0f} % is built over, next to them {:.0f} %",
       place.shift_m.x(), place.shift_m.y(), place.turn_rad * 180 / std::numbers::pi,
       100 * place.raised_inside, 100 * place.raised_outside));
-  MapModel model;
-  for (const MapBuilding& building : map.buildings) {
-    model.outlines.push_back(Moved(building, place.survey_from_map));
-  }
-  std::vector<MapFacade> facades = map.facades;
-  for (MapFacade& facade : facades) {
-    facade.line = {place.survey_from_map * facade.line.a, place.survey_from_map * facade.line.b};
-  }
-  const double plan_to_survey_m = HeightShift(survey, model.outlines);
-  const auto fitted = FitOutlines(survey, model.outlines, facades, plan_to_survey_m);
-  const BuildingCloser closer(scene, options);
-  std::vector<Outcome> outcomes(fitted.size());
-  ParallelFor(fitted.size(), threads, [&](size_t b) {
-    outcomes[b] = CloseOne(survey, closer, model.outlines[b], fitted[b], plan_to_survey_m);
-  });
+  OutlineMap found = Moved(map, place.survey_from_map);
+  auto outcomes = CloseAll(survey, found, {scene, input, options, threads});
+  MapModel model{.buildings = {}, .outlines = std::move(found.buildings)};
   for (size_t b = 0; b < outcomes.size(); ++b) {
     Report(model.outlines[b].id, outcomes[b], model.outlines[b].to_capture, findings);
     if (outcomes[b].solid.facets.empty()) continue;

@@ -104,18 +104,22 @@ std::vector<Evidence> FreeStrips(const PlaneRaster& raster, std::vector<Evidence
   return evidence;
 }
 
-void DropSmall(double min_area, std::vector<Polygon2>& polygons) {
-  for (Polygon2& polygon : polygons) {
-    std::erase_if(polygon.holes, [&](const auto& hole) { return -SignedArea(hole) < min_area; });
+void DropSmall(double min_area, std::vector<Polygon>& polygons) {
+  for (Polygon& polygon : polygons) {
+    const auto holes = polygon.rings.begin() + 1;
+    polygon.rings.erase(
+        std::remove_if(holes, polygon.rings.end(),
+                       [&](const Ring& hole) { return -SignedArea(hole) < min_area; }),
+        polygon.rings.end());
   }
-  std::erase_if(polygons, [&](const Polygon2& polygon) { return AreaOf(polygon) < min_area; });
+  std::erase_if(polygons, [&](const Polygon& polygon) { return Area(polygon) < min_area; });
 }
 
 }  // namespace
 
-std::vector<Polygon2> Outline(const PlaneRaster& raster, const std::vector<Evidence>& known,
-                              const std::vector<float>& to_seen,
-                              const std::vector<CutLine>& creases, const OutlineOptions& options) {
+std::vector<Polygon> Outline(const PlaneRaster& raster, const std::vector<Evidence>& known,
+                             const std::vector<float>& to_seen, const std::vector<CutLine>& creases,
+                             const OutlineOptions& options) {
   std::vector<CutLine> lines = creases;
   const auto contour = ContourLines(raster, known, creases,
                                     {.detail = options.detail,

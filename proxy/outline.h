@@ -26,8 +26,8 @@ struct OutlineOptions {
 // and Bauchet and Lafarge, "KIPPI", 2018, which cut pictures alike). Polygons are simple by
 // construction.
 // `to_seen` is the distance of each cell to the nearest seen one.
-std::vector<Polygon2> Outline(const PlaneRaster& raster, const std::vector<Evidence>& known,
-                              const std::vector<float>& to_seen,
-                              const std::vector<CutLine>& creases, const OutlineOptions& options);
+std::vector<Polygon> Outline(const PlaneRaster& raster, const std::vector<Evidence>& known,
+                             const std::vector<float>& to_seen, const std::vector<CutLine>& creases,
+                             const OutlineOptions& options);
 
 }  // namespace stucco

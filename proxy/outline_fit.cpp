@@ -436,7 +436,7 @@ bool IsSimple(const Polygon& polygon) {
   for (size_t r = 0; r < polygon.rings.size(); ++r) {
     const Ring& ring = polygon.rings[r];
     if (ring.size() < 3 || (SignedArea(ring) > 0) != (r == 0)) return false;
-    if (r > 0 && !Contains({{polygon.rings[0]}}, ring[0])) return false;
+    if (r > 0 && !Contains(polygon.rings[0], ring[0])) return false;
     for (size_t i = 0; i < ring.size(); ++i) {
       edges.push_back(EdgeOf(ring, i));
       place.emplace_back(r, i);

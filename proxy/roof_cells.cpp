@@ -25,7 +25,7 @@ constexpr double kFarFromSamples = 0.1;
 constexpr double kLevelRoof = 0.3;  // the roof of last resort
 constexpr double kForbidden = 1e3;  // a square metre of roof in the ground
 constexpr double kMeets_m = 0.02;   // roofs nearer than this along a border meet there
-constexpr double kSameLine_m = 0.03;
+constexpr double kSameLine_m = 1e-5;
 
 RoofPlane RoofOf(const Plane& plane) {
   const double z = plane.normal.z();
@@ -226,17 +226,13 @@ std::vector<int> FaceOfCells(const PlaneRaster& raster, const Arrangement& arran
   std::vector<int> faces(static_cast<size_t>(raster.width) * raster.height, -1);
   for (size_t f = 0; f < arrangement.faces.size(); ++f) {
     if (labels[f] < 0) continue;
-    std::vector<Eigen::Vector2d> ring;
-    Eigen::AlignedBox2d box;
-    for (const int v : arrangement.faces[f]) {
-      ring.push_back(arrangement.vertices[v]);
-      box.extend(ring.back());
-    }
+    const Polygon cell{{RingOf(arrangement, f)}};
+    const Eigen::AlignedBox2d box = BoundsOf(cell);
     const Eigen::Array2d low = (box.min() - raster.origin).array() / raster.cell;
     const Eigen::Array2d high = (box.max() - raster.origin).array() / raster.cell;
     for (int y = std::max(0, int(low.y())); y <= std::min(raster.height - 1, int(high.y())); ++y) {
       for (int x = std::max(0, int(low.x())); x <= std::min(raster.width - 1, int(high.x())); ++x) {
-        if (ContainsPoint(ring, raster.Center(x, y))) faces[raster.Index(x, y)] = int(f);
+        if (Contains(cell, raster.Center(x, y))) faces[raster.Index(x, y)] = int(f);
       }
     }
   }
@@ -300,7 +296,8 @@ CellProblem ProblemOf(const RoofCells& roof, const std::vector<int>& cell_of_fac
     const Eigen::Vector2d q = roof.arrangement.vertices[edges[link]->to];
     const double step = std::max(std::abs(roof.roofs[a].At(p) - roof.roofs[b].At(p)),
                                  std::abs(roof.roofs[a].At(q) - roof.roofs[b].At(q)));
-    return (step < kMeets_m ? kMeetingBorder : kStepBorder) * detail * (q - p).norm();
+    const double price = step < kMeets_m ? kMeetingBorder + step / detail : kStepBorder;
+    return price * detail * (q - p).norm();
   };
   return problem;
 }
@@ -333,18 +330,29 @@ CellNumbers NumberCells(const std::vector<int>& labels) {
   return numbers;
 }
 
-// What the raster's cells within each cell of the footprint cost under each roof.
+// What each cell of the footprint costs under each roof: its area times the mean of the raster's
+// cells within it. A sliver that holds no centre of them costs what the one around its middle does.
 std::vector<std::vector<double>> DataOf(const RoofCells& roof, const CellNumbers& numbers,
                                         const PlaneRaster& raster, const Costs& costs) {
   std::vector<std::vector<double>> data(numbers.face_of_cell.size(),
                                         std::vector<double>(roof.roofs.size(), 0));
+  std::vector<int> counts(data.size(), 0);
+  const auto add = [&](size_t cell, size_t at) {
+    for (size_t k = 0; k < roof.roofs.size(); ++k) data[cell][k] += costs[at][k];
+    ++counts[cell];
+  };
   const std::vector<int> face_at = FaceOfCells(raster, roof.arrangement, roof.labels);
-  const double area = raster.cell * raster.cell;
   for (size_t at = 0; at < face_at.size(); ++at) {
-    if (face_at[at] < 0) continue;
-    for (size_t k = 0; k < roof.roofs.size(); ++k) {
-      data[numbers.cell_of_face[face_at[at]]][k] += area * costs[at][k];
+    if (face_at[at] >= 0) add(numbers.cell_of_face[face_at[at]], at);
+  }
+  for (size_t c = 0; c < data.size(); ++c) {
+    const auto& face = roof.arrangement.faces[numbers.face_of_cell[c]];
+    if (counts[c] == 0) {
+      const int at = raster.IndexAt(MiddleOf(roof.arrangement, face));
+      if (at >= 0) add(c, at);
     }
+    const double area = SignedArea(RingOf(roof.arrangement, numbers.face_of_cell[c]));
+    for (double& cost : data[c]) cost *= area / std::max(1, counts[c]);
   }
   return data;
 }

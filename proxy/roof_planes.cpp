@@ -18,22 +18,20 @@ namespace {
 constexpr double kRoofNormal = 0.26;  // 75 degrees of pitch: steeper is a wall
 constexpr double kOnWall_m = 0.4;     // what stands upright this near to the outline is its wall
 
-// Cells of half a metre with what stands highest in them.
+// By cells of half a metre: where there is anything, and where the ground shows.
 void MeasureCover(const Samples& upright, const std::vector<int>& inside, double ground,
                   RoofEvidence& evidence) {
   constexpr double kCell_m = 0.5;
-  std::map<std::pair<int, int>, double> top;
+  std::map<std::pair<int, int>, bool> bare;
   for (const int i : inside) {
     const Eigen::Vector3d& p = upright.positions[i];
-    const auto [cell, added] = top.try_emplace({static_cast<int>(std::floor(p.x() / kCell_m)),
-                                                static_cast<int>(std::floor(p.y() / kCell_m))},
-                                               p.z());
-    if (!added) cell->second = std::max(cell->second, p.z());
+    bare[{static_cast<int>(std::floor(p.x() / kCell_m)),
+          static_cast<int>(std::floor(p.y() / kCell_m))}] |= p.z() < ground + kRaised_m;
   }
-  for (const auto& [cell, height] : top) {
-    (height > ground + kRaised_m ? evidence.raised_m2 : evidence.bare_m2) += kCell_m * kCell_m;
+  for (const auto& [cell, is_bare] : bare) {
+    evidence.seen_m2 += kCell_m * kCell_m;
+    if (is_bare) evidence.bare_m2 += kCell_m * kCell_m;
   }
-  evidence.seen_m2 = evidence.raised_m2 + evidence.bare_m2;
 }
 
 std::vector<Plane> Detect(const Samples& samples, const Tolerances& tolerances,
@@ -78,13 +76,14 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
   const Samples& upright = survey.samples;
   const Tolerances& tolerances = survey.tolerances;
   RoofEvidence evidence;
-  std::vector<int> inside, above, steps;
+  std::vector<int> inside, above, steps;  // `inside` of the rim
   for (const int i : survey.bins.In(BoundsOf(building.building, 0))) {
     const Eigen::Vector3d& p = upright.positions[i];
     if (DistanceTo(building.building, p.head<2>()) > 0) continue;
     const bool upright_thing = LooksLikeWall(upright.normals[i]);
-    if (upright_thing && ToOutline(building.building, p.head<2>()) < kOnWall_m) continue;
-    inside.push_back(i);
+    const bool on_rim = ToOutline(building.building, p.head<2>()) < kOnWall_m;
+    if (upright_thing && on_rim) continue;
+    if (!on_rim) inside.push_back(i);
     if (p.z() < building.ground + kRaised_m) continue;
     if (upright_thing) {
       steps.push_back(i);

@@ -17,9 +17,8 @@ struct RoofEvidence {
   Samples samples;            // above the ground, inside of the outline
   std::vector<Plane> planes;  // roofs, by falling area; `points` are indices into `samples`
   std::vector<Plane> steps;   // upright, inside of the outline
-  double raised_m2 = 0;       // of the footprint, below samples above the ground
-  double bare_m2 = 0;         // of the footprint where the cloud shows the ground itself
-  double seen_m2 = 0;         // of both together
+  double seen_m2 = 0;         // of the footprint but for its rim, where the cloud has anything
+  double bare_m2 = 0;         // of it, where the cloud shows the ground itself
 };
 
 // The planes of a building's roof, found among the samples above its own footprint, with details

@@ -18,6 +18,9 @@ struct CloudScale {
 // Requires at least 4 samples. All zero when most of them are at one place.
 CloudScale MeasureScale(const Samples& samples);
 
+// Samples across the level of detail: as many as find it, and no more.
+inline constexpr double kSamplesPerDetail = 4;
+
 // What every step after this works with, in world units.
 struct Tolerances {
   double level_of_detail = 0;

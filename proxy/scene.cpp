@@ -30,7 +30,6 @@ constexpr char kCloudRemedy[] =
 CloudScale PrepareSamples(const ProxyInput& input, const ProxyOptions& options,
                           PlanarScene& scene) {
   const bool metric = input.georef.metric;
-  constexpr double kSamplesPerDetail = 4;
   constexpr int kFirstLook = 500'000;  // points that tell the scale of any scene
   scene.samples = ThinCloud(input.cloud, input.photos, std::min(options.max_points, kFirstLook), 0);
   const auto fewest = static_cast<size_t>(std::max(12, options.min_points));

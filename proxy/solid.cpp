@@ -197,12 +197,12 @@ Facet ToFacet(const PlanarScene& scene, const Setting& setting, const Partition&
       FrameOf(plane, scene.up, scene.main_direction, world_from_local.translation());
   const PlaneView& used = seen ? *view : blank;
   const auto flatten = [&](const std::vector<int>& ring) {
-    std::vector<Eigen::Vector2d> points;
+    Ring points;
     for (const auto& p : to_world(ring)) points.push_back(used.raster.frame.ToPlane(p));
     return points;
   };
-  Polygon2 polygon{.outer = flatten(boundary.polygon.outer), .holes = {}};
-  for (const auto& hole : boundary.polygon.holes) polygon.holes.push_back(flatten(hole));
+  Polygon polygon{{flatten(boundary.polygon.outer)}};
+  for (const auto& hole : boundary.polygon.holes) polygon.rings.push_back(flatten(hole));
   Facet facet = MakeFacet(scene.samples, used, polygon);
   if (!seen) facet.source = "extruded";
   // The exact corners, so that neighbouring facets share them.

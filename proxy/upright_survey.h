@@ -17,5 +17,8 @@ struct UprightSurvey {
 };
 
 UprightSurvey UprightSurveyOf(const PlanarScene& scene);
+// Turns samples of the scene's cloud.
+UprightSurvey UprightSurveyOf(Samples samples, const Tolerances& tolerances,
+                              const Eigen::Vector3d& up);
 
 }  // namespace stucco

@@ -76,17 +76,16 @@ Facet MeasuredFacet(const ExtrudedFace& face, const Samples& near, const Toleran
   const PlaneFrame frame =
       FrameOf(plane, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), face.outer.front());
   view.raster.frame = frame;
-  Polygon2 polygon;
-  Eigen::AlignedBox2d box;
+  Polygon polygon;
   const auto flat = [&](const std::vector<Eigen::Vector3d>& ring) {
-    std::vector<Eigen::Vector2d> points;
+    Ring points;
     points.reserve(ring.size());
     for (const auto& p : ring) points.push_back(frame.ToPlane(p));
     return points;
   };
-  polygon.outer = flat(face.outer);
-  for (const auto& p : polygon.outer) box.extend(p);
-  for (const auto& hole : face.holes) polygon.holes.push_back(flat(hole));
+  polygon.rings.push_back(flat(face.outer));
+  for (const auto& hole : face.holes) polygon.rings.push_back(flat(hole));
+  const Eigen::AlignedBox2d box = BoundsOf(polygon);
   if (face.kind != ExtrudedFace::Kind::kFloor && !plane.points.empty()) {
     // The grid must reach over the whole facet: what lies beside the samples is not seen.
     Eigen::AlignedBox2d seen;

@@ -11,10 +11,25 @@ namespace {
 
 // visit(a, b) for every edge.
 template <class Visit>
+void VisitEdges(const Ring& ring, const Visit& visit) {
+  for (size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
+}
+
+template <class Visit>
 void VisitEdges(const Polygon& polygon, const Visit& visit) {
-  for (const Ring& ring : polygon.rings) {
-    for (size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
-  }
+  for (const Ring& ring : polygon.rings) VisitEdges(ring, visit);
+}
+
+// By crossings; `outline` is a ring or a polygon.
+template <class Outline>
+bool Encloses(const Outline& outline, const Eigen::Vector2d& p) {
+  bool inside = false;
+  VisitEdges(outline, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    if ((a.y() > p.y()) == (b.y() > p.y())) return;
+    const bool left_of_upward_edge = Cross(b - a, p - a) > 0;
+    if (left_of_upward_edge == (b.y() > a.y())) inside = !inside;
+  });
+  return inside;
 }
 
 bool CrossEachOther(const Segment2d& s, const Segment2d& t) {
@@ -52,13 +67,11 @@ Eigen::AlignedBox2d BoundsOf(const Polygon& polygon) {
 }
 
 bool Contains(const Polygon& polygon, const Eigen::Vector2d& p) {
-  bool inside = false;
-  VisitEdges(polygon, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    if ((a.y() > p.y()) == (b.y() > p.y())) return;
-    const bool left_of_upward_edge = Cross(b - a, p - a) > 0;
-    if (left_of_upward_edge == (b.y() > a.y())) inside = !inside;
-  });
-  return inside;
+  return Encloses(polygon, p);
+}
+
+bool Contains(const Ring& ring, const Eigen::Vector2d& p) {
+  return Encloses(ring, p);
 }
 
 double SquaredDistance(const Segment2d& segment, const Eigen::Vector2d& p) {

@@ -33,6 +33,7 @@ double Area(const Polygon& polygon);
 Eigen::AlignedBox2d BoundsOf(const Polygon& polygon);
 // By crossings: points on the boundary may count either way.
 bool Contains(const Polygon& polygon, const Eigen::Vector2d& p);
+bool Contains(const Ring& ring, const Eigen::Vector2d& p);
 
 // To the nearest point of the segment, which may have no length. The squares spare a square root to
 // whoever only compares.

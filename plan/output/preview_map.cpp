@@ -90,7 +90,7 @@ void DrawNames(const Plan& plan, const MapScale& scale, Svg& svg) {
     const double letters = static_cast<double>(footprint.building.size());
     const bool fits = size.x() > kWidthPerLetter * letters + 8 && size.y() > 20;
     const Eigen::Vector2d middle = (box.low + box.high) / 2;
-    if (!fits || !Contains(Polygon{{footprint.rings_m.front()}}, middle)) continue;
+    if (!fits || !Contains(footprint.rings_m.front(), middle)) continue;
     if (footprint.rings_m.size() > 1) continue;  // its middle is a courtyard
     svg.Text(scale.Page(middle) + Eigen::Vector2d(0, 3), "class=\"name\"", footprint.building);
   }

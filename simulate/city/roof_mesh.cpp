@@ -146,7 +146,7 @@ double RoofAt(const Solid& solid, const Vector2d& place) {
     if (face.facet_class != FacetClass::kRoof) continue;
     Ring ring;
     for (const int corner : face.outer) ring.push_back(solid.vertices[corner].head<2>());
-    if (!Contains({{ring}}, place)) continue;
+    if (!Contains(ring, place)) continue;
     const Vector3d normal = NormalOf(solid, face);
     const Vector3d& corner = solid.vertices[face.outer[0]];
     const double fall = normal.head<2>().dot(place - corner.head<2>()) / normal.z();

@@ -67,7 +67,7 @@ TEST(GridHovers, StayInTheAreaAndOutOfNoFlyPolygons) {
   EXPECT_LT(hovers.size(), GridHovers(site, FindCamera("mavic-3e"), {}).size());
   for (const Hover& hover : hovers) {
     EXPECT_TRUE(Contains(site.area, hover.position.head<2>()));
-    EXPECT_FALSE(Contains({{tower}}, hover.position.head<2>()));
+    EXPECT_FALSE(Contains(tower, hover.position.head<2>()));
   }
 }
 

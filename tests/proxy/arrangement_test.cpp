@@ -21,9 +21,7 @@ CutLine Line(double x, double y, double angle_deg) {
 }
 
 double AreaOfFace(const Arrangement& arrangement, size_t f) {
-  std::vector<Vector2d> ring;
-  for (const int v : arrangement.faces[f]) ring.push_back(arrangement.vertices[v]);
-  return SignedArea(ring);
+  return SignedArea(RingOf(arrangement, f));
 }
 
 Vector2d CenterOfFace(const Arrangement& arrangement, size_t f) {
@@ -79,12 +77,12 @@ TEST(UnionOf, ARingHasAHoleAndNoStraightCorners) {
   }
   const auto polygons = UnionOf(arrangement, inside);
   ASSERT_EQ(polygons.size(), 1u);
-  EXPECT_EQ(polygons[0].outer.size(), 4u);
-  ASSERT_EQ(polygons[0].holes.size(), 1u);
-  EXPECT_EQ(polygons[0].holes[0].size(), 4u);
-  EXPECT_GT(SignedArea(polygons[0].outer), 0);
-  EXPECT_LT(SignedArea(polygons[0].holes[0]), 0);
-  EXPECT_NEAR(AreaOf(polygons[0]), 8, 1e-12);
+  EXPECT_EQ(polygons[0].rings[0].size(), 4u);
+  ASSERT_EQ(polygons[0].rings.size(), 2u);
+  EXPECT_EQ(polygons[0].rings[1].size(), 4u);
+  EXPECT_GT(SignedArea(polygons[0].rings[0]), 0);
+  EXPECT_LT(SignedArea(polygons[0].rings[1]), 0);
+  EXPECT_NEAR(Area(polygons[0]), 8, 1e-12);
 }
 
 TEST(UnionOf, FacesThatTouchInACornerAreTwoPolygons) {
@@ -97,7 +95,7 @@ TEST(UnionOf, FacesThatTouchInACornerAreTwoPolygons) {
   }
   const auto polygons = UnionOf(arrangement, inside);
   ASSERT_EQ(polygons.size(), 2u);
-  for (const auto& polygon : polygons) EXPECT_EQ(polygon.outer.size(), 4u);
+  for (const auto& polygon : polygons) EXPECT_EQ(polygon.rings[0].size(), 4u);
 }
 
 TEST(UnionOf, NothingInsideIsNoPolygon) {

@@ -90,6 +90,23 @@ House HipHouse(double length, double width, double height) {
   return house;
 }
 
+Ring HipLOutline() {
+  return {{0, 0}, {12, 0}, {12, 6}, {6, 6}, {6, 14}, {0, 14}};
+}
+
+House HipLHouse(double height) {
+  House house = FlatHouse(HipLOutline(), height);
+  house.polygons.pop_back();
+  const double h = height, top = height + 3;
+  house.polygons.push_back({"south roof", {{0, 0, h}, {12, 0, h}, {9, 3, top}, {3, 3, top}}});
+  house.polygons.push_back({"west roof", {{0, 14, h}, {0, 0, h}, {3, 3, top}, {3, 11, top}}});
+  house.polygons.push_back({"east hip", {{12, 0, h}, {12, 6, h}, {9, 3, top}}});
+  house.polygons.push_back({"north hip", {{6, 14, h}, {0, 14, h}, {3, 11, top}}});
+  house.polygons.push_back({"north roof", {{12, 6, h}, {6, 6, h}, {3, 3, top}, {9, 3, top}}});
+  house.polygons.push_back({"east roof", {{6, 6, h}, {6, 14, h}, {3, 11, top}, {3, 3, top}}});
+  return house;
+}
+
 double VolumeOf(const Building& building) {
   const TriangleSoup soup = TriangulateFacets(building.facets);
   double volume = 0;

@@ -37,6 +37,10 @@ std::vector<MapEntry> Displaced(std::vector<MapEntry> entries, double turn_deg,
 House FlatHouse(const Ring& ring, double height);
 // A hip roof of 45 degrees over a rectangle that is longer in x.
 House HipHouse(double length, double width, double height);
+// Hip roofs of 45 degrees over the two wings of an L, 6 m wide; the valley between the wings lies
+// in line with the hip of the corner opposite to it.
+House HipLHouse(double height);
+Ring HipLOutline();
 
 // Enclosed volume and the area of one class; facets must be closed for the volume.
 double VolumeOf(const Building& building);

@@ -10,6 +10,7 @@
 
 #include "proxy/abstract.h"
 #include "proxy/closed_check.h"
+#include "proxy/closer_look.h"
 #include "tests/proxy/map_scene.h"
 #include "tests/proxy/scene.h"
 
@@ -108,6 +109,19 @@ TEST(MapSolids, ClosesAHipRoof) {
   ExpectFacades(house, 4);
   // Below the hip roof: 14 x 8 x 5; the roof: a ridge of 6 m, 4 m above the eaves.
   EXPECT_NEAR(VolumeOf(house), 560 + 4.0 / 6 * 8 * (2 * 14 + 6), 12);
+}
+
+TEST(MapSolids, RoofsThatMeetHaveNoWallsBetweenThem) {
+  const testing::House house = testing::HipLHouse(4);
+  for (const uint64_t seed : {1, 2, 3}) {
+    const auto captured = testing::Capture({house}, {testing::GroundSquare(25)},
+                                           {.spacing = 0.2, .noise = 0.03, .seed = seed});
+    const Made made = Make(captured, {{"B0001", {testing::HipLOutline()}, 7}});
+    const Building& building = Closed(made, "B0001");
+    EXPECT_EQ(Of(building, FacetClass::kWall).size(), 6u) << seed;
+    EXPECT_EQ(Of(building, FacetClass::kRoof).size(), 6u) << seed;
+    ExpectFacades(building, 6);
+  }
 }
 
 TEST(MapSolids, StepsBetweenTwoHeights) {
@@ -301,6 +315,31 @@ TEST(MapSolids, TreesAreNoPartOfABuilding) {
   EXPECT_EQ(made.proxy.buildings.size(), 2u);  // the house and the ground: no tree
 }
 
+TEST(MapSolids, LeavesAboveBareGroundAreNoRoof) {
+  // Two patches of leaves as smooth as a roof, and a crown around them.
+  const testing::House crown{
+      {{"low", {{14.5, -2.5, 4}, {17, -2.5, 5}, {17, 1.5, 5}, {14.5, 1.5, 4}}},
+       {"high", {{17.3, -2, 6}, {19.6, -2, 6}, {19.6, 1.5, 7}, {17.3, 1.5, 7}}}}};
+  auto captured =
+      testing::Capture({testing::BoxHouse(12, 9, 6), crown}, {testing::GroundSquare(25)}, kCapture);
+  testing::AddTree({17, -0.5, 5.5}, 2.5, 2500, 3, captured);
+  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4.5, 6, 4.5)}, 6},
+                                    {"B0002", {Rectangle(14, -3, 20, 2)}, 6}});
+  Closed(made, "B0001");
+  EXPECT_EQ(testing::Find(made.proxy, "B0002"), nullptr);
+  EXPECT_TRUE(Says(made.findings.warnings, "B0002: not built, or demolished"));
+}
+
+TEST(MapSolids, ARoofOnPostsStands) {
+  auto canopy = FlatHouse(Rectangle(12, -4, 20, 4), 4.5);
+  canopy.polygons = {canopy.polygons.back()};
+  const auto captured = testing::Capture({testing::BoxHouse(10, 9, 6), canopy},
+                                         {testing::GroundSquare(25)}, kCapture);
+  const Made made = Make(captured, {{"B0001", {Rectangle(-5, -4.5, 5, 4.5)}, 6},
+                                    {"B0002", {Rectangle(12, -4, 20, 4)}, 4.5}});
+  EXPECT_NEAR(VolumeOf(Closed(made, "B0002")), 64 * 4.5, 10);
+}
+
 TEST(MapSolids, NeighboursKeepTouching) {
   // Two houses of different height wall to wall; the map is 0.4 m off.
   testing::House tall = FlatHouse(Rectangle(-8, -4, 0, 4), 8);
@@ -322,6 +361,52 @@ TEST(MapSolids, NeighboursKeepTouching) {
   };
   EXPECT_NEAR(faces(left, Eigen::Vector3d::UnitX()), -faces(right, -Eigen::Vector3d::UnitX()),
               1e-9);
+}
+
+TEST(MapSolids, DetailsDoNotDependOnTheSizeOfTheSurvey) {
+  std::vector<testing::House> houses;
+  std::vector<MapEntry> map;
+  for (const double x : {-14, 14}) {
+    for (const double y : {-10, 10}) {
+      const Ring ring = Rectangle(x - 6, y - 4, x + 6, y + 4);
+      houses.push_back(FlatHouse(ring, 6));
+      map.push_back({"B000" + std::to_string(houses.size()), {ring}, 8.5});
+      testing::House lift = FlatHouse(Rectangle(x - 1, y - 1, x + 1, y + 1), 8.5);
+      for (auto& polygon : lift.polygons) {
+        for (auto& corner : polygon.ring) corner.z() = std::max(corner.z(), 6.0);
+      }
+      houses.push_back(lift);
+    }
+  }
+  // The survey may have as many samples as one of its houses needs.
+  const auto captured = testing::Capture(houses, {testing::GroundSquare(40)}, {.noise = 0.02});
+  const Made made = Make(captured, map, {.max_points = 50000});
+  EXPECT_TRUE(Says(made.findings.warnings, "the level of detail is"));
+  for (const MapEntry& entry : map) {
+    const Building& house = Closed(made, entry.id);
+    EXPECT_EQ(Of(house, FacetClass::kRoof).size(), 2u);
+    EXPECT_NEAR(VolumeOf(house), 12 * 8 * 6 + 2 * 2 * 2.5, 4);
+  }
+}
+
+TEST(SetsOfBuildings, KeepNeighboursTogetherAndSamplesFew) {
+  PlanarScene scene;
+  scene.samples.cell = 0.15;
+  scene.tolerances.level_of_detail = 0.3;  // which asks for samples 0.075 m apart: four times these
+  std::vector<MapBuilding> buildings;
+  for (int b = 0; b < 4; ++b) {
+    const double x = b < 2 ? 10 * b : 100 * b;  // the first two stand wall to wall
+    MapBuilding& building = buildings.emplace_back();
+    building.parts = {{{Rectangle(x, 0, x + 10, 8)}}};
+    for (int i = 0; i < 100; ++i) scene.samples.positions.emplace_back(x + 5, 0.08 * i, 3);
+  }
+  scene.samples.normals.resize(400, Eigen::Vector3d::UnitZ());
+  const UprightSurvey survey = UprightSurveyOf(scene);
+  using Sets = std::vector<std::vector<size_t>>;
+  EXPECT_EQ(SetsOfBuildings(survey, buildings, 1600), (Sets{{0, 1}, {2, 3}}));
+  EXPECT_EQ(SetsOfBuildings(survey, buildings, 1000), (Sets{{0, 1}, {2, 3}}));
+  EXPECT_EQ(SetsOfBuildings(survey, buildings, 500), (Sets{{0, 1}, {2}, {3}}));
+  EXPECT_EQ(SetsOfBuildings(survey, buildings, 10000), (Sets{{0, 1, 2, 3}}));
 }
 
 TEST(MapSolids, UsesNoMapWhenToldSo) {

@@ -99,7 +99,7 @@ std::vector<Polygon> PolygonsOf(const std::vector<Ring>& loops) {
     if (SignedArea(loop) > 0) continue;
     for (Polygon& polygon : polygons) {
       if (SignedArea(polygon.rings[0]) <= -SignedArea(loop)) continue;
-      if (!Contains({{polygon.rings[0]}}, loop[0])) continue;
+      if (!Contains(polygon.rings[0], loop[0])) continue;
       polygon.rings.push_back(loop);
       break;
     }
