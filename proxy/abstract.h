@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-#include "proxy/findings.h"
-#include "proxy/input.h"
-#include "proxy/options.h"
+#include "proxy/cloud/input.h"
+#include "proxy/options/findings.h"
+#include "proxy/options/proxy_options.h"
 #include "survey/proxy.h"
 #include "survey/stage.h"
 

@@ -53,6 +53,7 @@ FLOORS = {
     "evaluate": ("figures", "geometry", "picture", "page", "."),
     "plan": ("options", "camera", "safety", "map", "space", "quality", "evaluate", "dipping",
              "planar", "match", "baseline", "path", "output", "mission", "field", "."),
+    "proxy": ("options", "cloud", "planes", "scene", "facets", "solids", "map", "output", "."),
     "simulate": (".", "scene", "paint", "city", "render", "flight"),
 }
 

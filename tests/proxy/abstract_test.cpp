@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-#include "proxy/closed_check.h"
+#include "proxy/solids/closed_check.h"
 #include "survey/error.h"
 #include "tests/proxy/scene.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "proxy/closed_check.h"
+#include "proxy/solids/closed_check.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

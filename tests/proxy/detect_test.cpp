@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "proxy/detect.h"
+#include "proxy/planes/detect.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "proxy/consolidate.h"
-#include "proxy/normals.h"
+#include "proxy/cloud/normals.h"
+#include "proxy/planes/consolidate.h"
 #include "tests/proxy/scene.h"
 
 namespace stucco {

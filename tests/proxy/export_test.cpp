@@ -8,8 +8,8 @@
 #include <sstream>
 #include <string>
 
-#include "proxy/export_cityjson.h"
-#include "proxy/export_obj.h"
+#include "proxy/output/cityjson.h"
+#include "proxy/output/obj.h"
 
 namespace stucco {
 namespace {

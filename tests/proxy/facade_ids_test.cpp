@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "proxy/facade_ids.h"
+#include "proxy/map/facade_ids.h"
 
 #include <gtest/gtest.h>
 

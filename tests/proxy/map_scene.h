@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "proxy/input.h"
+#include "proxy/cloud/input.h"
 #include "survey/geometry2d.h"
 #include "survey/plan.h"
 #include "survey/proxy.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "proxy/map_solids.h"
+#include "proxy/map/map_solids.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <set>
 
 #include "proxy/abstract.h"
-#include "proxy/closed_check.h"
-#include "proxy/closer_look.h"
+#include "proxy/map/closer_look.h"
+#include "proxy/solids/closed_check.h"
 #include "tests/proxy/map_scene.h"
 #include "tests/proxy/scene.h"
 
@@ -338,6 +338,18 @@ TEST(MapSolids, ARoofOnPostsStands) {
   const Made made = Make(captured, {{"B0001", {Rectangle(-5, -4.5, 5, 4.5)}, 6},
                                     {"B0002", {Rectangle(12, -4, 20, 4)}, 4.5}});
   EXPECT_NEAR(VolumeOf(Closed(made, "B0002")), 64 * 4.5, 10);
+}
+
+TEST(MapSolids, AParapetIsNoRoof) {
+  testing::House house = FlatHouse(Rectangle(-6, -4, 6, 4), 6);
+  house.polygons.back().ring = {
+      {-5.5, -3.5, 5.6}, {5.5, -3.5, 5.6}, {5.5, 3.5, 5.6}, {-5.5, 3.5, 5.6}};
+  house.polygons.push_back({"rim", {{-6, -4, 6}, {6, -4, 6}, {5.5, -3.5, 5.6}, {-5.5, -3.5, 5.6}}});
+  house.polygons.push_back({"rim", {{6, -4, 6}, {6, 4, 6}, {5.5, 3.5, 5.6}, {5.5, -3.5, 5.6}}});
+  const auto captured =
+      testing::Capture({house}, {testing::GroundSquare(25)}, {.spacing = 0.1, .noise = 0.02});
+  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 6}});
+  EXPECT_EQ(Closed(made, "B0001").facets.size(), 6u);
 }
 
 TEST(MapSolids, NeighboursKeepTouching) {

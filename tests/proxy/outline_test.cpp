@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "proxy/outline.h"
+#include "proxy/facets/outline.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "proxy/facets.h"
-#include "proxy/plane_view.h"
+#include "proxy/facets/facets.h"
+#include "proxy/facets/plane_view.h"
 
 namespace stucco {
 namespace {

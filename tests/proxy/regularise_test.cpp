@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "proxy/regularise.h"
+#include "proxy/planes/regularise.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "proxy/clusters.h"
-#include "proxy/ground.h"
+#include "proxy/scene/clusters.h"
+#include "proxy/scene/ground.h"
 
 namespace stucco {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "proxy/samples.h"
+#include "proxy/cloud/samples.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "proxy/grid_index.h"
-#include "proxy/scale.h"
+#include "proxy/cloud/grid_index.h"
+#include "proxy/cloud/scale.h"
 
 namespace stucco {
 namespace {

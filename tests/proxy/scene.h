@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "proxy/input.h"
+#include "proxy/cloud/input.h"
 #include "survey/point_cloud.h"
 
 namespace stucco::testing {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "proxy/soundness.h"
+#include "proxy/solids/soundness.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -50,7 +50,9 @@ TEST(Geometry2d, HolesAreOutside) {
   EXPECT_FALSE(Contains(polygon, {4, 4}));
   EXPECT_FALSE(Contains(polygon, {11, 4}));
   EXPECT_FALSE(Contains(polygon, {-1, 3}));
-  EXPECT_FALSE(Contains({}, {0, 0}));
+  EXPECT_FALSE(Contains(Polygon{}, {0, 0}));
+  EXPECT_FALSE(Contains(Ring{}, {0, 0}));
+  EXPECT_TRUE(Contains(polygon.rings[1], {4, 4}));
 }
 
 TEST(Geometry2d, DistanceToASegment) {

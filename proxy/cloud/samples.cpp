@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/cloud/samples.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace stucco {
+namespace {
+
+struct Box {
+  Eigen::Vector3d min = Eigen::Vector3d::Zero();
+  Eigen::Vector3d max = Eigen::Vector3d::Zero();
+  bool Contains(const Eigen::Vector3d& p) const {
+    return (p.array() >= min.array()).all() && (p.array() <= max.array()).all();
+  }
+};
+
+// The box of the middle 98 % of the points along each axis, grown by three times its size: points
+// beyond it are strays of the dense matching, not part of the scene.
+Box BoxOfScene(const PointStream& stream) {
+  constexpr size_t kProbes = 200000;
+  const size_t stride = std::max<size_t>(1, stream.count / kProbes);
+  std::array<std::vector<double>, 3> values;
+  size_t i = 0;
+  stream.for_each([&](const CloudPoint& point) {
+    if (i++ % stride != 0 || !point.position.allFinite()) return;
+    for (int axis = 0; axis < 3; ++axis) values[axis].push_back(point.position[axis]);
+  });
+  Box box;
+  if (values[0].empty()) return box;
+  const auto count = static_cast<std::ptrdiff_t>(values[0].size());
+  const std::ptrdiff_t low = count / 100;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto begin = values[axis].begin();
+    std::nth_element(begin, begin + low, values[axis].end());
+    box.min[axis] = begin[low];
+    std::nth_element(begin, begin + (count - 1 - low), values[axis].end());
+    box.max[axis] = begin[count - 1 - low];
+  }
+  const double margin = 3 * (box.max - box.min).maxCoeff() + 1e-9;
+  box.min.array() -= margin;
+  box.max.array() += margin;
+  return box;
+}
+
+constexpr int kBitsPerAxis = 21;
+
+uint64_t CellOf(const Eigen::Vector3d& point, const Box& box, double cell) {
+  uint64_t key = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto index = static_cast<uint64_t>((point[axis] - box.min[axis]) / cell);
+    key = key << kBitsPerAxis | index;
+  }
+  return key;
+}
+
+// Keys of neighbouring cells differ in few bits, of which the standard hash makes long chains
+// (the finaliser of MurmurHash3, Appleby 2011).
+struct MixedHash {
+  size_t operator()(uint64_t key) const {
+    key = (key ^ key >> 33) * 0xff51afd7ed558ccd;
+    key = (key ^ key >> 33) * 0xc4ceb9fe1a85ec53;
+    return key ^ key >> 33;
+  }
+};
+
+// The key of the cell of twice the size around a cell.
+uint64_t Coarser(uint64_t key) {
+  constexpr uint64_t kAxis = (uint64_t{1} << kBitsPerAxis) - 1;
+  uint64_t coarse = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int shift = axis * kBitsPerAxis;
+    coarse |= ((key >> shift & kAxis) >> 1) << shift;
+  }
+  return coarse;
+}
+
+struct CellCount {
+  double cell = 0;
+  size_t cells = 0;
+  size_t kept = 0;  // points inside the box
+};
+
+// Counts the cells with points; doubles their size whenever there are more than `most`.
+CellCount CountCells(const PointStream& stream, const Box& box, double cell, size_t most) {
+  CellCount result{.cell = cell};
+  std::unordered_set<uint64_t, MixedHash> keys;
+  stream.for_each([&](const CloudPoint& point) {
+    if (!box.Contains(point.position)) return;
+    ++result.kept;
+    keys.insert(CellOf(point.position, box, result.cell));
+    if (keys.size() <= most) return;
+    std::unordered_set<uint64_t, MixedHash> coarser;
+    for (const uint64_t key : keys) coarser.insert(Coarser(key));
+    keys.swap(coarser);
+    result.cell *= 2;
+  });
+  result.cells = keys.size();
+  return result;
+}
+
+// The cell size that leaves about nine tenths of `max_points`; 0 when no thinning is needed.
+double ChooseCell(const PointStream& stream, const Box& box, int max_points, double min_cell) {
+  const double largest = (box.max - box.min).maxCoeff();
+  const double finest = largest / ((1 << kBitsPerAxis) - 2);
+  const double least = std::max(min_cell, finest);
+  const double guess = std::max(least, largest / 28 / std::sqrt(double(max_points)));
+  const auto most = static_cast<size_t>(max_points);
+  const CellCount count = CountCells(stream, box, guess, 2 * most);
+  if (count.kept <= most) return min_cell > finest ? min_cell : 0;
+  if (count.cells <= most && count.cell <= least) return least;
+  // Points lie on surfaces: the number of cells falls with the square of their side.
+  const double wanted = 0.88 * max_points;
+  return std::max(least, count.cell * std::sqrt(static_cast<double>(count.cells) / wanted));
+}
+
+// Running sums of the points of one cell.
+struct CellSum {
+  uint64_t key = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  int points = 0;
+  int camera = -1;
+};
+
+// Places of photos in their list, by the ids that the cloud has for them.
+using PlaceOfPhoto = std::map<uint32_t, int>;
+
+void AddPoint(const CloudPoint& point, size_t number, const PlaceOfPhoto& places, CellSum& sum) {
+  sum.position += point.position;
+  if (point.normal.allFinite()) sum.normal += point.normal.cast<double>();
+  ++sum.points;
+  if (sum.camera >= 0 || point.views.empty()) return;
+  // Not always the first: the photos with low numbers would see everything.
+  const auto found = places.find(point.views[number % point.views.size()]);
+  if (found != places.end()) sum.camera = found->second;
+}
+
+struct CellSums {
+  std::vector<CellSum> sums;  // by key
+  size_t dropped = 0;
+  bool too_many = false;
+};
+
+// Cell 0: every point is a cell of its own.
+CellSums SumCells(const PointStream& stream, const PlaceOfPhoto& places, const Box& box,
+                  double cell, size_t most) {
+  CellSums result;
+  std::unordered_map<uint64_t, size_t, MixedHash> place;
+  size_t number = 0;
+  stream.for_each([&](const CloudPoint& point) {
+    const size_t i = number++;
+    if (!point.position.allFinite() || !box.Contains(point.position)) {
+      ++result.dropped;
+      return;
+    }
+    const uint64_t key = cell > 0 ? CellOf(point.position, box, cell) : uint64_t{i};
+    const auto [entry, added] = place.try_emplace(key, result.sums.size());
+    if (added && result.sums.size() == most) {
+      place.erase(entry);
+      result.too_many = true;
+      return;
+    }
+    if (added) result.sums.emplace_back().key = key;
+    AddPoint(point, i, places, result.sums[entry->second]);
+  });
+  std::ranges::sort(result.sums, {}, &CellSum::key);
+  return result;
+}
+
+}  // namespace
+
+PointStream StreamOf(const PointCloud& cloud) {
+  return {cloud.size(), [&cloud](const std::function<void(const CloudPoint&)>& visit) {
+            CloudPoint point;
+            for (size_t i = 0; i < cloud.size(); ++i) {
+              point.position = cloud.positions[i];
+              if (!cloud.normals.empty()) point.normal = cloud.normals[i];
+              if (!cloud.views.empty()) point.views = cloud.views[i];
+              visit(point);
+            }
+          }};
+}
+
+PointStream StreamOf(const std::filesystem::path& ply) {
+  return {ReadPlyLayout(ply).points,
+          [ply](const std::function<void(const CloudPoint&)>& visit) { ForEachPoint(ply, visit); }};
+}
+
+Samples ThinCloud(const PointStream& stream, std::span<const SurveyPhoto> photos, int max_points,
+                  double min_cell) {
+  constexpr double kLarger = 1.08;  // about 15 % fewer cells
+  const Box box = BoxOfScene(stream);
+  Samples samples;
+  PlaceOfPhoto places;
+  for (const SurveyPhoto& photo : photos) {
+    places[photo.id.value] = static_cast<int>(samples.camera_centers.size());
+    samples.camera_centers.push_back(photo.cam_from_world.Center());
+  }
+  samples.cell = ChooseCell(stream, box, max_points, min_cell);
+  const auto most = static_cast<size_t>(max_points);
+  CellSums cells = SumCells(stream, places, box, samples.cell, most);
+  while (cells.too_many) {
+    samples.cell *= kLarger;
+    cells = SumCells(stream, places, box, samples.cell, most);
+  }
+  samples.dropped = cells.dropped;
+  for (const CellSum& sum : cells.sums) {
+    const double length = sum.normal.norm();
+    samples.positions.push_back(sum.position / sum.points);
+    samples.normals.push_back(length > 1e-6 ? Eigen::Vector3d(sum.normal / length)
+                                            : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+    samples.weights.push_back(sum.points);
+    samples.cameras.push_back(sum.camera);
+  }
+  return samples;
+}
+
+}  // namespace stucco

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "proxy/cloud/input.h"
+#include "proxy/map/outlines.h"
+#include "proxy/map/upright_survey.h"
+#include "proxy/options/proxy_options.h"
+#include "proxy/scene/scene.h"
+
+namespace stucco {
+
+// Whether the scene's samples lie farther apart than its details ask for, because there are only so
+// many for all of the survey while the cloud has more.
+bool NeedsCloserLook(const PlanarScene& scene);
+
+// Of a large survey some buildings at a time, so that what is seen of a building does not depend on
+// how many others there are: buildings, by number, of which the samples are about as dense as
+// details ask for, and no more than `max_points`. Neighbours that stand next to each other are
+// looked at together. Every building is in one set.
+std::vector<std::vector<size_t>> SetsOfBuildings(const UprightSurvey& survey,
+                                                 std::span<const MapBuilding> buildings,
+                                                 int max_points);
+
+// The cloud thinned once more, on and around these buildings only.
+UprightSurvey CloserLook(const PlanarScene& scene, const ProxyInput& input,
+                         std::span<const MapBuilding> buildings, const ProxyOptions& options,
+                         int threads);
+
+}  // namespace stucco

@@ -1,0 +1,397 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/map/map_solids.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "proxy/map/closer_look.h"
+#include "proxy/map/roof_cells.h"
+#include "proxy/map/wall_facets.h"
+#include "proxy/solids/closed_check.h"
+#include "proxy/solids/soundness.h"
+#include "survey/median.h"
+#include "survey/parallel.h"
+
+namespace stucco {
+namespace {
+
+// What the plan's heights are in the survey: by the ground around its buildings.
+double HeightShift(const UprightSurvey& survey, std::span<const MapBuilding> buildings) {
+  std::vector<double> shifts, feet, heights;
+  for (const MapBuilding& building : buildings) {
+    feet.push_back(building.z_m.from_m);
+    const auto ground = GroundAround(survey, building);
+    if (ground) shifts.push_back(*ground - building.z_m.from_m);
+  }
+  if (const auto shift = Median(shifts)) return *shift;
+  // Without any ground the lowest of what is seen is nearest to it.
+  constexpr double kLowest = 0.02;
+  for (const auto& p : survey.samples.positions) heights.push_back(p.z());
+  std::sort(heights.begin(), heights.end());
+  return heights[static_cast<size_t>(kLowest * static_cast<double>(heights.size()))] -
+         Median(feet).value_or(0);
+}
+
+// What a building is made from.
+struct BuildingEvidence {
+  FittedBuilding fitted;
+  RoofEvidence roof;
+  Samples near;               // on and around the building
+  std::optional<double> top;  // where its points say that it ends; a level roof's height
+  double map_top = 0;
+};
+
+// Height of a level top: the middle of what lies above the footprint, else where its walls end.
+std::optional<double> TopOf(const BuildingEvidence& evidence) {
+  constexpr size_t kFewest = 30;
+  constexpr double kWallTop = 0.95;
+  std::vector<double> heights;
+  for (const auto& p : evidence.roof.samples.positions) heights.push_back(p.z());
+  if (heights.size() >= kFewest) return Median(heights);
+  if (!(evidence.fitted.held > 0)) return std::nullopt;
+  heights.clear();
+  for (size_t i = 0; i < evidence.near.size(); ++i) {
+    if (LooksLikeWall(evidence.near.normals[i])) {
+      heights.push_back(evidence.near.positions[i].z());
+    }
+  }
+  if (heights.size() < kFewest) return std::nullopt;
+  std::sort(heights.begin(), heights.end());
+  return heights[static_cast<size_t>(kWallTop * static_cast<double>(heights.size() - 1))];
+}
+
+double AreaOf(const MapBuilding& building) {
+  double area = 0;
+  for (const Polygon& part : building.parts) area += Area(part);
+  return area;
+}
+
+// What of the map stands, by what the cloud shows inside its outline.
+enum class Standing { kStands, kGone, kUnseen };
+
+// Nobody sees the ground below a building; below trees one does, between the leaves, and leaves are
+// no planes. What stands open may still be a roof on posts or a ring of walls with a yard.
+Standing StandingOf(const BuildingEvidence& evidence) {
+  constexpr double kBare = 0.5;         // of what is seen of the footprint
+  constexpr double kSeen = 0.2;         // of the footprint
+  constexpr double kRoofed = 0.3;       // of the footprint
+  constexpr double kSmooth = 0.75;      // of what lies above it
+  constexpr double kHeld = 0.4;         // of the walls
+  constexpr double kHeldAround = 0.75;  // of the walls, where the ground shows between them
+  const double area = AreaOf(evidence.fitted.building);
+  const RoofEvidence& roof = evidence.roof;
+  double roofed = 0;
+  size_t on_planes = 0;
+  for (const Plane& plane : roof.planes) {
+    roofed += plane.area;
+    on_planes += plane.points.size();
+  }
+  const bool smooth =
+      static_cast<double>(on_planes) > kSmooth * static_cast<double>(roof.samples.size());
+  const bool open = roof.seen_m2 > kSeen * area && roof.bare_m2 > kBare * roof.seen_m2;
+  const bool walled = evidence.fitted.held > (open ? kHeldAround : kHeld);
+  if (walled || (smooth && roofed > kRoofed * area)) return Standing::kStands;
+  return open ? Standing::kGone : Standing::kUnseen;
+}
+
+// One way to close a building.
+struct Attempt {
+  FittedBuilding building;
+  RoofCells cells;
+};
+
+// The facets of a solid that stays one when its corners are written in millimetres.
+Solid SolidOf(const Attempt& attempt, const Samples& near, const Tolerances& tolerances,
+              const Eigen::Matrix3d& world_from_upright, double normal_angle_deg) {
+  constexpr double kWritten_m = 0.001;
+  Solid solid;
+  const auto faces =
+      ExtrudeCells(attempt.cells.arrangement, attempt.cells.lines, attempt.cells.labels,
+                   attempt.cells.roofs, attempt.building.ground);
+  const auto upright = FacetsOf(faces, attempt.building, near, tolerances, normal_angle_deg);
+  if (const auto as_written = FindOpening(Rounded(upright, kWritten_m))) {
+    solid.why_not = "in millimetres " + *as_written;
+    return solid;
+  }
+  solid.facets = Turned(upright, world_from_upright);
+  if (const auto problem = FindOpening(solid.facets)) {
+    solid.why_not = *problem;
+    solid.facets.clear();
+  }
+  return solid;
+}
+
+// The edges where the map has them; they keep their names.
+FittedBuilding AsMapped(FittedBuilding building, const MapBuilding& mapped) {
+  building.building = mapped;
+  size_t edge = 0;
+  for (const Polygon& part : mapped.parts) {
+    for (const Ring& ring : part.rings) {
+      for (size_t i = 0; i < ring.size(); ++i, ++edge) {
+        building.edges[edge].line = {ring[i], ring[(i + 1) % ring.size()]};
+        building.edges[edge].fitted = false;
+      }
+    }
+  }
+  return building;
+}
+
+class BuildingCloser {
+ public:
+  BuildingCloser(const Tolerances& tolerances, const Eigen::Vector3d& up,
+                 const ProxyOptions& options)
+      : tolerances_(tolerances),
+        options_(options),
+        world_from_upright_(UprightFromWorld(up).transpose()) {}
+
+  // The finest solid that is sound, and its name; facets are empty where none is.
+  std::pair<Solid, SolidDetail> Close(const BuildingEvidence& evidence,
+                                      const MapBuilding& mapped) const {
+    std::vector<int> all, large;
+    const double area = AreaOf(evidence.fitted.building);
+    for (size_t p = 0; p < evidence.roof.planes.size(); ++p) {
+      if (all.size() < static_cast<size_t>(options_.max_planes)) all.push_back(int(p));
+      constexpr double kLarge = 0.1;  // of the footprint
+      constexpr size_t kFew = 4;
+      const bool is_large = evidence.roof.planes[p].area > kLarge * area;
+      if (is_large && large.size() < kFew) large.push_back(int(p));
+    }
+    Solid solid;
+    for (const SolidDetail detail :
+         {SolidDetail::kFull, SolidDetail::kCoarse, SolidDetail::kFlatTop, SolidDetail::kFromMap}) {
+      if (detail == SolidDetail::kFull && all.empty()) continue;
+      if (detail == SolidDetail::kCoarse && (large.empty() || large.size() == all.size())) continue;
+      if (detail == SolidDetail::kFlatTop && !evidence.top) continue;
+      solid = CloseOrExplain([&] {
+        const Attempt attempt =
+            AttemptOf(detail, evidence, mapped, detail == SolidDetail::kFull ? all : large);
+        return SolidOf(attempt, evidence.near, tolerances_, world_from_upright_,
+                       options_.normal_angle_deg);
+      });
+      if (solid.why_not.empty()) return {std::move(solid), detail};
+    }
+    return {std::move(solid), SolidDetail::kFromMap};
+  }
+
+  const ProxyOptions& options() const { return options_; }
+
+ private:
+  Attempt AttemptOf(SolidDetail detail, const BuildingEvidence& evidence, const MapBuilding& mapped,
+                    const std::vector<int>& planes) const {
+    Attempt attempt{.building = evidence.fitted, .cells = {}};
+    const double lowest = evidence.fitted.ground + kRaised_m;
+    if (detail == SolidDetail::kFull || detail == SolidDetail::kCoarse) {
+      attempt.cells = LabelRoof(evidence.fitted, evidence.roof, planes, tolerances_);
+    } else if (detail == SolidDetail::kFlatTop) {
+      attempt.cells = FlatRoof(evidence.fitted.building, std::max(lowest, *evidence.top));
+    } else {
+      attempt.building = AsMapped(evidence.fitted, mapped);
+      attempt.cells = FlatRoof(mapped, std::max(lowest, evidence.top.value_or(evidence.map_top)));
+    }
+    return attempt;
+  }
+
+  const Tolerances& tolerances_;
+  const ProxyOptions& options_;
+  Eigen::Matrix3d world_from_upright_;
+};
+
+// What became of one building of the map.
+struct Outcome {
+  Standing standing = Standing::kStands;
+  SolidDetail detail = SolidDetail::kFull;
+  Solid solid;
+  size_t planes = 0;  // of its roof, found
+};
+
+std::string NoteOf(const std::string& id, const Outcome& outcome) {
+  size_t walls = 0, seen = 0, roofs = 0;
+  for (const Facet& facet : outcome.solid.facets) {
+    const bool wall = facet.facet_class == FacetClass::kWall;
+    walls += wall;
+    seen += wall && facet.seen > 0;
+    roofs += facet.facet_class == FacetClass::kRoof;
+  }
+  return fmt::format("{}: closed, {}: {} walls ({} seen), {} roofs from {} planes", id,
+                     Name(outcome.detail), walls, seen, roofs, outcome.planes);
+}
+
+void Report(const std::string& id, const Outcome& outcome, bool to_capture,
+            ProxyFindings& findings) {
+  if (outcome.standing == Standing::kGone) {
+    findings.warnings.push_back(
+        id + ": not built, or demolished: the cloud shows the ground where the map has it");
+  } else if (outcome.standing == Standing::kUnseen && !to_capture) {
+    findings.notes.push_back(id + ": not seen, and not asked for: left out");
+  } else if (outcome.solid.facets.empty()) {
+    findings.warnings.push_back(
+        fmt::format("{}: left out, it does not close: {}", id, outcome.solid.why_not));
+  } else {
+    findings.notes.push_back(NoteOf(id, outcome));
+    if (outcome.standing == Standing::kUnseen) {
+      findings.warnings.push_back(id +
+                                  ": the cloud shows too little of it: it is as the plan has it");
+    }
+  }
+}
+
+Outcome CloseOne(const UprightSurvey& survey, const BuildingCloser& closer,
+                 const MapBuilding& mapped, const FittedBuilding& fitted, double plan_to_survey_m) {
+  constexpr double kAround_m = 1;
+  Outcome outcome;
+  BuildingEvidence evidence;
+  evidence.fitted = fitted;
+  evidence.roof = FindRoofPlanes(survey, fitted, closer.options());
+  evidence.near = SubsetOf(survey.samples, survey.bins.In(BoundsOf(fitted.building, kAround_m)));
+  evidence.top = TopOf(evidence);
+  evidence.map_top = mapped.z_m.to_m + plan_to_survey_m;
+  outcome.planes = evidence.roof.planes.size();
+  outcome.standing = StandingOf(evidence);
+  const bool wanted = outcome.standing == Standing::kStands ||
+                      (outcome.standing == Standing::kUnseen && mapped.to_capture);
+  if (wanted) std::tie(outcome.solid, outcome.detail) = closer.Close(evidence, mapped);
+  return outcome;
+}
+
+// What all buildings of a map are closed with.
+struct Workshop {
+  const PlanarScene& scene;
+  const ProxyInput& input;
+  const ProxyOptions& options;
+  int threads;
+};
+
+// Of all buildings of a map that lies where the survey shows it. Of a large survey the cloud is
+// looked at once more for some of them at a time.
+std::vector<Outcome> CloseAll(const UprightSurvey& survey, const OutlineMap& map,
+                              const Workshop& with) {
+  const double plan_to_survey_m = HeightShift(survey, map.buildings);
+  std::vector<Outcome> outcomes(map.buildings.size());
+  const auto close = [&](const UprightSurvey& seen, const std::vector<size_t>& numbers) {
+    std::vector<MapBuilding> buildings;
+    for (const size_t b : numbers) buildings.push_back(map.buildings[b]);
+    const auto fitted = FitOutlines(seen, buildings, map.facades, plan_to_survey_m);
+    const BuildingCloser closer(seen.tolerances, with.scene.up, with.options);
+    ParallelFor(fitted.size(), with.threads, [&](size_t i) {
+      outcomes[numbers[i]] = CloseOne(seen, closer, buildings[i], fitted[i], plan_to_survey_m);
+    });
+  };
+  if (NeedsCloserLook(with.scene)) {
+    for (const auto& numbers : SetsOfBuildings(survey, map.buildings, with.options.max_points)) {
+      std::vector<MapBuilding> buildings;
+      for (const size_t b : numbers) buildings.push_back(map.buildings[b]);
+      close(CloserLook(with.scene, with.input, buildings, with.options, with.threads), numbers);
+    }
+  } else {
+    std::vector<size_t> all(map.buildings.size());
+    std::iota(all.begin(), all.end(), size_t{0});
+    close(survey, all);
+  }
+  return outcomes;
+}
+
+OutlineMap Moved(OutlineMap map, const Eigen::Isometry2d& motion) {
+  for (MapBuilding& building : map.buildings) building = Moved(building, motion);
+  for (MapFacade& facade : map.facades) {
+    facade.line = {motion * facade.line.a, motion * facade.line.b};
+  }
+  return map;
+}
+
+}  // namespace
+
+std::string_view Name(SolidDetail detail) {
+  switch (detail) {
+    case SolidDetail::kFull:
+      return "full";
+    case SolidDetail::kCoarse:
+      return "coarse";
+    case SolidDetail::kFlatTop:
+      return "LoD1.2";
+    case SolidDetail::kFromMap:
+      return "extruded from the plan";
+  }
+  return "";
+}
+
+std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput& input,
+                                     const ProxyOptions& options, int threads,
+                                     ProxyFindings& findings) {
+  assert(input.plan && input.georef.frame == "enu" && input.georef.metric);
+  const OutlineMap map = OutlinesOf(*input.plan, input.georef, scene.up);
+  if (map.buildings.empty()) return std::nullopt;
+  const UprightSurvey survey = UprightSurveyOf(scene);
+  const MapRegistration place = RegisterMap(survey, map);
+  if (!place.refused.empty()) {
+    findings.warnings.push_back("the plan's map gives no shape, because " + place.refused);
+    return std::nullopt;
+  }
+  findings.notes.push_back(fmt::format(
+      "the survey shows the plan's map {:.2f} m east and {:.2f} m north of where it is, turned by "
+      "{:.2f} deg; of the ground below its buildings {:.0f} % is built over, next to them {:.0f} %",
+      place.shift_m.x(), place.shift_m.y(), place.turn_rad * 180 / std::numbers::pi,
+      100 * place.raised_inside, 100 * place.raised_outside));
+  OutlineMap found = Moved(map, place.survey_from_map);
+  auto outcomes = CloseAll(survey, found, {scene, input, options, threads});
+  MapModel model{.buildings = {}, .outlines = std::move(found.buildings)};
+  for (size_t b = 0; b < outcomes.size(); ++b) {
+    Report(model.outlines[b].id, outcomes[b], model.outlines[b].to_capture, findings);
+    if (outcomes[b].solid.facets.empty()) continue;
+    model.buildings.push_back({.id = model.outlines[b].id,
+                               .watertight = true,
+                               .source = "map",
+                               .facets = std::move(outcomes[b].solid.facets)});
+  }
+  return model;
+}
+
+std::vector<std::vector<Plane>> OffTheMap(const PlanarScene& scene,
+                                          const std::vector<MapBuilding>& outlines,
+                                          ProxyFindings& findings) {
+  constexpr double kBeside_m = 1.5;   // eaves, balconies and steps belong to their building
+  constexpr double kWorthAWord = 10;  // square metres
+  const Eigen::Matrix3d upright_from_world = UprightFromWorld(scene.up);
+  std::vector<Eigen::AlignedBox2d> boxes;
+  boxes.reserve(outlines.size());
+  for (const MapBuilding& outline : outlines) boxes.push_back(BoundsOf(outline, kBeside_m));
+  const auto on_map = [&](int sample) {
+    const Eigen::Vector2d p = (upright_from_world * scene.samples.positions[sample]).head<2>();
+    for (size_t b = 0; b < outlines.size(); ++b) {
+      if (boxes[b].contains(p) && DistanceTo(outlines[b], p) < kBeside_m) return true;
+    }
+    return false;
+  };
+  std::vector<std::vector<Plane>> left;
+  for (const std::vector<Plane>& building : scene.buildings) {
+    std::vector<Plane> planes;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    double area = 0;
+    for (Plane plane : building) {
+      std::erase_if(plane.points, on_map);
+      Measure(scene.samples, 2.5 * scene.tolerances.spacing, plane);
+      if (plane.points.size() < 3 || plane.area < scene.tolerances.min_area) continue;
+      middle += plane.area * scene.samples.positions[plane.points[plane.points.size() / 2]];
+      area += plane.area;
+      planes.push_back(std::move(plane));
+    }
+    if (planes.empty()) continue;
+    if (area > kWorthAWord) {
+      findings.notes.push_back(fmt::format(
+          "on no footprint of the map: {} planes, {:.0f} m2, at {:.0f} m east and {:.0f} m north",
+          planes.size(), area, middle.x() / area, middle.y() / area));
+    }
+    left.push_back(std::move(planes));
+  }
+  return left;
+}
+
+}  // namespace stucco

@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/map/registration.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+#include "proxy/map/facade_ids.h"
+#include "survey/median.h"
+
+namespace stucco {
+namespace {
+
+constexpr double kSinOfWall = 0.26;    // 15 degrees
+constexpr double kTraceCell_m = 0.5;   // about a window's width: finer tells no more of a shift
+constexpr size_t kMostTraces = 6000;   // larger cells where a town has more
+constexpr double kLeastHeight_m = 1;   // of what stands upright in a cell
+constexpr double kBesideCloud_m = 10;  // facades with no point this near were not flown
+constexpr double kRing_m = 4;          // around a building, where its ground is looked for
+
+// Samples of one cell of the ground plan that look the same way.
+struct Pile {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  Eigen::Vector2d outwards = Eigen::Vector2d::Zero();
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  int count = 0;
+};
+
+std::vector<Segment2d> TracesOf(const Samples& upright, double cell) {
+  constexpr int kDirections = 8;
+  std::map<std::tuple<int, int, int>, Pile> piles;
+  for (size_t i = 0; i < upright.size(); ++i) {
+    if (!LooksLikeWall(upright.normals[i])) continue;
+    const Eigen::Vector3d& p = upright.positions[i];
+    const Eigen::Vector2d outwards = upright.normals[i].head<2>();
+    const double turn = std::atan2(outwards.y(), outwards.x()) / (2 * std::numbers::pi);
+    const int direction = static_cast<int>(std::floor(turn * kDirections + 0.5));
+    Pile& pile = piles[{static_cast<int>(std::floor(p.x() / cell)),
+                        static_cast<int>(std::floor(p.y() / cell)),
+                        (direction + kDirections) % kDirections}];
+    pile.position += p.head<2>();
+    pile.outwards += outwards;
+    pile.low = std::min(pile.low, p.z());
+    pile.high = std::max(pile.high, p.z());
+    ++pile.count;
+  }
+  std::vector<Segment2d> traces;
+  for (const auto& [key, pile] : piles) {
+    if (pile.high - pile.low < kLeastHeight_m || !(pile.outwards.norm() > 0)) continue;
+    const Eigen::Vector2d middle = pile.position / pile.count;
+    const Eigen::Vector2d outwards = pile.outwards.normalized();
+    const Eigen::Vector2d half = cell / 2 * Eigen::Vector2d(-outwards.y(), outwards.x());
+    traces.push_back({middle - half, middle + half});
+  }
+  return traces;
+}
+
+Eigen::Vector2d OutwardsOf(const Segment2d& line) {
+  const Eigen::Vector2d along = (line.b - line.a).normalized();
+  return {along.y(), -along.x()};
+}
+
+// The facades that the cloud comes near to.
+std::vector<Segment2d> FacadesInCloud(const Samples& upright, const OutlineMap& map) {
+  const auto cell_of = [](const Eigen::Vector2d& p) {
+    return std::pair(static_cast<int>(std::floor(p.x() / kBesideCloud_m)),
+                     static_cast<int>(std::floor(p.y() / kBesideCloud_m)));
+  };
+  std::set<std::pair<int, int>> seen;
+  for (const Eigen::Vector3d& p : upright.positions) {
+    const auto [x, y] = cell_of(p.head<2>());
+    seen.insert({x, y});
+  }
+  std::vector<Segment2d> facades;
+  for (const MapFacade& facade : map.facades) {
+    const auto [x, y] = cell_of((facade.line.a + facade.line.b) / 2);
+    bool near = false;
+    for (int dx = -1; dx <= 1; ++dx) {
+      for (int dy = -1; dy <= 1; ++dy) near = near || seen.contains({x + dx, y + dy});
+    }
+    if (near) facades.push_back(facade.line);
+  }
+  return facades;
+}
+
+// A rigid motion of the plane about a point, by small steps.
+struct Motion {
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  double turn_rad = 0;
+
+  Eigen::Isometry2d Transform() const {
+    Eigen::Isometry2d result = Eigen::Isometry2d::Identity();
+    result.linear() = Eigen::Rotation2Dd(turn_rad).toRotationMatrix();
+    result.translation() = center + shift - result.linear() * center;
+    return result;
+  }
+};
+
+// The facade that a piece of wall may be of, and how far outside of it the piece lies.
+struct Beside {
+  size_t facade = 0;
+  double distance = 0;
+  Eigen::Vector2d outwards = Eigen::Vector2d::Zero();
+};
+
+// The nearest one; nothing within reach.
+std::optional<Beside> FacadeBeside(const Segment2d& trace, const std::vector<Segment2d>& facades,
+                                   double reach) {
+  constexpr double kLeastCosine = 0.94;  // 20 degrees
+  const Eigen::Vector2d middle = (trace.a + trace.b) / 2;
+  const Eigen::Vector2d outwards = OutwardsOf(trace);
+  std::optional<Beside> best;
+  for (size_t f = 0; f < facades.size(); ++f) {
+    const Eigen::Vector2d n = OutwardsOf(facades[f]);
+    const double distance = n.dot(middle - facades[f].a);
+    if (!(std::abs(distance) < reach) || !(n.dot(outwards) > kLeastCosine)) continue;
+    if (best && std::abs(best->distance) <= std::abs(distance)) continue;
+    if (Distance(facades[f], middle) > reach) continue;
+    best = {f, distance, n};
+  }
+  return best;
+}
+
+// Least squares over shift and turn on what the traces have beside them, as far as facades of a
+// map may be off by themselves. Pieces of one facade are no independent witnesses: all of them
+// together weigh as much as their facade, against the prior of the turn.
+void Refine(const std::vector<Segment2d>& traces, const std::vector<Segment2d>& facades,
+            Motion& motion) {
+  constexpr std::array kReaches_m = {2.5, 2.5, 2.0, 2.0, 1.5, 1.5, 1.5, 1.5};
+  constexpr double kFacadeSigma_m = 0.5;
+  constexpr double kTurnSigma_rad = 0.005;  // 0.3 degrees: GPS over a site, grid north
+  constexpr double kShiftSigma_m = 10;      // only what nothing else holds
+  for (const double reach : kReaches_m) {
+    const Eigen::Isometry2d moved = motion.Transform();
+    std::vector<Segment2d> lines;
+    lines.reserve(facades.size());
+    for (const Segment2d& facade : facades) lines.push_back({moved * facade.a, moved * facade.b});
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    double total = 0;
+    std::set<size_t> matched;
+    for (const Segment2d& trace : traces) {
+      const auto beside = FacadeBeside(trace, lines, reach);
+      if (!beside) continue;
+      const Eigen::Vector2d& n = beside->outwards;
+      const Eigen::Vector2d arm = (trace.a + trace.b) / 2 - motion.center - motion.shift;
+      const double weight = std::pow(1 - std::pow(beside->distance / reach, 2), 2);
+      const Eigen::Vector3d row(n.x(), n.y(), n.y() * arm.x() - n.x() * arm.y());
+      normal += weight * row * row.transpose();
+      right += weight * beside->distance * row;
+      total += weight;
+      matched.insert(beside->facade);
+    }
+    if (!(total > 0)) return;
+    const double trust =
+        static_cast<double>(matched.size()) / (total * kFacadeSigma_m * kFacadeSigma_m);
+    normal *= trust;
+    right *= trust;
+    normal.diagonal().head<2>().array() += 1 / (kShiftSigma_m * kShiftSigma_m);
+    normal(2, 2) += 1 / (kTurnSigma_rad * kTurnSigma_rad);
+    right.z() -= motion.turn_rad / (kTurnSigma_rad * kTurnSigma_rad);
+    const Eigen::Vector3d step = normal.inverse() * right;
+    motion.shift += step.head<2>();
+    motion.turn_rad += step.z();
+  }
+}
+
+// Cells of a metre that the cloud shows, raised above the ground or not.
+struct RaisedCells {
+  int seen = 0;
+  int raised = 0;
+  double Share() const { return seen == 0 ? 0 : static_cast<double>(raised) / seen; }
+};
+
+using CellTops = std::map<std::pair<int, int>, double>;
+
+// The highest sample of each cell of a metre in and around a building.
+CellTops TopsAround(const UprightSurvey& survey, const MapBuilding& building) {
+  CellTops tops;
+  for (const int i : survey.bins.In(BoundsOf(building, kRing_m))) {
+    const Eigen::Vector3d& p = survey.samples.positions[i];
+    const auto [cell, added] = tops.try_emplace(
+        {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))}, p.z());
+    if (!added) cell->second = std::max(cell->second, p.z());
+  }
+  return tops;
+}
+
+bool IsInside(const Eigen::Vector2d& p, const std::vector<MapBuilding>& buildings) {
+  return std::ranges::any_of(buildings, [&](const MapBuilding& building) {
+    return BoundsOf(building, 0).contains(p) && DistanceTo(building, p) == 0;
+  });
+}
+
+// Of each building inside and beside, but not in a neighbour.
+std::pair<RaisedCells, RaisedCells> CountRaised(const UprightSurvey& survey,
+                                                const std::vector<MapBuilding>& buildings) {
+  constexpr double kInside_m = 0.5;  // the wall's own points are neither
+  constexpr double kNear_m = 1.5;    // eaves and hedges beside a wall say nothing
+  RaisedCells inside, outside;
+  for (const MapBuilding& building : buildings) {
+    const auto ground = GroundAround(survey, building);
+    if (!ground) continue;
+    for (const auto& [cell, height] : TopsAround(survey, building)) {
+      const Eigen::Vector2d middle(cell.first + 0.5, cell.second + 0.5);
+      const double to_outline = ToOutline(building, middle);
+      const bool within = DistanceTo(building, middle) == 0;
+      if (within ? to_outline < kInside_m : to_outline < kNear_m || to_outline > kRing_m) continue;
+      if (!within && IsInside(middle, buildings)) continue;
+      RaisedCells& cells = within ? inside : outside;
+      ++cells.seen;
+      cells.raised += height > *ground + kRaised_m;
+    }
+  }
+  return {inside, outside};
+}
+
+}  // namespace
+
+bool LooksLikeWall(const Eigen::Vector3d& normal) {
+  return std::abs(normal.z()) < kSinOfWall && normal.squaredNorm() > 0.25;
+}
+
+std::vector<Segment2d> WallTraces(const Samples& upright) {
+  std::vector<Segment2d> traces;
+  double cell = kTraceCell_m;
+  do {
+    traces = TracesOf(upright, cell);
+    cell *= 2;
+  } while (traces.size() > kMostTraces);
+  return traces;
+}
+
+MapRegistration RegisterMap(const UprightSurvey& survey, const OutlineMap& map) {
+  const Samples& upright = survey.samples;
+  MapRegistration found;
+  const std::vector<Segment2d> traces = WallTraces(upright);
+  const std::vector<Segment2d> facades = FacadesInCloud(upright, map);
+  const auto shift = FindShift(traces, facades);
+  if (!shift) {
+    found.refused = "what stands upright in the cloud is not where the map has walls";
+    return found;
+  }
+  Motion motion;
+  motion.shift = *shift;
+  for (const Segment2d& facade : facades) motion.center += (facade.a + facade.b) / 2;
+  motion.center /= static_cast<double>(facades.size());
+  Refine(traces, facades, motion);
+  found.survey_from_map = motion.Transform();
+  found.turn_rad = motion.turn_rad;
+  found.shift_m = motion.shift;
+  std::vector<MapBuilding> buildings;
+  buildings.reserve(map.buildings.size());
+  for (const MapBuilding& building : map.buildings) {
+    buildings.push_back(Moved(building, found.survey_from_map));
+  }
+  const auto [inside, outside] = CountRaised(survey, buildings);
+  found.raised_inside = inside.Share();
+  found.raised_outside = outside.Share();
+  constexpr int kFewestCells = 20;  // photos from the street show no roof, and prove nothing here
+  constexpr double kLeastRaised = 0.6;
+  constexpr double kLeastContrast = 0.3;
+  if (inside.seen >= kFewestCells &&
+      !(inside.Share() >= kLeastRaised && inside.Share() - outside.Share() >= kLeastContrast)) {
+    found.refused = fmt::format(
+        "of the ground below its buildings {:.0f} % is built over, of that next to them {:.0f} %",
+        100 * inside.Share(), 100 * outside.Share());
+  }
+  return found;
+}
+
+std::optional<double> GroundAround(const UprightSurvey& survey, const MapBuilding& building) {
+  const Samples& upright = survey.samples;
+  constexpr size_t kFewest = 20;
+  constexpr double kUpwards = 0.8;      // 37 degrees
+  constexpr double kLowest = 0.05;      // share; strays lie below all ground
+  constexpr double kThickness_m = 0.3;  // of ground with grass and noise
+  std::vector<double> heights;
+  for (const int i : survey.bins.In(BoundsOf(building, kRing_m))) {
+    const Eigen::Vector3d& p = upright.positions[i];
+    if (upright.normals[i].z() < kUpwards) continue;
+    const double distance = DistanceTo(building, p.head<2>());
+    if (distance > 0 && distance < kRing_m) heights.push_back(p.z());
+  }
+  if (heights.size() < kFewest) return std::nullopt;
+  std::sort(heights.begin(), heights.end());
+  const double low = heights[static_cast<size_t>(kLowest * static_cast<double>(heights.size()))];
+  std::erase_if(heights, [&](double z) { return std::abs(z - low) > kThickness_m; });
+  return Median(heights);
+}
+
+}  // namespace stucco

@@ -1,0 +1,410 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/map/roof_cells.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "proxy/facets/contour_lines.h"
+#include "proxy/facets/raster.h"
+#include "proxy/map/cell_labels.h"
+#include "survey/median.h"
+
+namespace stucco {
+namespace {
+
+// Prices of the method: areas of samples explained wrongly against metres of border, which are
+// worth the level of detail times these.
+constexpr double kStepBorder = 0.6;
+constexpr double kMeetingBorder = 0.1;
+constexpr double kLooseSample = 0.25;  // on no plane: leaves, railings, chimneys
+constexpr double kFarFromSamples = 0.1;
+constexpr double kLevelRoof = 0.3;  // the roof of last resort
+constexpr double kForbidden = 1e3;  // a square metre of roof in the ground
+constexpr double kMeets_m = 0.02;   // roofs nearer than this along a border meet there
+constexpr double kSameLine_m = 1e-5;
+
+RoofPlane RoofOf(const Plane& plane) {
+  const double z = plane.normal.z();
+  return {.slope = -plane.normal.head<2>() / z, .height = plane.offset / z};
+}
+
+Eigen::AlignedBox2d BoxAround(const MapBuilding& building) {
+  constexpr double kMargin_m = 1;
+  return BoundsOf(building, kMargin_m);
+}
+
+// How far two lines come apart inside the box; large where they are not about parallel.
+double Apart(const CutLine& line, const CutLine& other, const Eigen::AlignedBox2d& box) {
+  constexpr double kAlike = 0.1;
+  if (std::abs(Cross(line.direction, other.direction)) > kAlike) return 1e9;
+  const Eigen::Vector2d half = box.diagonal().norm() / 2 * line.direction;
+  const Eigen::Vector2d middle =
+      line.point + line.direction * line.direction.dot(box.center() - line.point);
+  double apart = 0;
+  for (const Eigen::Vector2d& p :
+       {Eigen::Vector2d(middle - half), Eigen::Vector2d(middle + half)}) {
+    apart = std::max(apart, std::abs(Cross(other.direction, p - other.point)));
+  }
+  return apart;
+}
+
+bool IsNew(const CutLine& line, const std::vector<CutLine>& lines, const Eigen::AlignedBox2d& box,
+           double apart) {
+  return std::ranges::none_of(
+      lines, [&](const CutLine& other) { return Apart(line, other, box) < apart; });
+}
+
+// Longest first, so that short edges follow long ones that they lie in line with.
+std::vector<CutLine> EdgeLines(const MapBuilding& building, const Eigen::AlignedBox2d& box) {
+  std::vector<Segment2d> edges;
+  for (const Polygon& part : building.parts) {
+    for (const Ring& ring : part.rings) {
+      for (size_t i = 0; i < ring.size(); ++i) {
+        edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
+      }
+    }
+  }
+  std::stable_sort(edges.begin(), edges.end(), [](const Segment2d& a, const Segment2d& b) {
+    return (a.b - a.a).squaredNorm() > (b.b - b.a).squaredNorm();
+  });
+  constexpr double kSameEdge_m = 1e-4;
+  std::vector<CutLine> lines;
+  for (const Segment2d& edge : edges) {
+    const CutLine line{.point = edge.a, .direction = (edge.b - edge.a).normalized()};
+    if (IsNew(line, lines, box, kSameEdge_m)) lines.push_back(line);
+  }
+  return lines;
+}
+
+// The ground plan of a footprint in small cells: where each roof has its samples.
+struct CoverOfRoofs {
+  PlaneRaster raster;                      // its frame is that of the ground plan
+  std::vector<std::vector<float>> to_hit;  // of each roof: metres to its nearest sample
+};
+
+CoverOfRoofs CoverOf(const FittedBuilding& building, const RoofEvidence& evidence,
+                     std::span<const int> planes, const Tolerances& tolerances) {
+  CoverOfRoofs cover;
+  const Eigen::AlignedBox2d box = BoxAround(building.building);
+  cover.raster.cell = std::max(2 * tolerances.spacing, tolerances.level_of_detail / 2);
+  cover.raster.origin = box.min();
+  cover.raster.width = static_cast<int>(box.sizes().x() / cover.raster.cell) + 1;
+  cover.raster.height = static_cast<int>(box.sizes().y() / cover.raster.cell) + 1;
+  for (const int p : planes) {
+    cv::Mat missing(cover.raster.height, cover.raster.width, CV_8U, cv::Scalar(255));
+    for (const int i : evidence.planes[p].points) {
+      const int at = cover.raster.IndexAt(evidence.samples.positions[i].head<2>());
+      if (at >= 0) missing.at<uint8_t>(at / cover.raster.width, at % cover.raster.width) = 0;
+    }
+    cv::Mat distance;
+    cv::distanceTransform(missing, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+    std::vector<float>& to_hit = cover.to_hit.emplace_back();
+    for (int y = 0; y < cover.raster.height; ++y) {
+      for (int x = 0; x < cover.raster.width; ++x) {
+        to_hit.push_back(distance.at<float>(y, x) * static_cast<float>(cover.raster.cell));
+      }
+    }
+  }
+  return cover;
+}
+
+// The line in which two roofs meet, where both have samples near it; nothing when they run
+// parallel or meet elsewhere.
+std::optional<CutLine> MeetingLine(const CoverOfRoofs& cover, const std::vector<RoofPlane>& roofs,
+                                   size_t a, size_t b, double reach) {
+  constexpr double kLeastSlope = 0.02;
+  constexpr double kLeastShared_m = 0.5;
+  const Eigen::Vector2d slope = roofs[a].slope - roofs[b].slope;
+  if (slope.norm() < kLeastSlope) return std::nullopt;
+  const Eigen::Vector2d n = slope.normalized();
+  CutLine line{.point = n * ((roofs[b].height - roofs[a].height) / slope.norm()),
+               .direction = {-n.y(), n.x()},
+               .crease = true};
+  const Eigen::AlignedBox2d box(
+      cover.raster.origin,
+      Eigen::Vector2d(cover.raster.Center(cover.raster.width - 1, cover.raster.height - 1)));
+  const Eigen::Vector2d middle =
+      line.point + line.direction * line.direction.dot(box.center() - line.point);
+  line.point = middle;
+  const double half = box.diagonal().norm() / 2;
+  double shared = 0;
+  for (double t = -half; t <= half; t += cover.raster.cell) {
+    const int at = cover.raster.IndexAt(middle + t * line.direction);
+    if (at < 0 || cover.to_hit[a][at] > reach || cover.to_hit[b][at] > reach) continue;
+    shared += cover.raster.cell;
+  }
+  if (shared < kLeastShared_m) return std::nullopt;
+  return line;
+}
+
+// Straight borders of what a roof covers, in the ground plan; axes are those of the longest edge.
+std::vector<CutLine> BordersOf(const CoverOfRoofs& cover, size_t roof, const CutLine& axis,
+                               const std::vector<CutLine>& creases, double detail) {
+  constexpr int kMostLines = 10;
+  const Eigen::Vector2d u = axis.direction, v(-u.y(), u.x());
+  // The raster once more, turned to the axes.
+  PlaneRaster turned = cover.raster;
+  const Eigen::Vector2d center = cover.raster.Center(turned.width / 2, turned.height / 2);
+  const double half = std::hypot(turned.width, turned.height) / 2 * turned.cell;
+  turned.width = turned.height = static_cast<int>(2 * half / turned.cell) + 1;
+  turned.origin = Eigen::Vector2d(u.dot(center) - half, v.dot(center) - half);
+  const float reach = static_cast<float>(1.5 * turned.cell);
+  std::vector<Evidence> evidence(static_cast<size_t>(turned.width) * turned.height,
+                                 Evidence::kUnknown);
+  for (int y = 0; y < turned.height; ++y) {
+    for (int x = 0; x < turned.width; ++x) {
+      const Eigen::Vector2d p = turned.Center(x, y);
+      const int at = cover.raster.IndexAt(p.x() * u + p.y() * v);
+      if (at >= 0 && cover.to_hit[roof][at] <= reach) {
+        evidence[turned.Index(x, y)] = Evidence::kSeen;
+      }
+    }
+  }
+  std::vector<CutLine> turned_creases;
+  for (const CutLine& crease : creases) {
+    CutLine line = crease;
+    line.point = {u.dot(crease.point), v.dot(crease.point)};
+    line.direction = {u.dot(crease.direction), v.dot(crease.direction)};
+    turned_creases.push_back(line);
+  }
+  auto lines =
+      ContourLines(turned, evidence, turned_creases,
+                   {.detail = detail, .most_lines = kMostLines, .free_length = 10 * detail});
+  for (CutLine& line : lines) {
+    line.point = Eigen::Vector2d(line.point.x() * u + line.point.y() * v);
+    line.direction = Eigen::Vector2d(line.direction.x() * u + line.direction.y() * v);
+  }
+  return lines;
+}
+
+std::vector<CutLine> LinesOf(const FittedBuilding& building, const RoofEvidence& evidence,
+                             const CoverOfRoofs& cover, const std::vector<RoofPlane>& roofs,
+                             const Tolerances& tolerances) {
+  constexpr size_t kMostLines = 120;  // some thousand cells; the first ones matter most
+  const Eigen::AlignedBox2d box = BoxAround(building.building);
+  std::vector<CutLine> lines = EdgeLines(building.building, box);
+  const CutLine axis = lines.front();
+  const size_t most = std::max(kMostLines, lines.size());
+  const auto add = [&](const CutLine& line, double apart) {
+    if (lines.size() < most && IsNew(line, lines, box, apart)) lines.push_back(line);
+  };
+  std::vector<CutLine> creases;
+  for (size_t a = 0; a < cover.to_hit.size(); ++a) {
+    for (size_t b = a + 1; b < cover.to_hit.size(); ++b) {
+      if (const auto line = MeetingLine(cover, roofs, a, b, tolerances.fill_gap)) {
+        creases.push_back(*line);
+      }
+    }
+  }
+  for (const CutLine& line : creases) add(line, kSameLine_m);
+  for (const Plane& step : evidence.steps) {
+    const Eigen::Vector2d n = step.normal.head<2>().normalized();
+    add({.point = n * (step.offset / step.normal.head<2>().norm()), .direction = {-n.y(), n.x()}},
+        tolerances.level_of_detail);
+  }
+  for (size_t roof = 0; roof < cover.to_hit.size(); ++roof) {
+    for (const CutLine& line : BordersOf(cover, roof, axis, creases, tolerances.level_of_detail)) {
+      add(line, tolerances.level_of_detail);
+    }
+  }
+  return lines;
+}
+
+Eigen::Vector2d MiddleOf(const Arrangement& arrangement, const std::vector<int>& face) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const int v : face) sum += arrangement.vertices[v];
+  return sum / static_cast<double>(face.size());
+}
+
+// The face of the arrangement at each cell of the raster that lies inside the footprint.
+std::vector<int> FaceOfCells(const PlaneRaster& raster, const Arrangement& arrangement,
+                             const std::vector<int>& labels) {
+  std::vector<int> faces(static_cast<size_t>(raster.width) * raster.height, -1);
+  for (size_t f = 0; f < arrangement.faces.size(); ++f) {
+    if (labels[f] < 0) continue;
+    const Polygon cell{{RingOf(arrangement, f)}};
+    const Eigen::AlignedBox2d box = BoundsOf(cell);
+    const Eigen::Array2d low = (box.min() - raster.origin).array() / raster.cell;
+    const Eigen::Array2d high = (box.max() - raster.origin).array() / raster.cell;
+    for (int y = std::max(0, int(low.y())); y <= std::min(raster.height - 1, int(high.y())); ++y) {
+      for (int x = std::max(0, int(low.x())); x <= std::min(raster.width - 1, int(high.x())); ++x) {
+        if (Contains(cell, raster.Center(x, y))) faces[raster.Index(x, y)] = int(f);
+      }
+    }
+  }
+  return faces;
+}
+
+// The costs of the raster's cells by roof: the mean over their samples of how far these lie from
+// it, up to twice the level of detail.
+using Costs = std::vector<std::vector<double>>;
+Costs CostsOf(const RoofEvidence& evidence, std::span<const int> planes, const CoverOfRoofs& cover,
+              const std::vector<RoofPlane>& roofs, const Tolerances& tolerances) {
+  const size_t cells = static_cast<size_t>(cover.raster.width) * cover.raster.height;
+  std::vector<bool> on_plane(evidence.samples.size(), false);
+  for (const int p : planes) {
+    for (const int i : evidence.planes[p].points) on_plane[i] = true;
+  }
+  Costs costs(cells, std::vector<double>(roofs.size(), 0));
+  std::vector<double> weights(cells, 0), most(cells, 0);
+  const double farthest = 2 * tolerances.level_of_detail;
+  for (size_t i = 0; i < evidence.samples.size(); ++i) {
+    const Eigen::Vector3d& p = evidence.samples.positions[i];
+    const int at = cover.raster.IndexAt(p.head<2>());
+    if (at < 0) continue;
+    const double weight = on_plane[i] ? 1 : kLooseSample;
+    for (size_t k = 0; k < roofs.size(); ++k) {
+      const double off =
+          std::abs(p.z() - roofs[k].At(p.head<2>())) / std::sqrt(1 + roofs[k].slope.squaredNorm());
+      costs[at][k] += weight * std::min(1.0, off / farthest);
+    }
+    weights[at] += weight;
+    most[at] = std::max(most[at], weight);
+  }
+  for (size_t at = 0; at < cells; ++at) {
+    for (size_t k = 0; k < roofs.size(); ++k) {
+      if (weights[at] > 0) costs[at][k] *= most[at] / weights[at];
+      const bool level = k + 1 == roofs.size();
+      if (level) {
+        costs[at][k] += kLevelRoof;
+      } else if (cover.to_hit[k][at] > tolerances.fill_gap) {
+        costs[at][k] += kFarFromSamples;
+      }
+    }
+  }
+  return costs;
+}
+
+CellProblem ProblemOf(const RoofCells& roof, const std::vector<int>& cell_of_face,
+                      const Tolerances& tolerances) {
+  CellProblem problem;
+  problem.labels = static_cast<int>(roof.roofs.size());
+  std::vector<const Arrangement::Edge*> edges;
+  for (const Arrangement::Edge& edge : roof.arrangement.edges) {
+    if (edge.left < 0 || edge.right < 0) continue;
+    if (cell_of_face[edge.left] < 0 || cell_of_face[edge.right] < 0) continue;
+    problem.links.push_back({cell_of_face[edge.left], cell_of_face[edge.right]});
+    edges.push_back(&edge);
+  }
+  problem.border = [&roof, edges, detail = tolerances.level_of_detail](size_t link, int a, int b) {
+    if (a == b) return 0.0;
+    const Eigen::Vector2d p = roof.arrangement.vertices[edges[link]->from];
+    const Eigen::Vector2d q = roof.arrangement.vertices[edges[link]->to];
+    const double step = std::max(std::abs(roof.roofs[a].At(p) - roof.roofs[b].At(p)),
+                                 std::abs(roof.roofs[a].At(q) - roof.roofs[b].At(q)));
+    const double price = step < kMeets_m ? kMeetingBorder + step / detail : kStepBorder;
+    return price * detail * (q - p).norm();
+  };
+  return problem;
+}
+
+// Inside: 0, outside: -1.
+std::vector<int> InsideOf(const Arrangement& arrangement, const MapBuilding& building) {
+  std::vector<int> labels;
+  for (const auto& face : arrangement.faces) {
+    const Eigen::Vector2d middle = MiddleOf(arrangement, face);
+    const bool inside = std::ranges::any_of(
+        building.parts, [&](const Polygon& part) { return Contains(part, middle); });
+    labels.push_back(inside ? 0 : -1);
+  }
+  return labels;
+}
+
+// Faces of the arrangement inside of the footprint, and the other way round (-1: outside).
+struct CellNumbers {
+  std::vector<int> face_of_cell;
+  std::vector<int> cell_of_face;
+};
+
+CellNumbers NumberCells(const std::vector<int>& labels) {
+  CellNumbers numbers{{}, std::vector<int>(labels.size(), -1)};
+  for (size_t f = 0; f < labels.size(); ++f) {
+    if (labels[f] < 0) continue;
+    numbers.cell_of_face[f] = static_cast<int>(numbers.face_of_cell.size());
+    numbers.face_of_cell.push_back(static_cast<int>(f));
+  }
+  return numbers;
+}
+
+// What each cell of the footprint costs under each roof: its area times the mean of the raster's
+// cells within it. A sliver that holds no centre of them costs what the one around its middle does.
+std::vector<std::vector<double>> DataOf(const RoofCells& roof, const CellNumbers& numbers,
+                                        const PlaneRaster& raster, const Costs& costs) {
+  std::vector<std::vector<double>> data(numbers.face_of_cell.size(),
+                                        std::vector<double>(roof.roofs.size(), 0));
+  std::vector<int> counts(data.size(), 0);
+  const auto add = [&](size_t cell, size_t at) {
+    for (size_t k = 0; k < roof.roofs.size(); ++k) data[cell][k] += costs[at][k];
+    ++counts[cell];
+  };
+  const std::vector<int> face_at = FaceOfCells(raster, roof.arrangement, roof.labels);
+  for (size_t at = 0; at < face_at.size(); ++at) {
+    if (face_at[at] >= 0) add(numbers.cell_of_face[face_at[at]], at);
+  }
+  for (size_t c = 0; c < data.size(); ++c) {
+    const auto& face = roof.arrangement.faces[numbers.face_of_cell[c]];
+    if (counts[c] == 0) {
+      const int at = raster.IndexAt(MiddleOf(roof.arrangement, face));
+      if (at >= 0) add(c, at);
+    }
+    const double area = SignedArea(RingOf(roof.arrangement, numbers.face_of_cell[c]));
+    for (double& cost : data[c]) cost *= area / std::max(1, counts[c]);
+  }
+  return data;
+}
+
+// Whether a roof comes nearer to the ground than a building's may, over a face.
+bool IsBuried(const RoofCells& roof, size_t label, int face, double ground) {
+  return std::ranges::any_of(roof.arrangement.faces[face], [&](int v) {
+    return roof.roofs[label].At(roof.arrangement.vertices[v]) - ground < kRaised_m / 2;
+  });
+}
+
+}  // namespace
+
+RoofCells LabelRoof(const FittedBuilding& building, const RoofEvidence& evidence,
+                    std::span<const int> planes, const Tolerances& tolerances) {
+  RoofCells roof;
+  std::vector<double> heights;
+  for (const int p : planes) {
+    roof.roofs.push_back(RoofOf(evidence.planes[p]));
+    for (const int i : evidence.planes[p].points) {
+      heights.push_back(evidence.samples.positions[i].z());
+    }
+  }
+  const CoverOfRoofs cover = CoverOf(building, evidence, planes, tolerances);
+  roof.roofs.push_back({.height = Median(heights).value_or(building.ground + kRaised_m)});
+  roof.lines = LinesOf(building, evidence, cover, roof.roofs, tolerances);
+  roof.arrangement = Arrange(BoxAround(building.building), roof.lines);
+  roof.labels = InsideOf(roof.arrangement, building.building);
+  const CellNumbers numbers = NumberCells(roof.labels);
+  const std::vector<int>& face_of_cell = numbers.face_of_cell;
+  CellProblem problem = ProblemOf(roof, numbers.cell_of_face, tolerances);
+  const Costs costs = CostsOf(evidence, planes, cover, roof.roofs, tolerances);
+  problem.data = DataOf(roof, numbers, cover.raster, costs);
+  for (size_t c = 0; c < face_of_cell.size(); ++c) {
+    for (size_t k = 0; k + 1 < roof.roofs.size(); ++k) {
+      if (IsBuried(roof, k, face_of_cell[c], building.ground)) problem.data[c][k] = kForbidden;
+    }
+  }
+  const std::vector<int> labels = CheapestCellLabels(problem);
+  for (size_t c = 0; c < labels.size(); ++c) roof.labels[face_of_cell[c]] = labels[c];
+  JoinAtCorners(roof.arrangement, roof.roofs, roof.labels);
+  return roof;
+}
+
+RoofCells FlatRoof(const MapBuilding& building, double height) {
+  RoofCells roof;
+  roof.roofs = {{.height = height}};
+  const Eigen::AlignedBox2d box = BoxAround(building);
+  roof.lines = EdgeLines(building, box);
+  roof.arrangement = Arrange(box, roof.lines);
+  roof.labels = InsideOf(roof.arrangement, building);
+  return roof;
+}
+
+}  // namespace stucco

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/map/roof_planes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "proxy/cloud/grid_index.h"
+#include "proxy/cloud/normals.h"
+#include "proxy/planes/find_planes.h"
+#include "proxy/planes/regularise.h"
+
+namespace stucco {
+namespace {
+
+constexpr double kRoofNormal = 0.26;  // 75 degrees of pitch: steeper is a wall
+constexpr double kOnWall_m = 0.4;     // what stands upright this near to the outline is its wall
+
+// By cells of half a metre: where there is anything, and where the ground shows.
+void MeasureCover(const Samples& upright, const std::vector<int>& inside, double ground,
+                  RoofEvidence& evidence) {
+  constexpr double kCell_m = 0.5;
+  std::map<std::pair<int, int>, bool> bare;
+  for (const int i : inside) {
+    const Eigen::Vector3d& p = upright.positions[i];
+    bare[{static_cast<int>(std::floor(p.x() / kCell_m)),
+          static_cast<int>(std::floor(p.y() / kCell_m))}] |= p.z() < ground + kRaised_m;
+  }
+  for (const auto& [cell, is_bare] : bare) {
+    evidence.seen_m2 += kCell_m * kCell_m;
+    if (is_bare) evidence.bare_m2 += kCell_m * kCell_m;
+  }
+}
+
+std::vector<Plane> Detect(const Samples& samples, const Tolerances& tolerances,
+                          const ProxyOptions& options) {
+  if (samples.size() < 12) return {};
+  const GridIndex index(samples.positions, tolerances.radius);
+  Samples smooth = samples;  // the normals are smooth already: only the agreement is asked for
+  const auto agreement = SmoothNormals(smooth, index, tolerances.radius, 1);
+  return FindPlanes(samples, index, agreement, tolerances, options);
+}
+
+// Gutters and parapets, and how the cloud rounds them off, are no roofs of their own.
+bool IsRim(const Plane& plane, const Samples& samples, const MapBuilding& building, double width) {
+  constexpr double kMost = 0.9;  // of its samples
+  const auto on_rim = std::ranges::count_if(plane.points, [&](int i) {
+    return ToOutline(building, samples.positions[i].head<2>()) < width;
+  });
+  return static_cast<double>(on_rim) > kMost * static_cast<double>(plane.points.size());
+}
+
+// Upright planes along the outline, without samples: they only give roofs their directions.
+std::vector<Plane> WallDirections(const FittedBuilding& building) {
+  std::vector<Plane> walls;
+  for (const FittedEdge& edge : building.edges) {
+    const Eigen::Vector2d along = edge.line.b - edge.line.a;
+    Plane& wall = walls.emplace_back();
+    wall.role = PlaneRole::kWall;
+    wall.normal = Eigen::Vector3d(along.y(), -along.x(), 0).normalized();
+    wall.offset = wall.normal.head<2>().dot(edge.line.a);
+    wall.area = along.norm();
+  }
+  return walls;
+}
+
+}  // namespace
+
+Samples SubsetOf(const Samples& samples, const std::vector<int>& indices) {
+  Samples subset;
+  subset.cell = samples.cell;
+  for (const int i : indices) {
+    subset.positions.push_back(samples.positions[i]);
+    subset.normals.push_back(samples.normals[i]);
+    subset.weights.push_back(samples.weights[i]);
+    subset.cameras.push_back(-1);
+  }
+  return subset;
+}
+
+RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& building,
+                            const ProxyOptions& options) {
+  const Samples& upright = survey.samples;
+  const Tolerances& tolerances = survey.tolerances;
+  RoofEvidence evidence;
+  std::vector<int> inside, above, steps;  // `inside` of the rim
+  for (const int i : survey.bins.In(BoundsOf(building.building, 0))) {
+    const Eigen::Vector3d& p = upright.positions[i];
+    if (DistanceTo(building.building, p.head<2>()) > 0) continue;
+    const bool upright_thing = LooksLikeWall(upright.normals[i]);
+    const bool on_rim = ToOutline(building.building, p.head<2>()) < kOnWall_m;
+    if (upright_thing && on_rim) continue;
+    if (!on_rim) inside.push_back(i);
+    if (p.z() < building.ground + kRaised_m) continue;
+    if (upright_thing) {
+      steps.push_back(i);
+    } else if (upright.normals[i].z() > kRoofNormal) {
+      above.push_back(i);
+    }
+  }
+  MeasureCover(upright, inside, building.ground, evidence);
+  evidence.samples = SubsetOf(upright, above);
+  std::vector<Plane> planes = Detect(evidence.samples, tolerances, options);
+  std::erase_if(planes, [&](const Plane& plane) {
+    return IsRim(plane, evidence.samples, building.building, 2 * tolerances.level_of_detail);
+  });
+  const std::vector<Plane> walls = WallDirections(building);
+  planes.insert(planes.end(), walls.begin(), walls.end());
+  Regularise(evidence.samples, tolerances, Eigen::Vector3d::UnitZ(),
+             {.vertical_tolerance_deg = options.vertical_tolerance_deg,
+              .align_tolerance_deg = options.align_tolerance_deg},
+             planes);
+  std::erase_if(planes, [](const Plane& plane) {
+    return plane.points.empty() || plane.normal.z() < kRoofNormal;
+  });
+  std::stable_sort(planes.begin(), planes.end(),
+                   [](const Plane& a, const Plane& b) { return a.area > b.area; });
+  evidence.planes = std::move(planes);
+  evidence.steps = Detect(SubsetOf(upright, steps), tolerances, options);
+  std::erase_if(evidence.steps, [](const Plane& plane) { return !LooksLikeWall(plane.normal); });
+  return evidence;
+}
+
+}  // namespace stucco

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "proxy/cloud/samples.h"
+#include "proxy/map/outline_fit.h"
+#include "proxy/map/upright_survey.h"
+#include "proxy/options/proxy_options.h"
+#include "proxy/planes/plane.h"
+
+namespace stucco {
+
+// What the cloud shows above a footprint, in the upright frame.
+struct RoofEvidence {
+  Samples samples;            // above the ground, inside of the outline
+  std::vector<Plane> planes;  // roofs, by falling area; `points` are indices into `samples`
+  std::vector<Plane> steps;   // upright, inside of the outline
+  double seen_m2 = 0;         // of the footprint but for its rim, where the cloud has anything
+  double bare_m2 = 0;         // of it, where the cloud shows the ground itself
+};
+
+// The planes of a building's roof, found among the samples above its own footprint, with details
+// that do not depend on the rest of the survey, and regularised by themselves and its walls. Rough
+// surfaces (crowns of trees) are none.
+RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& building,
+                            const ProxyOptions& options);
+
+// The samples by their indices; the cameras stay behind.
+Samples SubsetOf(const Samples& samples, const std::vector<int>& indices);
+
+}  // namespace stucco

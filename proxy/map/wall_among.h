@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace stucco {
+
+inline constexpr double kMapReach_m = 1.5;  // eaves that a map traces, and then some
+inline constexpr double kMapSigma_m = 0.5;  // of a map's edges, and of its buildings
+
+// A near-vertical point beside an edge of a map.
+struct WallHit {
+  double distance = 0;       // outwards of the edge, metres, within kMapReach_m
+  std::pair<int, int> cell;  // half metres along and up
+};
+
+// Where the wall of an edge is, outwards of it in metres: where most of `hits` (by distance) lie in
+// a strip as wide as the level of detail, weighted by how likely a map is that far from `expected`,
+// and of those where they lie closest together: a wall is flat, but for its windows, which stand a
+// hand or more behind it, and the mean of all would lie between the two. Nothing where what lies
+// there is too little for a wall of this length.
+std::optional<double> WallAmong(std::span<const WallHit> hits, double level_of_detail,
+                                double expected, double length);
+
+}  // namespace stucco

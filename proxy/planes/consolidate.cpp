@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/planes/consolidate.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace stucco {
+namespace {
+
+double CosDeg(double angle_deg) {
+  return std::cos(angle_deg * std::numbers::pi / 180);
+}
+
+bool LiesOn(const Samples& samples, const Plane& small, const Plane& large, double epsilon,
+            double min_cos) {
+  // The rough test first: most pairs fail it.
+  if (large.normal.dot(small.normal) < min_cos) return false;
+  constexpr size_t kProbes = 400;
+  constexpr double kShare = 0.85;
+  const size_t stride = std::max<size_t>(1, small.points.size() / kProbes);
+  size_t near = 0, tried = 0;
+  for (size_t k = 0; k < small.points.size(); k += stride, ++tried) {
+    const int i = small.points[k];
+    near += std::abs(large.DistanceTo(samples.positions[i])) <= epsilon &&
+            large.normal.dot(samples.normals[i]) >= min_cos;
+  }
+  return near >= kShare * static_cast<double>(tried);
+}
+
+void SortBySize(std::vector<Plane>& planes) {
+  std::stable_sort(planes.begin(), planes.end(), [](const Plane& a, const Plane& b) {
+    return a.points.size() > b.points.size();
+  });
+}
+
+}  // namespace
+
+void MergeCoplanar(const Samples& samples, const Tolerances& tolerances, double normal_angle_deg,
+                   std::vector<Plane>& planes) {
+  const double min_cos = CosDeg(normal_angle_deg);
+  for (bool merged = true; merged;) {
+    merged = false;
+    SortBySize(planes);
+    for (size_t a = 0; a < planes.size(); ++a) {
+      const size_t before = planes[a].points.size();
+      for (size_t b = a + 1; b < planes.size(); ++b) {
+        if (planes[b].points.empty() ||
+            !LiesOn(samples, planes[b], planes[a], tolerances.epsilon, min_cos)) {
+          continue;
+        }
+        auto& points = planes[a].points;
+        points.insert(points.end(), planes[b].points.begin(), planes[b].points.end());
+        planes[b].points.clear();
+      }
+      if (planes[a].points.size() == before) continue;
+      std::sort(planes[a].points.begin(), planes[a].points.end());
+      Refit(samples, planes[a]);
+      merged = true;
+    }
+    std::erase_if(planes, [](const Plane& plane) { return plane.points.empty(); });
+  }
+}
+
+void AdoptNeighbours(const Samples& samples, const GridIndex& index, const Tolerances& tolerances,
+                     double normal_angle_deg, std::vector<Plane>& planes) {
+  constexpr int kRounds = 3;
+  const double min_cos = CosDeg(std::min(85.0, 1.3 * normal_angle_deg));
+  std::vector<int> plane_of(samples.size(), -1);
+  for (size_t p = 0; p < planes.size(); ++p) {
+    for (const int i : planes[p].points) plane_of[i] = static_cast<int>(p);
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<std::pair<int, int>> adopted;  // sample, plane
+    for (size_t i = 0; i < samples.size(); ++i) {
+      if (plane_of[i] >= 0) continue;
+      int best = -1;
+      double best_distance = tolerances.epsilon;
+      int last = -1;
+      index.ForEachNear(samples.positions[i], tolerances.radius, [&](int j) {
+        const int p = plane_of[j];
+        if (p < 0 || p == last) return;
+        last = p;
+        const double distance = std::abs(planes[p].DistanceTo(samples.positions[i]));
+        if (distance > best_distance || planes[p].normal.dot(samples.normals[i]) < min_cos) return;
+        if (distance == best_distance && p >= best && best >= 0) return;
+        best_distance = distance;
+        best = p;
+      });
+      if (best >= 0) adopted.emplace_back(static_cast<int>(i), best);
+    }
+    for (const auto& [i, p] : adopted) {
+      plane_of[i] = p;
+      planes[p].points.push_back(i);
+    }
+    if (adopted.empty()) break;
+  }
+  for (Plane& plane : planes) std::sort(plane.points.begin(), plane.points.end());
+}
+
+double NormalScatterDeg(const Samples& samples, const Plane& plane) {
+  double sum = 0;
+  for (const int i : plane.points) {
+    sum += std::acos(std::clamp(plane.normal.dot(samples.normals[i]), -1.0, 1.0));
+  }
+  return plane.points.empty() ? 0 : sum / double(plane.points.size()) * 180 / std::numbers::pi;
+}
+
+void DropClutter(const Samples& samples, const Tolerances& tolerances, double normal_angle_deg,
+                 std::vector<Plane>& planes) {
+  // Points spread evenly over [-epsilon, epsilon] have an rms of 0.577 epsilon.
+  constexpr double kLargestRms = 0.52;
+  constexpr double kLargestScatter = 0.62;  // of normal_angle_deg
+  for (Plane& plane : planes) Measure(samples, 2.5 * tolerances.spacing, plane);
+  std::erase_if(planes, [&](const Plane& plane) {
+    if (plane.area < tolerances.min_area) return true;
+    const double scatter = NormalScatterDeg(samples, plane);
+    const bool thick = plane.rms > kLargestRms * tolerances.epsilon;
+    const bool rough = scatter > kLargestScatter * normal_angle_deg;
+    return rough || (thick && scatter > 0.45 * normal_angle_deg);
+  });
+}
+
+}  // namespace stucco

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "proxy/cloud/grid_index.h"
+#include "proxy/cloud/samples.h"
+#include "proxy/cloud/scale.h"
+#include "proxy/planes/plane.h"
+
+namespace stucco {
+
+// Merges planes that are one within the tolerances (the smaller one's points lie on the larger
+// one's plane and look its way), largest first, until nothing changes.
+void MergeCoplanar(const Samples& samples, const Tolerances& tolerances, double normal_angle_deg,
+                   std::vector<Plane>& planes);
+
+// Lets samples without a plane join the plane of a neighbour when they lie on it, three times over:
+// region growing leaves gaps where the noise is high.
+void AdoptNeighbours(const Samples& samples, const GridIndex& index, const Tolerances& tolerances,
+                     double normal_angle_deg, std::vector<Plane>& planes);
+
+// Drops planes that are no surfaces: points spread evenly through the tolerance or normals that
+// disagree with the plane and with each other (leaves, clutter), or too small an area.
+void DropClutter(const Samples& samples, const Tolerances& tolerances, double normal_angle_deg,
+                 std::vector<Plane>& planes);
+
+// Mean angle between the plane's normal and those of its points.
+double NormalScatterDeg(const Samples& samples, const Plane& plane);
+
+}  // namespace stucco
