@@ -6,11 +6,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "dense/fuse.h"
+#include "dense/fused_points.h"
 #include "dense/outliers.h"
 #include "dense/patch_match.h"
 #include "dense/sources.h"
@@ -24,6 +25,7 @@
 #include "survey/lru_cache.h"
 #include "survey/one_opencv_thread.h"
 #include "survey/parallel.h"
+#include "survey/ply.h"
 #include "survey/survey_folder.h"
 #include "survey/survey_photo.h"
 
@@ -31,17 +33,21 @@ namespace stucco {
 namespace {
 
 // Raise when the code behind a checkpoint changes what it computes.
-constexpr char kDepthVersion[] = "depth-1";
+constexpr char kDepthVersion[] = "depth-2";
 constexpr int kLevels = 3;
 constexpr int kSpecklePixels = 60;
 constexpr float kSpeckleStep = 0.01f;
+// Photos that a photo's depths are held against when they are fused. In surveys by plan a place is
+// in about a dozen photos, of which half are sources.
+constexpr int kNeighbours = 24;
 
 // What the depth map of a photo is made from.
 struct DepthJob {
   const SourceChoice* choice = nullptr;
-  std::vector<int> sources;  // indices of photos
-  std::string content;       // hash of pixels, camera and pose: what a depth map depends on
-  std::string first_key;     // of its map of the first pass
+  std::vector<int> sources;     // indices of photos
+  std::vector<int> neighbours;  // likewise; what its map is fused with
+  std::string content;          // hash of pixels, camera and pose: what a depth map depends on
+  std::string first_key;        // of its map of the first pass
 };
 
 std::string Bytes(const double* values, size_t count) {
@@ -65,9 +71,12 @@ class Densifier {
         views_(
             context.memory_limit_bytes / 4, [this](int i) { return Load(i); }, ViewBytes),
         maps_(
-            context.memory_limit_bytes / 4, [this](int i) { return LoadFirstMap(i); }, MapBytes) {
+            std::in_place, context.memory_limit_bytes / 4,
+            [this](int i) { return LoadFirstMap(i); }, MapBytes) {
     const Reconstruction model = ReadColmapModel(context.survey / kSparseFolder);
-    choices_ = ChooseSources(model, options.max_sources, options.max_image_px);
+    choices_ = ChooseSources(model, {.sources = options.max_sources,
+                                     .neighbours = kNeighbours,
+                                     .max_image_px = options.max_image_px});
     CollectPhotos(JoinPhotos(model, ReadCaptures(context.survey / kCapturesFile)));
     PrepareJobs();
   }
@@ -94,18 +103,20 @@ class Densifier {
   }
 
   // 3. One cloud.
-  PointCloud FuseMaps() {
+  void FuseMaps(FusedPointsFile& points) {
+    maps_.reset();  // those of the first pass have served
     LruCache<int, DepthMap> maps(
         context_.memory_limit_bytes / 4, [this](int i) { return LoadFinalMap(i); }, MapBytes);
     FuseInput input;
     for (size_t i = 0; i < photos_.size(); ++i) {
       input.ids.push_back(photos_[i].id);
       input.cameras.push_back(CameraOf(photos_[i]));
-      input.sources.push_back(jobs_[i].sources);
+      input.neighbours.push_back(jobs_[i].neighbours);
     }
     input.map = [&](int i) { return maps.Get(i); };
     input.colors = [this](int i) { return views_.Get(i); };
     FuseOptions fuse;
+    fuse.threads = context_.threads;
     fuse.min_consistent = options_.min_consistent;
     if (photos_.size() == 2 && fuse.min_consistent > 1) {
       fuse.min_consistent = 1;
@@ -115,28 +126,11 @@ class Densifier {
     fuse.max_reprojection_px = static_cast<float>(options_.max_reprojection_px);
     fuse.max_depth_difference = static_cast<float>(options_.max_depth_difference);
     context_.progress->Begin("fusing", photos_.size());
-    return Fuse(input, fuse, [this] {
+    Fuse(input, fuse, [&](const FusedPoints& of_photo) {
       context_.ThrowIfCancelled();
+      for (size_t i = 0; i < of_photo.size(); ++i) points.Add(of_photo.at(i));
       context_.progress->Advance();
     });
-  }
-
-  // Distance between neighbouring pixels of the depth maps on the surface at each point, in the
-  // photo that saw it closest.
-  std::vector<float> Spacing(const PointCloud& cloud) const {
-    std::map<uint32_t, std::pair<Eigen::Vector3d, double>> photos;  // centre, pixels per radian
-    for (const SurveyPhoto& photo : photos_) {
-      photos[photo.id.value] = {photo.cam_from_world.Center(), CameraOf(photo).fx};
-    }
-    std::vector<float> spacing(cloud.size(), std::numeric_limits<float>::max());
-    for (size_t i = 0; i < cloud.size(); ++i) {
-      for (const uint32_t id : cloud.views[i]) {
-        const auto& [center, focal_px] = photos.at(id);
-        const double distance = (cloud.positions[i] - center).norm();
-        spacing[i] = std::min(spacing[i], static_cast<float>(distance / focal_px));
-      }
-    }
-    return spacing;
   }
 
   void WriteDepthMaps() {
@@ -161,7 +155,7 @@ class Densifier {
     std::map<PhotoId, int> index_of;
     for (const SurveyPhoto& photo : photos_) {
       index_of[photo.id] = static_cast<int>(jobs_.size());
-      jobs_.push_back({&choices_.at(photo.id), {}, ContentHash(photo), {}});
+      jobs_.push_back({&choices_.at(photo.id), {}, {}, ContentHash(photo), {}});
     }
     for (DepthJob& job : jobs_) {
       std::vector<std::string> parts = {
@@ -177,6 +171,9 @@ class Densifier {
         parts.push_back(jobs_[index_of[id]].content);
       }
       job.first_key = HashParts(parts);
+      for (const PhotoId id : job.choice->neighbours) {
+        if (index_of.contains(id)) job.neighbours.push_back(index_of[id]);
+      }
     }
   }
 
@@ -238,11 +235,11 @@ class Densifier {
 
   DepthMap Improve(int index) {
     PatchMatchInput input = InputOf(index);
-    const auto start = maps_.Get(index);
+    const auto start = maps_->Get(index);
     input.start = start.get();
     std::vector<std::shared_ptr<const DepthMap>> held;
     for (const int s : jobs_[index].sources) {
-      held.push_back(maps_.Get(s));
+      held.push_back(maps_->Get(s));
       input.source_maps.push_back(held.back().get());
     }
     DepthMap map = MatchDepths(input, OptionsOf(index));
@@ -256,9 +253,23 @@ class Densifier {
   std::vector<SurveyPhoto> photos_;
   std::vector<DepthJob> jobs_;  // by photo
   LruCache<int, ViewPyramid> views_;
-  LruCache<int, DepthMap> maps_;
-  std::vector<std::string> final_maps_;  // keys
+  std::optional<LruCache<int, DepthMap>> maps_;  // of the first pass
+  std::vector<std::string> final_maps_;          // keys
 };
+
+// Returns how many points were kept.
+size_t WriteCloud(FusedPointsFile& points, const std::vector<bool>& kept,
+                  const std::filesystem::path& path) {
+  const auto count = static_cast<size_t>(std::ranges::count(kept, true));
+  PlyWriter writer(path, {.points = count, .normals = true, .colors = true, .views = true},
+                   kNeighbours + 1);
+  size_t i = 0;
+  points.ForEach([&](const FusedPoint& point) {
+    if (kept[i++]) writer.Add(point.point);
+  });
+  writer.Close();
+  return count;
+}
 
 }  // namespace
 
@@ -273,23 +284,23 @@ void RunDense(const DenseOptions& options, StageContext& context) {
   }
   densifier.MatchFirst();
   densifier.MatchAgainstMaps();
-  PointCloud cloud = densifier.FuseMaps();
-  if (cloud.size() == 0) {
+  FusedPointsFile points(context.out);
+  densifier.FuseMaps(points);
+  if (points.size() == 0) {
     throw Error(ErrorKind::kStageFailed, "no depth was confirmed by enough photos",
                 "lower dense.min_consistent to 1, or add photos that overlap by 70 % and more");
   }
   if (options.write_depth_maps) densifier.WriteDepthMaps();
-  const size_t fused = cloud.size();
-  size_t removed = 0;
+  std::vector<bool> kept(points.size(), true);
   if (options.outlier_sigmas > 0) {
     context.progress->Begin("removing outliers", 1);
-    removed =
-        RemoveOutliers(options.outlier_sigmas, densifier.Spacing(cloud), context.threads, cloud);
+    kept = FindInliers(points, {.sigmas = options.outlier_sigmas, .threads = context.threads},
+                       context.out);
     context.progress->Advance();
   }
-  WritePly(cloud, context.out / "cloud.ply");
-  context.progress->Note(fmt::format("{} points from {} photos, {} outliers removed",
-                                     fused - removed, densifier.num_photos(), removed));
+  const size_t count = WriteCloud(points, kept, context.out / "cloud.ply");
+  context.progress->Note(fmt::format("{} points from {} photos, {} outliers removed", count,
+                                     densifier.num_photos(), points.size() - count));
 }
 
 }  // namespace stucco

@@ -2,17 +2,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
-#include "survey/point_cloud.h"
+#include "dense/fused_points.h"
 
 namespace stucco {
 
-// Statistical outlier removal (Rusu et al. 2008): drops points whose mean distance to their 10
-// nearest neighbours exceeds the cloud's mean by `sigmas` standard deviations. Distances count in
-// units of `spacing`, the distance between neighbouring pixels on the surface at each point, so
-// that what was only seen from afar is not held against what was seen from near. Returns how many.
-size_t RemoveOutliers(double sigmas, const std::vector<float>& spacing, int threads,
-                      PointCloud& cloud);
+struct OutlierOptions {
+  double sigmas = 3;
+  int threads = 1;
+  size_t points_of_slab = size_t{1} << 19;  // that are looked at together, about
+};
+
+// Statistical outlier removal (Rusu et al. 2008): which points are within `sigmas` standard
+// deviations of the cloud's mean of mean distances to the 10 nearest neighbours. Distances count in
+// units of the points' spacing, so that what was only seen from afar is not held against what was
+// seen from near, and up to a reach of 16 spacings: where a lonely point's neighbours are beyond
+// that does not matter, and no point has to be looked for farther off. So the cloud is looked at in
+// slabs across its longest axis, each with what is within reach of it; how many there are changes
+// no distance. `folder` takes nameless files meanwhile.
+std::vector<bool> FindInliers(FusedPointsFile& points, const OutlierOptions& options,
+                              const std::filesystem::path& folder);
 
 }  // namespace stucco

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include "dense/view.h"
 
 namespace stucco {
@@ -18,14 +20,24 @@ struct ReferencePatch {
   float variance = 0;
 };
 
+struct PixelPlace {
+  float x = 0;
+  float y = 0;
+};
+
 ReferencePatch MakeReferencePatch(const PackedImage& image, int x, int y);
 
-// 1 - weighted normalised cross-correlation between the reference patch around (x, y) and where the
+// 1 - weighted normalised cross-correlation between the reference patch around `at` and where the
 // homography takes it in `source`: 0 for a perfect match, kNoMatch when the patch leaves the image
 // or either side has no texture. `homography` maps reference to source pixels, row by row.
 float PatchCost(const ReferencePatch& patch, const PackedImage& source, const float homography[9],
-                float x, float y);
+                const PixelPlace& at);
 
 inline constexpr float kNoMatch = 2.0f;
+
+// The code for PatchCost that this processor can run, the fastest first. All give the same bits.
+using PatchCostCode = float (*)(const ReferencePatch& patch, const PackedImage& source,
+                                const float* homography, const PixelPlace& at);
+std::vector<PatchCostCode> PatchCostCodes();
 
 }  // namespace stucco

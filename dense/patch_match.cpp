@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "dense/internal/source_geometry.h"
 #include "dense/patch.h"
@@ -14,10 +15,16 @@ namespace stucco {
 namespace {
 
 constexpr int kMaxSources = 16;
+constexpr size_t kMostOffers = 13;         // of a pixel: its own plane, eight arms, four changes
 constexpr float kGeometricWeight = 0.15f;  // per pixel of disagreement
 constexpr float kGeometricLimit = 3;       // pixels
 constexpr float kLeastOwnVariance = 5;     // grey levels squared, within two pixels
 constexpr float kSteepest = 0.1f;          // cosine between a plane's normal and the ray, at least
+constexpr float kUnknown = -1;             // a matching cost that was not asked for yet
+// Planes closer than this match alike: within a window of 11 pixels they lie hundredths of a pixel
+// of disparity apart.
+constexpr float kSameDepth = 5e-5f;       // relative
+constexpr float kSameNormal = 1 - 5e-5f;  // cosine
 
 // Candidates are taken from where a red pixel has black neighbours: offsets with an odd sum.
 constexpr std::array<std::array<int, 2>, 4> kNear[4] = {
@@ -74,6 +81,7 @@ class LevelMatcher {
     for (const auto& source : input.sources) geometry_.emplace_back(view_, source->cameras[level]);
     planes_.resize(image_.gray.size());
     costs_.assign(image_.gray.size(), kNoMatch);
+    matching_.assign(image_.gray.size() * geometry_.size(), kUnknown);
     for (size_t s = 0; s < input.source_maps.size(); ++s) {
       back_.emplace_back(input.sources[s]->cameras[level], view_);
     }
@@ -133,15 +141,21 @@ class LevelMatcher {
     }
   }
 
-  DepthMap Result() const {
+  // The costs are those of matching alone: that other maps contradict a depth, or have none there,
+  // is for those to judge who hold maps against each other.
+  DepthMap Result() {
     DepthMap map = EmptyDepthMap(view_.width, view_.height);
     for (size_t i = 0; i < planes_.size(); ++i) {
       if (costs_[i] >= kNoMatch || !HasOwnTexture(i)) continue;
+      const auto x = static_cast<int>(i % view_.width);
+      const auto y = static_cast<int>(i / view_.width);
+      const ReferencePatch patch = MakeReferencePatch(image_, x, y);
+      const float cost = SelectViews(patch, planes_[i], {x, y}).matching;
       map.depths[i] = planes_[i].depth;
       for (int k = 0; k < 3; ++k) {
         map.normals[i][k] = static_cast<int8_t>(std::lround(planes_[i].normal[k] * 127));
       }
-      map.costs[i] = static_cast<uint8_t>(std::min(254.0f, costs_[i] * 127));
+      map.costs[i] = static_cast<uint8_t>(std::min(254.0f, cost * 127));
     }
     return map;
   }
@@ -202,35 +216,46 @@ class LevelMatcher {
     return plane;
   }
 
-  float ViewCost(const ReferencePatch& patch, const Plane& plane, int x, int y, int source) const {
-    const Eigen::Vector3f point = Ray(x, y) * plane.depth;
+  // The matching cost in a source alone.
+  float Matching(const ReferencePatch& patch, const Plane& plane, Pixel at, int source) const {
     float h[9];
-    geometry_[source].Homography(view_, point, plane.normal, h);
-    const float cost = PatchCost(patch, input_.sources[source]->images[level_], h,
-                                 static_cast<float>(x), static_cast<float>(y));
-    if (input_.source_maps.empty() || cost >= kNoMatch) return cost;
-    return cost + kGeometricWeight * Disagreement(point, x, y, source);
+    geometry_[source].Homography(view_, Ray(at.x, at.y) * plane.depth, plane.normal, h);
+    return PatchCost(patch, input_.sources[source]->images[level_], h,
+                     {static_cast<float>(at.x), static_cast<float>(at.y)});
+  }
+
+  // What the source's map holds against the plane; together with the matching cost kNoMatch at
+  // most.
+  float Penalty(const Plane& plane, Pixel at, int source) const {
+    if (input_.source_maps.empty()) return 0;
+    return kGeometricWeight * Disagreement(Ray(at.x, at.y) * plane.depth, at, source);
   }
 
   // Forward-backward reprojection error in pixels against the source's own depth, limited.
-  float Disagreement(const Eigen::Vector3f& point, int x, int y, int source) const {
+  float Disagreement(const Eigen::Vector3f& point, Pixel at, int source) const {
     const SourceGeometry& to_source = geometry_[source];
+    const DepthMap& map = *input_.source_maps[source];
     const PinholeCamera& other = input_.sources[source]->cameras[level_];
     const Eigen::Vector3f p = to_source.source_from_reference * point + to_source.translation;
     if (p.z() <= 0) return kGeometricLimit;
     const int u = static_cast<int>(std::lround(other.fx * p.x() / p.z() + other.cx));
     const int v = static_cast<int>(std::lround(other.fy * p.y() / p.z() + other.cy));
-    if (u < 0 || v < 0 || u >= other.width || v >= other.height) return kGeometricLimit;
-    const DepthMap& map = *input_.source_maps[source];
-    const float depth = map.depths[map.Index(u, v)];
+    if (u < 0 || v < 0 || u >= map.width || v >= map.height) return kGeometricLimit;
+    const size_t pixel = map.Index(u, v);
+    const float depth = map.depths[pixel];
     if (depth <= 0) return kGeometricLimit;
-    // The source's surface at that pixel, carried along its ray to where this point projects.
-    const Eigen::Vector3f there = p * (depth / p.z());
+    // Where the source's surface at that pixel meets its ray to the point.
+    const Eigen::Vector3f on_surface =
+        other.Ray(static_cast<float>(u), static_cast<float>(v)) * depth;
+    const Eigen::Vector3f normal = map.Normal(pixel);
+    const float along = normal.dot(p);
+    const float stretch = along < -0.1f * p.z() ? normal.dot(on_surface) / along : depth / p.z();
+    const Eigen::Vector3f there = p * stretch;
     const SourceGeometry& back = back_[source];
     const Eigen::Vector3f q = back.source_from_reference * there + back.translation;
     if (q.z() <= 0) return kGeometricLimit;
-    const float dx = view_.fx * q.x() / q.z() + view_.cx - static_cast<float>(x);
-    const float dy = view_.fy * q.y() / q.z() + view_.cy - static_cast<float>(y);
+    const float dx = view_.fx * q.x() / q.z() + view_.cx - static_cast<float>(at.x);
+    const float dy = view_.fy * q.y() / q.z() + view_.cy - static_cast<float>(at.y);
     return std::min(kGeometricLimit, std::sqrt(dx * dx + dy * dy));
   }
 
@@ -238,58 +263,100 @@ class LevelMatcher {
   struct Selection {
     std::array<int, kMaxSources> sources{};
     int count = 0;
-    float cost = kNoMatch;
+    float cost = kNoMatch;      // mean
+    float matching = kNoMatch;  // mean
   };
 
-  Selection SelectViews(const ReferencePatch& patch, const Plane& plane, int x, int y) const {
+  // Matching costs of the pixel's present plane in each source, where they are known.
+  std::span<float> MatchingOf(Pixel at) {
+    return std::span(matching_).subspan(Index(at.x, at.y) * geometry_.size(), geometry_.size());
+  }
+
+  Selection SelectViews(const ReferencePatch& patch, const Plane& plane, Pixel at) {
     std::array<std::pair<float, int>, kMaxSources> costs;
-    const int total = static_cast<int>(geometry_.size());
-    for (int s = 0; s < total; ++s) costs[s] = {ViewCost(patch, plane, x, y, s), s};
+    const std::span<float> matching = MatchingOf(at);
+    const int total = static_cast<int>(matching.size());
+    for (int s = 0; s < total; ++s) {
+      if (matching[s] == kUnknown) matching[s] = Matching(patch, plane, at, s);
+      costs[s] = {std::min(matching[s] + Penalty(plane, at, s), kNoMatch), s};
+    }
     Selection selection;
     selection.count = std::min(options_.views_per_pixel, total);
     std::partial_sort(costs.begin(), costs.begin() + selection.count, costs.begin() + total);
     float sum = 0;
+    float matching_sum = 0;
     for (int i = 0; i < selection.count; ++i) {
       selection.sources[i] = costs[i].second;
-      sum += std::min(costs[i].first, kNoMatch);
+      sum += costs[i].first;
+      matching_sum += matching[costs[i].second];
     }
     selection.cost = sum / static_cast<float>(selection.count);
+    selection.matching = matching_sum / static_cast<float>(selection.count);
     return selection;
   }
 
-  float Cost(const ReferencePatch& patch, const Plane& plane, Pixel pixel,
-             const Selection& selection, float limit) const {
+  // A pixel while better planes are looked for.
+  struct Search {
+    Pixel at;
+    const ReferencePatch& patch;
+    Selection selection;
+    Plane best;
+    float best_cost = kNoMatch;
+    std::array<Plane, kMostOffers> offered{};
+    size_t num_offered = 0;
+  };
+
+  static bool IsSame(const Plane& a, const Plane& b) {
+    return std::abs(a.depth - b.depth) <= kSameDepth * a.depth &&
+           a.normal.dot(b.normal) >= kSameNormal;
+  }
+
+  void Offer(const Plane& plane, Search& search) {
+    const auto same = [&](const Plane& other) { return IsSame(plane, other); };
+    const auto end = search.offered.begin() + static_cast<std::ptrdiff_t>(search.num_offered);
+    if (std::any_of(search.offered.begin(), end, same)) return;
+    search.offered[search.num_offered++] = plane;
+    const Selection& selection = search.selection;
+    const float stop = search.best_cost * static_cast<float>(selection.count);
+    std::array<float, kMaxSources> matching;
+    std::array<float, kMaxSources> penalties;
+    // What other maps hold against the plane is cheap to know, and often enough to refuse it.
     float sum = 0;
-    const float stop = limit * static_cast<float>(selection.count);
-    for (int i = 0; i < selection.count && sum < stop; ++i) {
-      sum += std::min(ViewCost(patch, plane, pixel.x, pixel.y, selection.sources[i]), kNoMatch);
+    for (int i = 0; i < selection.count; ++i) {
+      penalties[i] = Penalty(plane, search.at, selection.sources[i]);
+      sum += penalties[i];
     }
-    return sum / static_cast<float>(selection.count);
+    for (int i = 0; i < selection.count; ++i) {
+      if (sum >= stop) return;
+      matching[i] = Matching(search.patch, plane, search.at, selection.sources[i]);
+      sum += std::min(matching[i], kNoMatch - penalties[i]);
+    }
+    if (sum >= stop) return;
+    search.best = plane;
+    search.best_cost = sum / static_cast<float>(selection.count);
+    const std::span<float> known = MatchingOf(search.at);
+    std::ranges::fill(known, kUnknown);
+    for (int i = 0; i < selection.count; ++i) known[selection.sources[i]] = matching[i];
   }
 
   void Improve(int x, int y, int iteration, bool far) {
     const ReferencePatch patch = MakeReferencePatch(image_, x, y);
     const size_t index = Index(x, y);
-    Plane best = planes_[index];
-    const Selection selection = SelectViews(patch, best, x, y);
-    float best_cost = selection.cost;
-    const auto offer = [&](const Plane& plane) {
-      const float cost = Cost(patch, plane, {x, y}, selection, best_cost);
-      if (cost >= best_cost) return;
-      best_cost = cost;
-      best = plane;
-    };
-    for (const auto& arm : kNear) OfferBestOf(arm, x, y, offer);
+    Search search{{x, y}, patch, SelectViews(patch, planes_[index], {x, y}), planes_[index]};
+    search.best_cost = search.selection.cost;
+    search.offered[search.num_offered++] = search.best;
+    for (const auto& arm : kNear) OfferBestOf(arm, search);
     for (const auto& arm : kFar) {
-      if (far) OfferBestOf(arm, x, y, offer);
+      if (far) OfferBestOf(arm, search);
     }
-    Refine({x, y}, iteration, far, best, offer);
-    planes_[index] = best;
-    costs_[index] = best_cost;
+    Refine(iteration, far, search);
+    planes_[index] = search.best;
+    costs_[index] = search.best_cost;
   }
 
-  template <typename Arm, typename Offer>
-  void OfferBestOf(const Arm& arm, int x, int y, const Offer& offer) const {
+  template <typename Arm>
+  void OfferBestOf(const Arm& arm, Search& search) {
+    const auto [x, y] = search.at;
     size_t best = planes_.size();
     int bx = 0;
     int by = 0;
@@ -303,26 +370,26 @@ class LevelMatcher {
     }
     if (best == planes_.size()) return;
     const Plane& plane = planes_[best];
-    offer(Plane{DepthOfPlane(plane.normal, Ray(bx, by) * plane.depth, x, y), plane.normal});
+    Offer({DepthOfPlane(plane.normal, Ray(bx, by) * plane.depth, x, y), plane.normal}, search);
   }
 
   // Small random changes of depth and normal, halving from one iteration to the next; at the coarse
-  // levels also a new plane altogether. `best` is the plane as improved so far.
-  template <typename Offer>
-  void Refine(Pixel at, int iteration, bool anew, const Plane& best, const Offer& offer) const {
-    Random random(options_.seed, static_cast<uint32_t>(Index(at.x, at.y)),
+  // levels also a new plane altogether.
+  void Refine(int iteration, bool anew, Search& search) {
+    const auto [x, y] = search.at;
+    Random random(options_.seed, static_cast<uint32_t>(Index(x, y)),
                   static_cast<uint32_t>(1 + iteration + 100 * level_ + (input_.start ? 1000 : 0)));
     const float size = std::ldexp(1.0f, -iteration) * (anew ? 1.0f : 0.25f);
-    const float depth = best.depth * (1 + random.Uniform(-0.02f, 0.02f) * size);
+    const float depth = search.best.depth * (1 + random.Uniform(-0.02f, 0.02f) * size);
     const Eigen::Vector3f turn(random.Uniform(-0.5f, 0.5f), random.Uniform(-0.5f, 0.5f),
                                random.Uniform(-0.5f, 0.5f));
-    const Eigen::Vector3f normal = Facing(best.normal + turn * size, at.x, at.y);
+    const Eigen::Vector3f normal = Facing(search.best.normal + turn * size, x, y);
     const float moved = std::clamp(depth, options_.min_depth, options_.max_depth);
-    offer(Plane{moved, best.normal});
-    offer(Plane{best.depth, normal});
+    Offer({moved, search.best.normal}, search);
+    Offer({search.best.depth, normal}, search);
     if (!anew) return;
-    offer(Plane{moved, normal});
-    offer(RandomPlane(random, at.x, at.y));
+    Offer({moved, normal}, search);
+    Offer(RandomPlane(random, x, y), search);
   }
 
   const PatchMatchInput& input_;
@@ -333,7 +400,8 @@ class LevelMatcher {
   std::vector<SourceGeometry> geometry_;
   std::vector<SourceGeometry> back_;  // reference from source, in the second pass
   std::vector<Plane> planes_;
-  std::vector<float> costs_;
+  std::vector<float> costs_;     // of the planes, geometry included
+  std::vector<float> matching_;  // source by source; kUnknown where the plane was not tried
 };
 
 }  // namespace
@@ -345,17 +413,18 @@ DepthMap MatchDepths(const PatchMatchInput& input, const PatchMatchOptions& opti
     matcher.Run(options.iterations, false);
     return matcher.Result();
   }
-  const int levels = static_cast<int>(input.reference->cameras.size());
+  const int coarsest = static_cast<int>(input.reference->cameras.size()) - 1;
   std::unique_ptr<LevelMatcher> matcher;
-  for (int level = levels - 1; level >= 0; --level) {
+  for (int level = coarsest; level >= 0; --level) {
     auto finer = std::make_unique<LevelMatcher>(input, options, level);
-    const bool coarsest = level == levels - 1;
-    if (coarsest) {
+    if (level == coarsest) {
       finer->StartFromSeeds();
+      finer->Run(6, true);
     } else {
       finer->StartFrom(*matcher);
+      // At full size once: the second pass goes on from there.
+      finer->Run(level > 0 ? options.iterations + 1 : 1, level > 0);
     }
-    finer->Run(coarsest ? 6 : options.iterations + (level > 0 ? 1 : 0), level > 0 || coarsest);
     matcher = std::move(finer);
   }
   return matcher->Result();

@@ -69,8 +69,8 @@ void AddSeeds(const Reconstruction& r, const RegisteredImage& photo, int max_ima
 
 }  // namespace
 
-std::map<PhotoId, SourceChoice> ChooseSources(const Reconstruction& reconstruction, int max_sources,
-                                              int max_image_px) {
+std::map<PhotoId, SourceChoice> ChooseSources(const Reconstruction& reconstruction,
+                                              const SourceLimits& limits) {
   std::map<PhotoId, SourceChoice> choices;
   for (const auto& [id, others] : ScorePairs(reconstruction)) {
     std::vector<std::pair<double, PhotoId>> order;
@@ -82,9 +82,10 @@ std::map<PhotoId, SourceChoice> ChooseSources(const Reconstruction& reconstructi
     std::sort(order.begin(), order.end());
     SourceChoice& choice = choices[id];
     for (const auto& [score, other] : order) {
-      if (static_cast<int>(choice.sources.size()) < max_sources) choice.sources.push_back(other);
+      if (std::ssize(choice.sources) < limits.sources) choice.sources.push_back(other);
+      if (std::ssize(choice.neighbours) < limits.neighbours) choice.neighbours.push_back(other);
     }
-    AddSeeds(reconstruction, reconstruction.photos.at(id), max_image_px, choice);
+    AddSeeds(reconstruction, reconstruction.photos.at(id), limits.max_image_px, choice);
   }
   return choices;
 }

@@ -12,17 +12,24 @@ namespace stucco {
 
 // What the sparse points tell about one photo.
 struct SourceChoice {
-  std::vector<PhotoId> sources;  // best first
+  std::vector<PhotoId> sources;     // best first
+  std::vector<PhotoId> neighbours;  // the same order, further down: what may show the same
   float min_depth = 0;
   float max_depth = 0;
-  std::vector<DepthSeed> seeds;  // pixels of the undistorted photo at `max_image_px`
+  std::vector<DepthSeed> seeds;  // pixels of the undistorted photo
+};
+
+struct SourceLimits {
+  int sources = 0;
+  int neighbours = 0;
+  int max_image_px = 0;  // of the seeds' photos
 };
 
 // For every posed photo the photos to match it with: a point seen by both counts by the angle
 // between its rays (best at 5 to 30 degrees, nothing below 1) and by how alike the photos' scales
 // are (after Goesele et al. 2007). Depth bounds are those of the photo's points with a margin.
 // Photos without a usable neighbour have no entry.
-std::map<PhotoId, SourceChoice> ChooseSources(const Reconstruction& reconstruction, int max_sources,
-                                              int max_image_px);
+std::map<PhotoId, SourceChoice> ChooseSources(const Reconstruction& reconstruction,
+                                              const SourceLimits& limits);
 
 }  // namespace stucco

@@ -47,14 +47,20 @@ Stage CalibStage() {
 Stage DenseStage() {
   Stage stage;
   stage.name = "dense";
+  stage.version = 2;
   stage.title = "the dense point cloud";
   stage.needs = {"ingest", "calib"};
   stage.inputs = {kCapturesFile, kSparseFolder};
   stage.opens_photos = true;
-  stage.cost = {.cpu_s_per_megapixel = 21,
-                .disk_mb_per_megapixel = 25,
-                .memory_mb = 250,
-                .memory_mb_per_megapixel = 45};
+  // Photos (10 bytes a pixel) and depth maps (8) are cached, a quarter of the limit each.
+  stage.cost = {.cpu_s_per_megapixel = 14,
+                .disk_mb_per_megapixel = 30,
+                .memory_mb = 60,
+                .memory_mb_per_photo = 0.18,
+                .memory_mb_per_megapixel = 0.2,
+                .memory_mb_per_largest_megapixel = 120,
+                .cached_mb_per_megapixel = 18,
+                .cached_share = 0.5};
   stage.bind = [] { return Bind<DenseOptions>("dense", Describe, RunDense); };
   return stage;
 }

@@ -7,11 +7,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 
 #include "survey/point_cloud.h"
 
 namespace stucco {
+
+namespace internal {
+class OutputFile;
+}
 
 // One point of a cloud, for clouds too large to be held. What the file does not have is zero.
 struct CloudPoint {
@@ -37,5 +42,25 @@ PlyLayout ReadPlyLayout(const std::filesystem::path& path);
 // is only found after the points before it were visited.
 void ForEachPoint(const std::filesystem::path& path,
                   const std::function<void(const CloudPoint&)>& visit);
+
+// Writes a cloud point by point, as WritePly does (point_cloud.h). The layout promises how many
+// points come and what they have; no point may have more than `most_views` views.
+class PlyWriter {
+ public:
+  PlyWriter(const std::filesystem::path& path, const PlyLayout& layout, size_t most_views);
+  ~PlyWriter();
+  PlyWriter(const PlyWriter&) = delete;
+  PlyWriter& operator=(const PlyWriter&) = delete;
+
+  void Add(const CloudPoint& point);
+  void Close();  // after as many points as were promised
+
+ private:
+  PlyLayout layout_;
+  bool wide_views_ = false;
+  std::unique_ptr<internal::OutputFile> file_;
+  std::string buffer_;
+  uint64_t written_ = 0;
+};
 
 }  // namespace stucco

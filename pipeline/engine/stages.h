@@ -30,8 +30,11 @@ struct StageCost {
   double disk_mb_per_photo = 0;
   double disk_mb_per_megapixel = 0;
   double memory_mb = 0;
+  double memory_mb_per_photo = 0;
   double memory_mb_per_megapixel = 0;  // of all photos
   double memory_mb_per_largest_megapixel = 0;
+  double cached_mb_per_megapixel = 0;  // of all photos, as far as the memory limit's share allows
+  double cached_share = 0;             // of run.memory_limit_gb
 };
 
 // One row of the stage table: everything the orchestrator knows about a stage.

@@ -30,7 +30,7 @@ int MaxSide(const BoundStage& bound) {
 }
 
 StageNeed Estimate(const Stage& stage, const BoundStage& bound, const PhotoFolder& photos,
-                   int threads) {
+                   const RunSettings& run) {
   double megapixels = 0, largest = 0;
   for (const ImageSize& full : photos.sizes) {
     const ImageSize size = ScaledSize(full, MaxSide(bound));
@@ -45,10 +45,13 @@ StageNeed Estimate(const Stage& stage, const BoundStage& bound, const PhotoFolde
                        cost.cpu_s_per_pair * pairs;
   StageNeed need;
   need.stage = stage.name;
-  need.wall_s = cpu_s * (1 - kParallelShare + kParallelShare / threads);
+  need.wall_s = cpu_s * (1 - kParallelShare + kParallelShare / ResolvedThreads(run));
   need.disk_mb = cost.disk_mb_per_photo * count + cost.disk_mb_per_megapixel * megapixels;
-  need.memory_mb = cost.memory_mb + cost.memory_mb_per_megapixel * megapixels +
-                   cost.memory_mb_per_largest_megapixel * largest;
+  need.memory_mb = cost.memory_mb + cost.memory_mb_per_photo * count +
+                   cost.memory_mb_per_megapixel * megapixels +
+                   cost.memory_mb_per_largest_megapixel * largest +
+                   std::min(cost.cached_mb_per_megapixel * megapixels,
+                            cost.cached_share * run.memory_limit_gb * 1024);
   return need;
 }
 
@@ -72,7 +75,7 @@ class Checker {
     }
     for (const std::string& name : stages) {
       result_.needs.push_back(Estimate(GetStage(table_, name), settings_.stages.at(name),
-                                       result_.photos, result_.threads));
+                                       result_.photos, settings_.run));
     }
     CheckDisk();
     CheckMemory();

@@ -4,98 +4,96 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+
+#include "tests/survey/temporary_folder.h"
 
 namespace stucco::test {
 namespace {
 
-// A wall of 30 x 30 points with four strays among them.
-PointCloud WallWithStrays(const Eigen::Vector3d& origin) {
-  PointCloud cloud;
-  for (int i = 0; i < 900; ++i) {
-    cloud.positions.push_back(origin +
-                              Eigen::Vector3d(0.1 * (i % 30), 0.001 * (i % 7), 0.1 * (i / 30)));
-    if (i % 250 == 100) {
-      cloud.positions.push_back(origin + Eigen::Vector3d(1, 4 + 0.01 * i, 1));
+class Outliers : public testing::Test {
+ protected:
+  void Add(const Eigen::Vector3d& position, float spacing) {
+    const std::vector<uint32_t> views(file_->size() % 3, 7);
+    FusedPoint point;
+    point.point.position = position;
+    point.point.views = views;
+    point.spacing = spacing;
+    file_->Add(point);
+  }
+
+  // A wall of 30 x 30 points with four strays among them; returns which are of the wall.
+  std::vector<bool> AddWallWithStrays(const Eigen::Vector3d& origin) {
+    std::vector<bool> of_wall;
+    for (int i = 0; i < 900; ++i) {
+      Add(origin + Eigen::Vector3d(0.1 * (i % 30), 0.001 * (i % 7), 0.1 * (i / 30)), 0.1f);
+      of_wall.push_back(true);
+      if (i % 250 != 100) continue;
+      Add(origin + Eigen::Vector3d(1, 4 + 0.01 * i, 1), 0.1f);
+      of_wall.push_back(false);
     }
+    return of_wall;
   }
-  for (size_t i = 0; i < cloud.positions.size(); ++i) {
-    cloud.normals.emplace_back(0, -1, 0);
-    cloud.colors.push_back({static_cast<uint8_t>(i % 256), static_cast<uint8_t>(i / 256), 0});
-    cloud.views.push_back({static_cast<uint32_t>(i)});
+
+  std::vector<bool> Find(const OutlierOptions& options) {
+    return FindInliers(*file_, options, folder_.path());
   }
-  return cloud;
+
+  size_t Removed(const OutlierOptions& options) {
+    return static_cast<size_t>(std::ranges::count(Find(options), false));
+  }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<FusedPointsFile> file_ = std::make_unique<FusedPointsFile>(folder_.path());
+};
+
+TEST_F(Outliers, AreStrays) {
+  const std::vector<bool> of_wall = AddWallWithStrays({0, 0, 0});
+  EXPECT_EQ(Find({.sigmas = 3, .threads = 2}), of_wall);
 }
 
-size_t Remove(double sigmas, PointCloud& cloud) {
-  return RemoveOutliers(sigmas, std::vector<float>(cloud.size(), 0.1f), 2, cloud);
+TEST_F(Outliers, AreFoundFarFromTheOrigin) {
+  const std::vector<bool> of_wall = AddWallWithStrays({431000, 5412000, 250});
+  EXPECT_EQ(Find({.sigmas = 3}), of_wall);
 }
 
-void ExpectStraysGone(const Eigen::Vector3d& origin) {
-  const PointCloud before = WallWithStrays(origin);
-  PointCloud cloud = before;
-  EXPECT_EQ(Remove(3, cloud), 4u);
-  ASSERT_EQ(cloud.size(), 900u);
-  EXPECT_FALSE(FindProblem(cloud));
-  for (size_t i = 0; i < cloud.size(); ++i) {
-    EXPECT_LT(cloud.positions[i].y() - origin.y(), 1);
-    // What belongs to a point went with it.
-    const uint32_t was = cloud.views[i].at(0);
-    EXPECT_EQ(cloud.positions[i], before.positions[was]);
-    EXPECT_EQ(cloud.colors[i], before.colors[was]);
-    if (i > 0) {
-      EXPECT_LT(cloud.views[i - 1].at(0), was);
-    }
+TEST_F(Outliers, AreTheSameInSlabsOfAnySize) {
+  for (int k = 0; k < 5; ++k) AddWallWithStrays({3.0 * k, 0.3 * k, 0});
+  const std::vector<bool> whole = Find({.sigmas = 1});
+  EXPECT_GT(std::ranges::count(whole, false), 4);
+  for (const size_t points : {2000u, 700u, 100u}) {
+    EXPECT_EQ(Find({.sigmas = 1, .threads = 2, .points_of_slab = points}), whole) << points;
   }
 }
 
-TEST(RemoveOutliers, DropsStrays) {
-  ExpectStraysGone({0, 0, 0});
+TEST_F(Outliers, AreNoneUnderLaxLimits) {
+  AddWallWithStrays({0, 0, 0});
+  EXPECT_EQ(Removed({.sigmas = 1000}), 0u);
 }
 
-TEST(RemoveOutliers, WorksFarFromTheOrigin) {
-  ExpectStraysGone({431000, 5412000, 250});
+TEST_F(Outliers, AreNoneInSmallClouds) {
+  EXPECT_TRUE(Find({.sigmas = 1}).empty());
+  for (int i = 0; i < 10; ++i) Add({std::pow(2.0, i), 0, 0}, 0.1f);
+  EXPECT_EQ(Removed({.sigmas = 1}), 0u);
 }
 
-TEST(RemoveOutliers, KeepsEverythingUnderLaxLimits) {
-  PointCloud cloud = WallWithStrays({0, 0, 0});
-  EXPECT_EQ(Remove(1000, cloud), 0u);
-  EXPECT_EQ(cloud.size(), 904u);
+// A wall seen from near, and a smaller one from ten times as far, whose points are ten times as far
+// apart. Within 6 deviations: corners of walls as regular as these have neighbours beyond 3.
+TEST_F(Outliers, AreNotWhatWasSeenFromAfar) {
+  for (int i = 0; i < 10'000; ++i) Add({0.01 * (i % 100), 0, 0.01 * (i / 100)}, 0.01f);
+  for (int i = 0; i < 100; ++i) Add({50 + 0.1 * (i % 10), 0, 0.1 * (i / 10)}, 0.1f);
+  Add({0.5, 2, 0.5}, 0.01f);
+  const std::vector<bool> inliers = Find({.sigmas = 6});
+  EXPECT_EQ(std::ranges::count(inliers, false), 1);
+  EXPECT_FALSE(inliers.back());
 }
 
-TEST(RemoveOutliers, LeavesSmallCloudsAlone) {
-  PointCloud cloud;
-  EXPECT_EQ(Remove(1, cloud), 0u);
-  for (int i = 0; i < 10; ++i) cloud.positions.emplace_back(std::pow(2.0, i), 0, 0);
-  EXPECT_EQ(Remove(1, cloud), 0u);
-  EXPECT_EQ(cloud.size(), 10u);
-}
-
-TEST(RemoveOutliers, TakesCloudsWithoutAttributes) {
-  PointCloud cloud;
-  cloud.positions = WallWithStrays({0, 0, 0}).positions;
-  EXPECT_EQ(Remove(3, cloud), 4u);
-  EXPECT_TRUE(cloud.normals.empty());
-}
-
-// A wall seen from near, and a smaller one from ten times as far.
-TEST(RemoveOutliers, KeepsWhatWasSeenFromAfar) {
-  PointCloud cloud;
-  std::vector<float> spacing;
-  for (int i = 0; i < 10'000; ++i) {
-    cloud.positions.emplace_back(0.01 * (i % 100), 0, 0.01 * (i / 100));
-    spacing.push_back(0.01f);
-  }
-  for (int i = 0; i < 100; ++i) {
-    cloud.positions.emplace_back(50 + 0.1 * (i % 10), 0, 0.1 * (i / 10));
-    spacing.push_back(0.1f);
-  }
-  cloud.positions.emplace_back(0.5, 2, 0.5);
-  spacing.push_back(0.01f);
-  PointCloud alike = cloud;
-  EXPECT_EQ(RemoveOutliers(3, spacing, 1, cloud), 1u);
-  EXPECT_EQ(cloud.size(), 10'100u);
-  EXPECT_GT(RemoveOutliers(1, std::vector<float>(10'101, 0.01f), 1, alike), 1u);
+TEST_F(Outliers, LeaveNoFilesBehind) {
+  AddWallWithStrays({0, 0, 0});
+  Find({.points_of_slab = 100});
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
 }  // namespace

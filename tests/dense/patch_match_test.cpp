@@ -102,9 +102,31 @@ TEST(MatchDepths, SecondPassDoesNotHurt) {
   const DepthMap second = MatchDepths(input, Options());
   const Quality before = Measure(first[0], pyramids[0]->cameras[0], planes);
   const Quality after = Measure(second, pyramids[0]->cameras[0], planes);
-  EXPECT_GT(before.within, 0.93);
+  EXPECT_GT(before.within, 0.9);  // one round at full size
+  EXPECT_GT(after.within, 0.93);
   EXPECT_GE(after.within, before.within - 0.002);
   EXPECT_GE(after.found, before.found - 0.01);
+}
+
+// What other maps lack is no fault of a match: its cost would keep the depth out of the cloud.
+TEST(MatchDepths, CostsAreThoseOfMatchingAlone) {
+  const std::vector<MadePlane> planes = {SlantedWall()};
+  const Pyramids pyramids = MakePyramids(3, planes);
+  const DepthMap first = MatchDepths(InputOf(pyramids, planes, 0), Options());
+  PatchMatchInput input = InputOf(pyramids, planes, 0);
+  input.start = &first;
+  const DepthMap nothing = EmptyDepthMap(200, 150);
+  input.source_maps = {&nothing, &nothing};
+  const DepthMap map = MatchDepths(input, Options());
+  std::vector<uint8_t> costs;
+  for (int y = 12; y < map.height - 12; ++y) {
+    for (int x = 12; x < map.width - 12; ++x) {
+      if (map.depths[map.Index(x, y)] > 0) costs.push_back(map.costs[map.Index(x, y)]);
+    }
+  }
+  ASSERT_GT(costs.size(), 15000u);
+  std::ranges::sort(costs);
+  EXPECT_LT(costs[costs.size() / 2], 0.1 * 127);
 }
 
 TEST(MatchDepths, GivesTheSameTwice) {

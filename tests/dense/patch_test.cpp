@@ -32,8 +32,8 @@ PackedImage Make(const std::function<double(double, double)>& gray) {
 
 float CostAt(const PackedImage& reference, const PackedImage& source, const float h[9], int x,
              int y) {
-  return PatchCost(MakeReferencePatch(reference, x, y), source, h, static_cast<float>(x),
-                   static_cast<float>(y));
+  return PatchCost(MakeReferencePatch(reference, x, y), source, h,
+                   {static_cast<float>(x), static_cast<float>(y)});
 }
 
 TEST(ReferencePatch, HasWeightsThatSumToOne) {
@@ -109,6 +109,20 @@ TEST(PatchCost, NoMatchWithoutTexture) {
   EXPECT_EQ(CostAt(flat, image, kIdentity, 30, 30), kNoMatch);
   EXPECT_EQ(CostAt(image, flat, kIdentity, 30, 30), kNoMatch);
   EXPECT_EQ(CostAt(flat, flat, kIdentity, 30, 30), kNoMatch);
+}
+
+TEST(PatchCost, HasTheSameBitsWhateverTheProcessorCan) {
+  const PackedImage image = Make(Waves);
+  const std::vector<PatchCostCode> codes = PatchCostCodes();
+  for (int k = 0; k < 400; ++k) {
+    const auto shift = static_cast<float>(0.013 * k - 2);
+    const float h[9] = {1.02f, 0.01f, shift, -0.02f, 0.98f, shift / 3, 1e-4f, -2e-4f, 1};
+    const PixelPlace at{static_cast<float>(5 + k % 54), static_cast<float>(5 + k * 7 % 54)};
+    const ReferencePatch patch =
+        MakeReferencePatch(image, static_cast<int>(at.x), static_cast<int>(at.y));
+    const float cost = codes.back()(patch, image, h, at);
+    for (const PatchCostCode code : codes) EXPECT_EQ(code(patch, image, h, at), cost) << k;
+  }
 }
 
 TEST(PatchCost, NeverLeavesItsRange) {

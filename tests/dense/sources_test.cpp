@@ -41,17 +41,21 @@ Reconstruction WallSeenFrom(const std::vector<Eigen::Vector3d>& places, int poin
   return r;
 }
 
+SourceLimits Limits(int sources, int max_image_px) {
+  return {.sources = sources, .neighbours = 24, .max_image_px = max_image_px};
+}
+
 TEST(ChooseSources, PrefersGoodAngles) {
   // From photo 1: half a degree, about ten degrees, about three degrees.
   const Reconstruction r = WallSeenFrom({{0, 0, 0}, {0.09, 0, 0}, {1.75, 0, 0}, {0.52, 0, 0}}, 60);
-  const auto choices = ChooseSources(r, 6, 200);
+  const auto choices = ChooseSources(r, Limits(6, 200));
   ASSERT_TRUE(choices.contains(PhotoId{1}));
   EXPECT_EQ(choices.at(PhotoId{1}).sources, (std::vector<PhotoId>{PhotoId{3}, PhotoId{4}}));
 }
 
 TEST(ChooseSources, PrefersTheSameScale) {
   const Reconstruction r = WallSeenFrom({{0, 0, 0}, {1.5, 0, -15}, {-1.5, 0, 0}}, 60);
-  const auto choices = ChooseSources(r, 6, 200);
+  const auto choices = ChooseSources(r, Limits(6, 200));
   ASSERT_GE(choices.at(PhotoId{1}).sources.size(), 1u);
   EXPECT_EQ(choices.at(PhotoId{1}).sources[0], PhotoId{3});
 }
@@ -59,23 +63,32 @@ TEST(ChooseSources, PrefersTheSameScale) {
 TEST(ChooseSources, TakesNoMoreThanAsked) {
   const Reconstruction r =
       WallSeenFrom({{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, 60);
-  for (const auto& [id, choice] : ChooseSources(r, 2, 200)) {
+  for (const auto& [id, choice] : ChooseSources(r, Limits(2, 200))) {
     EXPECT_EQ(choice.sources.size(), 2u);
     EXPECT_EQ(std::count(choice.sources.begin(), choice.sources.end(), id), 0);
   }
 }
 
+TEST(ChooseSources, NeighboursGoOnWhereSourcesEnd) {
+  const Reconstruction r = WallSeenFrom({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, 60);
+  for (const auto& [id, choice] : ChooseSources(r, {.sources = 1, .neighbours = 3})) {
+    ASSERT_EQ(choice.sources.size(), 1u);
+    ASSERT_EQ(choice.neighbours.size(), 3u);
+    EXPECT_EQ(choice.neighbours[0], choice.sources[0]);
+  }
+}
+
 TEST(ChooseSources, NothingForPhotosWithoutPartners) {
-  EXPECT_TRUE(ChooseSources({}, 6, 200).empty());
+  EXPECT_TRUE(ChooseSources({}, Limits(6, 200)).empty());
   // One photo; two from one place; two that share too few points.
-  EXPECT_TRUE(ChooseSources(WallSeenFrom({{0, 0, 0}}, 60), 6, 200).empty());
-  EXPECT_TRUE(ChooseSources(WallSeenFrom({{0, 0, 0}, {0.01, 0, 0}}, 60), 6, 200).empty());
-  EXPECT_TRUE(ChooseSources(WallSeenFrom({{0, 0, 0}, {1, 0, 0}}, 9), 6, 200).empty());
-  EXPECT_EQ(ChooseSources(WallSeenFrom({{0, 0, 0}, {1, 0, 0}}, 30), 6, 200).size(), 2u);
+  EXPECT_TRUE(ChooseSources(WallSeenFrom({{0, 0, 0}}, 60), Limits(6, 200)).empty());
+  EXPECT_TRUE(ChooseSources(WallSeenFrom({{0, 0, 0}, {0.01, 0, 0}}, 60), Limits(6, 200)).empty());
+  EXPECT_TRUE(ChooseSources(WallSeenFrom({{0, 0, 0}, {1, 0, 0}}, 9), Limits(6, 200)).empty());
+  EXPECT_EQ(ChooseSources(WallSeenFrom({{0, 0, 0}, {1, 0, 0}}, 30), Limits(6, 200)).size(), 2u);
 }
 
 TEST(ChooseSources, BoundsDepthsWithAMargin) {
-  const auto choices = ChooseSources(WallSeenFrom({{0, 0, 0}, {1, 0, 0}}, 60), 6, 200);
+  const auto choices = ChooseSources(WallSeenFrom({{0, 0, 0}, {1, 0, 0}}, 60), Limits(6, 200));
   const SourceChoice& choice = choices.at(PhotoId{1});
   EXPECT_LT(choice.min_depth, 9);
   EXPECT_GT(choice.min_depth, 5);
@@ -85,7 +98,7 @@ TEST(ChooseSources, BoundsDepthsWithAMargin) {
 
 TEST(ChooseSources, SeedsAreInPixelsOfTheReducedPhoto) {
   const Reconstruction r = WallSeenFrom({{0, 0, 0}, {1, 0, 0}}, 60);
-  const SourceChoice choice = ChooseSources(r, 6, 100).at(PhotoId{2});
+  const SourceChoice choice = ChooseSources(r, Limits(6, 100)).at(PhotoId{2});
   const RegisteredImage& photo = r.photos.at(PhotoId{2});
   ASSERT_EQ(choice.seeds.size(), photo.observations.size());
   for (size_t i = 0; i < choice.seeds.size(); ++i) {

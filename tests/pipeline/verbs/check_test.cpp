@@ -117,6 +117,16 @@ TEST_F(CheckTest, EstimatesGrowWithPhotosAndShrinkWithThreads) {
   EXPECT_LT(Check().needs.at(1).wall_s, 30);
 }
 
+TEST_F(CheckTest, CachesStayWithinTheirShareOfTheMemoryLimit) {
+  fake.table[1].cost.memory_mb = 100;
+  fake.table[1].cost.cached_mb_per_megapixel = 1e9;
+  fake.table[1].cost.cached_share = 0.5;
+  WriteFile(fake.survey / "survey.toml", "photos = \"../photos\"\n[run]\nmemory_limit_gb = 2.0\n");
+  EXPECT_NEAR(Check().needs.at(1).memory_mb, 100 + 1024, 1e-9);
+  fake.table[1].cost.cached_mb_per_megapixel = 1e-6;
+  EXPECT_NEAR(Check().needs.at(1).memory_mb, 100, 1e-3);
+}
+
 TEST_F(CheckTest, EstimatesFollowTheSizeThatAStageReducesPhotosTo) {
   int side_px = 0;
   fake.table[1].cost.cpu_s_per_megapixel = 1e6;
