@@ -63,7 +63,8 @@ Json ToJson(const EpochFacet& facet) {
           {"compared", facet.compared},
           {"changed",
            {{"repainted", Known(facet.compared > 0, facet.repainted)},
-            {"other", Known(facet.compared > 0, facet.other)}}},
+            {"other", Known(facet.compared > 0, facet.other)},
+            {"shaded", Known(facet.compared > 0, facet.shaded)}}},
           {"gsd_before_m", Known(facet.gsd_before_m > 0, facet.gsd_before_m)},
           {"gsd_after_m", Known(facet.gsd_after_m > 0, facet.gsd_after_m)},
           {"shift_px", Known(facet.shift_px >= 0, facet.shift_px)}};

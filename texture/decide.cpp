@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kWellCovered = 0.8;  // of what any photo shows
 constexpr double kChanged = 0.1;      // of what both show
+constexpr double kMostlyCompared = 0.5;
 constexpr double kClearlyFiner = 2.0 / 3;
 constexpr double kWorthFilling = 0.05;  // of the facet
 
@@ -53,6 +54,12 @@ FacetDecision Decide(ReplaceMode mode, const FacetEvidence& evidence) {
     return {FacetChoice::kKept, fmt::format("{}, but new photos show too little of it ({} of what "
                                             "any photo shows)",
                                             change, Percent(covered))};
+  }
+  if (evidence.compared < kMostlyCompared * evidence.both) {
+    return {FacetChoice::kKept,
+            fmt::format("its colour has not changed; new photos look at {} of it from too far "
+                        "aside to tell more",
+                        Percent(evidence.both - evidence.compared))};
   }
   return {FacetChoice::kKept, "it has not changed"};
 }

@@ -14,9 +14,10 @@ struct FacetEvidence {
   double painted_before = 0;  // from photos
   double painted_after = 0;
   double both = 0;          // painted before and after
+  double compared = 0;      // of these, from much the same direction
   double gsd_before_m = 0;  // median size of a photo pixel on it; 0: not known
   double gsd_after_m = 0;
-  double changed_share = 0;  // of `both`: FacetChanges::share
+  double changed_share = 0;  // of `both`
 };
 
 struct FacetDecision {
