@@ -72,12 +72,15 @@ TEST(Decide, ReplacesNoWholeWallByAPart) {
   EXPECT_EQ(Decide(ReplaceMode::kAlways, evidence).choice, FacetChoice::kReplaced);
 }
 
-TEST(Decide, ReplacesByClearlyFinerPhotos) {
+TEST(Decide, KeepsWhatIsOnlyShownFinerAndSaysSo) {
   FacetEvidence evidence = Unchanged();
-  evidence.gsd_after_m = 0.012;
-  EXPECT_EQ(Decide(ReplaceMode::kAuto, evidence).choice, FacetChoice::kReplaced);
+  EXPECT_EQ(Decide(ReplaceMode::kAuto, evidence).why, "it has not changed");
+  evidence.gsd_after_m = 0.01;
+  const FacetDecision decision = Decide(ReplaceMode::kAuto, evidence);
+  EXPECT_EQ(decision.choice, FacetChoice::kKept);
+  EXPECT_THAT(decision.why, HasSubstr("2.0 times finer"));
   evidence.gsd_before_m = 0;  // not known
-  EXPECT_EQ(Decide(ReplaceMode::kAuto, evidence).choice, FacetChoice::kKept);
+  EXPECT_EQ(Decide(ReplaceMode::kAuto, evidence).why, "it has not changed");
 }
 
 TEST(Decide, FillsGaps) {
