@@ -83,9 +83,7 @@ std::string SummarySection(const Page& page) {
   const Epoch& epoch = page.epoch;
   const int placed = static_cast<int>(std::ranges::count(epoch.photos, true, &EpochPhoto::placed));
   const int changed = static_cast<int>(std::ranges::count_if(epoch.facets, HasChanged));
-  const auto count = [&](FacetChoice choice) {
-    return fmt::format("{}", CountOf(epoch, choice));
-  };
+  const auto count = [&](FacetChoice choice) { return fmt::format("{}", CountOf(epoch, choice)); };
   return fmt::format(
       "<section aria-labelledby=\"headline\"><h2 id=\"headline\">{}</h2><dl class=\"measures\">"
       "{}{}{}{}{}</dl><p class=\"quiet\">Pictures that are kept have the bytes that they had; "
@@ -116,9 +114,10 @@ std::string ChangesSection(const Page& page) {
 
 std::string PictureFigure(const EmbeddedPicture& picture, const std::string& id, const char* when) {
   if (picture.uri.empty()) {
-    return fmt::format("<figure><p class=\"no-texture\">No picture</p><figcaption>{}</figcaption>"
-                       "</figure>",
-                       when);
+    return fmt::format(
+        "<figure><p class=\"no-texture\">No picture</p><figcaption>{}</figcaption>"
+        "</figure>",
+        when);
   }
   return fmt::format(
       "<figure><img loading=\"lazy\" src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{} {}\">"
@@ -130,8 +129,9 @@ std::string Figures(const Row& row, bool metric) {
   const EpochFacet& found = *row.found;
   std::string html = Figure("New photos show", Percent(found.shown));
   html += Figure("Painted from them", Percent(found.taken));
-  if (found.compared > 0) {
-    html += Figure("Compared", Percent(found.compared));
+  if (found.both > 0) {
+    html += Figure("Shown then and now", Percent(found.both),
+                   Percent(found.compared) + " from much the same direction");
     html += Figure("Other colour", Percent(found.repainted));
     html += Figure("Other pattern", Percent(found.other));
     html += Figure("Other light and dark", Percent(found.shaded), "as shadows draw it");
@@ -146,9 +146,8 @@ std::string Figures(const Row& row, bool metric) {
 
 std::string Article(const Row& row, bool metric) {
   const EpochFacet& found = *row.found;
-  std::string html = fmt::format(
-      "<article class=\"epoch-facade\"><h3>{} {}</h3><p>{}</p>", NameOf(row),
-      ChoiceBadge(found.choice), EscapeHtml(found.why));
+  std::string html = fmt::format("<article class=\"epoch-facade\"><h3>{} {}</h3><p>{}</p>",
+                                 NameOf(row), ChoiceBadge(found.choice), EscapeHtml(found.why));
   if (!row.problem.empty()) html += "<p class=\"quiet\">" + EscapeHtml(row.problem) + "</p>";
   html += "<div class=\"then-now\">" + PictureFigure(row.before, found.id, "before") +
           PictureFigure(row.after, found.id, "now") + "</div>";

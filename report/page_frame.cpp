@@ -28,9 +28,10 @@ std::string PageBegin(std::string_view title) {
   html +=
       "</style>\n<noscript><style>dialog.facade{display:block;position:static}</style>"
       "</noscript>\n</head>\n<body>\n";
-  return html + fmt::format("<header class=\"page-head\"><h1>{}</h1>"
-                            "<span class=\"quiet\">Stucco</span></header>\n<main>\n",
-                            text);
+  return html + fmt::format(
+                    "<header class=\"page-head\"><h1>{}</h1>"
+                    "<span class=\"quiet\">Stucco</span></header>\n<main>\n",
+                    text);
 }
 
 std::string PageEnd() {

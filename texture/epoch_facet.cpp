@@ -209,6 +209,7 @@ FacetEvidence Compare(const EpochFacetInput& input, const FacetPicture& after, c
   evidence.painted_before = ShareOf(painted_before, painted_before, mask);
   evidence.both = ShareOf(painted_before, painted_after, mask);
   evidence.gsd_before_m = found.gsd_before_m;
+  found.both = evidence.both;
   evidence.compared = changes.compared;
   if (evidence.both > 0) {
     evidence.changed_share = (changes.repainted + changes.other) / evidence.both;

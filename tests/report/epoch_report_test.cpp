@@ -52,7 +52,7 @@ class EpochReport : public testing::Test {
     EpochFacet& found = epoch_.facets[index];
     found.choice = FacetChoice::kReplaced;
     found.why = "43 % of what both show changed";
-    found.shown = found.taken = found.compared = 0.9;
+    found.shown = found.taken = found.both = found.compared = 0.9;
     found.repainted = 0.39;
     return found;
   }
@@ -86,7 +86,7 @@ TEST_F(EpochReport, ShowsWhatIsAnotherBeforeAndNow) {
 
 // One mirrored window is not worth naming.
 TEST_F(EpochReport, LeavesSmallChangesOut) {
-  epoch_.facets[1].compared = 1;
+  epoch_.facets[1].both = epoch_.facets[1].compared = 1;
   epoch_.facets[1].other = 0.004;
   EXPECT_FALSE(Has(Page(), "What changed in the world"));
 }

@@ -28,9 +28,7 @@ class RetextureSample : public testing::Test {
 
   static std::filesystem::path Survey() { return *folder_ / "survey"; }
   static std::filesystem::path Photos(const std::string& set) { return *folder_ / set; }
-  static std::filesystem::path Epoch(const std::string& name) {
-    return Survey() / "epochs" / name;
-  }
+  static std::filesystem::path Epoch(const std::string& name) { return Survey() / "epochs" / name; }
 
   static RetextureReport Run(const std::string& set, const std::string& epoch,
                              ReplaceMode replace = ReplaceMode::kAuto);
