@@ -54,7 +54,7 @@ void PrintReport(const RetextureReport& report, const CommonOptions& common) {
   std::cout << fmt::format("{} of {} photos placed; {} of {} facets keep their pictures.\n", placed,
                            epoch.photos.size(), kept, epoch.facets.size());
   for (const EpochFacet& facet : epoch.facets) PrintFacet(facet);
-  std::cout << "Epoch: " << report.folder.string() << "\n";
+  std::cout << fmt::format("Epoch: {0}\nReport: {0}/report.html\n", report.folder.string());
 }
 
 }  // namespace

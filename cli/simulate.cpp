@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -28,6 +29,17 @@ struct SimulateArguments {
   FlightArguments flight;
 };
 
+std::string ChangesText(const simulate::DayChanges& changes) {
+  std::string text;
+  const auto add = [&text](const char* what, const std::vector<std::string>& names) {
+    if (!names.empty()) text += fmt::format("{}: {}\n", what, fmt::join(names, ", "));
+  };
+  add("Repainted", changes.repainted);
+  add("Gone", changes.gone);
+  add("Come", changes.come);
+  return text;
+}
+
 void PrintCity(const simulate::CitySummary& city, const SimulateArguments& arguments,
                const CommonOptions& common) {
   const fs::path folder = arguments.out;
@@ -40,6 +52,10 @@ void PrintCity(const simulate::CitySummary& city, const SimulateArguments& argum
     const Json json = {{"scene", arguments.out},
                        {"style", arguments.city.style},
                        {"seed", arguments.city.seed},
+                       {"day", arguments.city.day},
+                       {"repainted", city.changes.repainted},
+                       {"gone", city.changes.gone},
+                       {"come", city.changes.come},
                        {"buildings", city.buildings},
                        {"facades", city.facades},
                        {"wall_area_m2", city.wall_area_m2},
@@ -54,6 +70,7 @@ void PrintCity(const simulate::CitySummary& city, const SimulateArguments& argum
   std::cout << fmt::format("{}: {} buildings, {} facades, {:.0f} m2 of walls, {} triangles\n",
                            arguments.city.style, city.buildings, city.facades, city.wall_area_m2,
                            city.triangles)
+            << ChangesText(city.changes)
             << fmt::format("Model: {}\nPlan a flight: {}\n", model, next);
 }
 
@@ -70,6 +87,12 @@ void AddCityOptions(CLI::App& verb, simulate::CityOptions& city) {
       ->capture_default_str()
       ->group(kGroup);
   verb.add_option("--seed", city.seed, "Another number makes another place, or another flight")
+      ->type_name("NUMBER")
+      ->capture_default_str()
+      ->group(kGroup);
+  verb.add_option("--day", city.day,
+                  "Of a later day than 1 one facade is repainted, one car gone and one come: for "
+                  "`stucco retexture`")
       ->type_name("NUMBER")
       ->capture_default_str()
       ->group(kGroup);

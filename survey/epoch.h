@@ -37,9 +37,11 @@ struct EpochFacet {
   std::string why;          // for people
   double shown = 0;         // painted from new photos, if all of them were taken
   double taken = 0;         // that are in the epoch's picture
-  double compared = 0;      // shown by photos then and now
+  double both = 0;          // shown by photos then and now
+  double compared = 0;      // of these, from much the same direction
   double repainted = 0;     // of another colour
-  double other = 0;         // of another pattern: something new, or gone
+  double other = 0;         // of another pattern and hue: something new, or gone
+  double shaded = 0;        // of another pattern of light and dark, which shadows may be
   double gsd_before_m = 0;  // median size of a photo pixel; 0: not painted
   double gsd_after_m = 0;
   double shift_px = -1;  // median distance of details then and now, texels; -1: not measured

@@ -25,6 +25,10 @@ constexpr double kOtherHue = 0.3;
 // logarithms): plaster, noise, the edge of a soft shadow.
 constexpr double kContrast = 0.12;
 constexpr double kSamePattern = 0.3;  // correlation
+// Parts of a block with another hue that make its pattern one that no shadow draws.
+constexpr int kPartsOfOtherHue = kParts * kParts / 4;
+// What stands out of a facet covers less than this share of it from one side and not from another.
+constexpr double kCoveredByRelief = 0.25;
 // How far relief may look shifted, texels, and how well a block and what is around it must then
 // agree.
 constexpr int kReach = 24;
@@ -36,24 +40,38 @@ using Pattern = std::array<double, kParts * kParts>;
 
 struct Block {
   bool shown = false;
+  bool comparable = false;
   Eigen::Vector3d difference = Eigen::Vector3d::Zero();  // of log colours, after less before
   Pattern before = {};                                   // log brightness of its parts
   Pattern after = {};
+  int parts_of_other_hue = 0;
 };
 
-enum class Change : uint8_t { kNone, kColour, kPattern };
+// kColourAslant: in blocks that may not be compared but for their colour.
+enum class Change : uint8_t { kNone, kColour, kPattern, kShade, kColourAslant };
+
+// Of a difference of log colours: what no light alone makes.
+double HueOf(const Eigen::Vector3d& difference) {
+  return (difference.array() - difference.mean()).matrix().norm();
+}
 
 // Means of a rectangle of texels that both show.
 struct Means {
   Eigen::Vector3d before = Eigen::Vector3d::Zero();
   Eigen::Vector3d after = Eigen::Vector3d::Zero();
   int count = 0;
+  int comparable = 0;
 };
 
 class Comparison {
  public:
-  Comparison(const FacetPicture& before, const FacetPicture& after, std::span<const uint8_t> mask)
-      : before_(before), after_(after), mask_(mask), width_(before.picture.width_px) {
+  Comparison(const FacetPicture& before, const FacetPicture& after, std::span<const uint8_t> mask,
+             std::span<const uint8_t> comparable)
+      : before_(before),
+        after_(after),
+        mask_(mask),
+        comparable_(comparable),
+        width_(before.picture.width_px) {
     columns_ = (width_ + kBlock - 1) / kBlock;
     rows_ = (before.picture.height_px + kBlock - 1) / kBlock;
     for (int row = 0; row < rows_; ++row) {
@@ -64,26 +82,38 @@ class Comparison {
   FacetChanges Find() const {
     FacetChanges changes;
     size_t area = 0;
+    size_t both = 0;
     size_t compared = 0;
     for (size_t i = 0; i < mask_.size(); ++i) {
       area += mask_[i] != 0;
-      compared += BothShow(i);
+      both += BothShow(i);
+      compared += BothShow(i) && comparable_[i] != 0;
     }
     if (area == 0) return changes;
     changes.compared = static_cast<double>(compared) / static_cast<double>(area);
     const std::vector<Change> found = Together(Judge());
     size_t shown = 0;
+    size_t aslant = 0;
+    size_t colour_aslant = 0;
     size_t colour = 0;
     size_t pattern = 0;
+    size_t shade = 0;
     for (size_t i = 0; i < blocks_.size(); ++i) {
       shown += blocks_[i].shown;
+      aslant += blocks_[i].shown && !blocks_[i].comparable;
+      colour_aslant += found[i] == Change::kColourAslant;
       colour += found[i] == Change::kColour;
       pattern += found[i] == Change::kPattern;
+      shade += found[i] == Change::kShade;
     }
     if (shown == 0) return changes;
-    const double per_block = changes.compared / static_cast<double>(shown);
+    if (static_cast<double>(colour_aslant) >= kCoveredByRelief * static_cast<double>(aslant)) {
+      colour += colour_aslant;
+    }
+    const double per_block = static_cast<double>(both) / static_cast<double>(area * shown);
     changes.repainted = per_block * static_cast<double>(colour);
     changes.other = per_block * static_cast<double>(pattern);
+    changes.shaded = per_block * static_cast<double>(shade);
     return changes;
   }
 
@@ -100,7 +130,9 @@ class Comparison {
     Means means;
     for (int row = y; row < std::min(y + side, before_.picture.height_px); ++row) {
       for (int column = x; column < std::min(x + side, width_); ++column) {
-        if (!BothShow(static_cast<size_t>(row) * width_ + column)) continue;
+        const size_t texel = static_cast<size_t>(row) * width_ + column;
+        if (!BothShow(texel)) continue;
+        means.comparable += comparable_[texel] != 0;
         const uint8_t* a = before_.picture.Pixel(column, row);
         const uint8_t* b = after_.picture.Pixel(column, row);
         means.before += Eigen::Vector3d(a[0], a[1], a[2]);
@@ -120,13 +152,17 @@ class Comparison {
     const Means all = MeansOf(column * kBlock, row * kBlock, kBlock);
     if (all.count < kLeastShown * kBlock * kBlock) return block;
     block.shown = true;
+    block.comparable = 2 * all.comparable >= all.count;
     block.difference = LogColour(all.after) - LogColour(all.before);
     for (int part = 0; part < kParts * kParts; ++part) {
       Means means = MeansOf(column * kBlock + part % kParts * kPart,
                             row * kBlock + part / kParts * kPart, kPart);
       if (means.count == 0) means = all;
-      block.before[part] = LogColour(means.before).mean();
-      block.after[part] = LogColour(means.after).mean();
+      const Eigen::Vector3d before = LogColour(means.before);
+      const Eigen::Vector3d after = LogColour(means.after);
+      block.before[part] = before.mean();
+      block.after[part] = after.mean();
+      block.parts_of_other_hue += HueOf(after - before) > kOtherHue;
     }
     return block;
   }
@@ -136,11 +172,14 @@ class Comparison {
     std::vector<Change> found(blocks_.size(), Change::kNone);
     for (size_t i = 0; i < blocks_.size(); ++i) {
       if (!blocks_[i].shown) continue;
-      const Eigen::Vector3d& d = blocks_[i].difference;
-      const double hue = (d.array() - d.mean()).matrix().norm();
-      if (!GoTogether(blocks_[i].before, blocks_[i].after) && !IsFoundAgain(static_cast<int>(i))) {
-        found[i] = Change::kPattern;
-      } else if (hue > kOtherHue) {
+      const bool other_colour = HueOf(blocks_[i].difference) > kOtherHue;
+      if (!blocks_[i].comparable) {
+        if (other_colour) found[i] = Change::kColourAslant;
+      } else if (!GoTogether(blocks_[i].before, blocks_[i].after) &&
+                 !IsFoundAgain(static_cast<int>(i))) {
+        const bool other_hue = blocks_[i].parts_of_other_hue >= kPartsOfOtherHue;
+        found[i] = other_hue ? Change::kPattern : Change::kShade;
+      } else if (other_colour) {
         found[i] = Change::kColour;
       }
     }
@@ -188,7 +227,8 @@ class Comparison {
     int count = 0;
     for (int y = std::max(0, row - 1); y <= std::min(rows_ - 1, row + 1); ++y) {
       for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x) {
-        count += found[static_cast<size_t>(y) * columns_ + x] != Change::kNone;
+        const Change change = found[static_cast<size_t>(y) * columns_ + x];
+        count += change != Change::kNone && change != Change::kShade;
       }
     }
     return count;
@@ -199,9 +239,9 @@ class Comparison {
     std::vector<Change> kept = found;
     for (int row = 0; row < rows_; ++row) {
       for (int column = 0; column < columns_; ++column) {
-        if (NumChangedAround(found, row, column) - 1 < kFewestNeighbours) {
-          kept[static_cast<size_t>(row) * columns_ + column] = Change::kNone;
-        }
+        Change& change = kept[static_cast<size_t>(row) * columns_ + column];
+        if (change == Change::kShade) continue;
+        if (NumChangedAround(found, row, column) - 1 < kFewestNeighbours) change = Change::kNone;
       }
     }
     return kept;
@@ -210,6 +250,7 @@ class Comparison {
   const FacetPicture& before_;
   const FacetPicture& after_;
   std::span<const uint8_t> mask_;
+  std::span<const uint8_t> comparable_;
   int width_;
   int columns_ = 0;
   int rows_ = 0;
@@ -219,11 +260,12 @@ class Comparison {
 }  // namespace
 
 FacetChanges FindChanges(const FacetPicture& before, const FacetPicture& after,
-                         std::span<const uint8_t> mask) {
+                         std::span<const uint8_t> mask, std::span<const uint8_t> comparable) {
   assert(before.labels.size() == mask.size() && after.labels.size() == mask.size());
   assert(before.picture.data.size() == 3 * mask.size() &&
          after.picture.data.size() == 3 * mask.size());
-  return Comparison(before, after, mask).Find();
+  assert(comparable.size() == mask.size());
+  return Comparison(before, after, mask, comparable).Find();
 }
 
 }  // namespace stucco

@@ -26,8 +26,8 @@ inline bool IsPainted(uint8_t label) {
 struct FacetChanges {
   double compared = 0;   // painted from photos in both
   double repainted = 0;  // of another colour, with the same pattern or none
-  double other = 0;      // of another pattern: something new, or gone
-  double share() const { return compared > 0 ? (repainted + other) / compared : 0; }
+  double other = 0;      // of another pattern and hue: something new, or gone
+  double shaded = 0;     // of another pattern in light and dark alone, as shadows draw it
 };
 
 // Compares two pictures on the same grid block by block (16 texels a side, where both are painted),
@@ -37,9 +37,13 @@ struct FacetChanges {
 // colour where its hue differs by more than sun and sky do; of another pattern where blocks of 4
 // texels inside do not go together (correlation) although they have contrast, and what is there now
 // was not there before a little beside either: relief, and planes that are not quite right, look
-// shifted when they are seen from elsewhere. Single blocks do not count: windows mirror something
-// else every day. `mask` is not zero inside the facet. Requires pictures of one size.
+// shifted when they are seen from elsewhere. Where the hue stays, the new pattern may be a shadow:
+// the sun has moved, so that edges of shadows come and go, above all on relief. This is told apart
+// and is no change. Single blocks do not count: windows mirror something else every day. `mask` is
+// not zero inside the facet, `comparable` where both pictures look at it from much the same
+// direction; elsewhere colours alone count, and only where more of them are others than relief can
+// hide and show. Requires pictures of one size.
 FacetChanges FindChanges(const FacetPicture& before, const FacetPicture& after,
-                         std::span<const uint8_t> mask);
+                         std::span<const uint8_t> mask, std::span<const uint8_t> comparable);
 
 }  // namespace stucco

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kWellCovered = 0.8;  // of what any photo shows
 constexpr double kChanged = 0.1;      // of what both show
+constexpr double kMostlyCompared = 0.5;
 constexpr double kClearlyFiner = 2.0 / 3;
 constexpr double kWorthFilling = 0.05;  // of the facet
 
@@ -19,6 +20,22 @@ std::string Percent(double share) {
 FacetDecision Fill(double gained) {
   return {FacetChoice::kFilled,
           fmt::format("{} of it was not painted before and is now", Percent(gained))};
+}
+
+std::string WhyUnchanged(const FacetEvidence& evidence) {
+  if (evidence.compared >= kMostlyCompared * evidence.both) return "it has not changed";
+  return fmt::format(
+      "it has not changed as far as can be told: new photos look at {} of it from too far aside",
+      Percent(evidence.both - evidence.compared));
+}
+
+// What the user may want to know of a picture that is kept.
+std::string Finer(const FacetEvidence& evidence) {
+  const bool finer =
+      evidence.gsd_before_m > 0 && evidence.gsd_after_m < kClearlyFiner * evidence.gsd_before_m;
+  if (!finer) return "";
+  return fmt::format("; pixels of new photos are {:.1f} times finer on it (--replace always)",
+                     evidence.gsd_before_m / evidence.gsd_after_m);
 }
 
 }  // namespace
@@ -42,19 +59,13 @@ FacetDecision Decide(ReplaceMode mode, const FacetEvidence& evidence) {
   const std::string change =
       fmt::format("{} of what both show changed", Percent(evidence.changed_share));
   if (covered >= kWellCovered && changed) return {FacetChoice::kReplaced, change};
-  const bool finer =
-      evidence.gsd_before_m > 0 && evidence.gsd_after_m < kClearlyFiner * evidence.gsd_before_m;
-  if (covered >= kWellCovered && finer) {
-    return {FacetChoice::kReplaced, fmt::format("photo pixels are {:.1f} times finer on it",
-                                                evidence.gsd_before_m / evidence.gsd_after_m)};
-  }
   if (gained >= kWorthFilling && !changed) return Fill(gained);
   if (changed) {
     return {FacetChoice::kKept, fmt::format("{}, but new photos show too little of it ({} of what "
                                             "any photo shows)",
                                             change, Percent(covered))};
   }
-  return {FacetChoice::kKept, "it has not changed"};
+  return {FacetChoice::kKept, WhyUnchanged(evidence) + Finer(evidence)};
 }
 
 }  // namespace stucco

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -21,6 +22,10 @@ namespace {
 
 constexpr size_t kRatioTexels = 40'000;  // enough for a median
 constexpr int kShiftSide = 1600;         // longest side of the pictures whose shift is measured
+// Pictures are compared where what stands out of the facet's plane lies in them within this share
+// of its depth: at right angles, from directions within 27 degrees. From farther apart, eaves,
+// balconies and reveals show and hide other parts, which is no change.
+constexpr double kMostParallax = 0.5;
 
 Image Decode(const std::string& bytes, const std::string& name, const TexturedFacet& facet,
              int channels) {
@@ -145,9 +150,47 @@ FacetFiles FilesOf(FacetPicture picture, const EpochFacetInput& input, Canvas ca
   return MakeFacetFiles(input.facet, painted, both.photos, both.gains, style.options.orthophotos);
 }
 
+// From where each label of a picture was taken; nothing for those that no photo is known for.
+using Viewpoints = std::array<std::optional<Eigen::Vector3d>, 256>;
+
+Viewpoints ViewpointsOf(const TexturedFacet& facet,
+                        const std::map<std::string, Eigen::Vector3d>& taken_at) {
+  Viewpoints from;
+  for (size_t i = 0; i < facet.photos.size() && i + 1 < from.size(); ++i) {
+    const auto found = taken_at.find(facet.photos[i]);
+    if (found != taken_at.end()) from[i + 1] = found->second;
+  }
+  return from;
+}
+
+// Texels that photos look at from about the same direction then and now.
+std::vector<uint8_t> SeenAlike(const EpochFacetInput& input, const FacetPicture& after,
+                               const TexelGrid& grid, const EpochStyle& style) {
+  std::map<std::string, Eigen::Vector3d> taken_at;
+  for (const SurveyPhoto& photo : style.photos) {
+    taken_at[photo.path()] = photo.cam_from_world.Center();
+  }
+  const Viewpoints now = ViewpointsOf(input.painted.facet, taken_at);
+  const Viewpoints then = ViewpointsOf(input.old, style.taken_at);
+  std::vector<uint8_t> alike(after.labels.size(), 0);
+  for (size_t i = 0; i < alike.size(); ++i) {
+    const auto& a = then[input.before->labels[i]];
+    const auto& b = now[after.labels[i]];
+    if (!a || !b) continue;
+    const Eigen::Vector3d texel =
+        grid.Center(static_cast<int>(i % grid.width), static_cast<int>(i / grid.width));
+    const Eigen::Vector3d to_a = *a - texel;
+    const Eigen::Vector3d to_b = *b - texel;
+    const Eigen::Vector3d moved = to_a / to_a.dot(grid.normal) - to_b / to_b.dot(grid.normal);
+    alike[i] = moved.norm() <= kMostParallax;
+  }
+  return alike;
+}
+
 // Fills in what is found, before anything is decided.
-FacetEvidence Compare(const EpochFacetInput& input, const FacetPicture& after,
-                      std::span<const uint8_t> mask, double align_limit_px, EpochFacet& found) {
+FacetEvidence Compare(const EpochFacetInput& input, const FacetPicture& after, const Canvas& canvas,
+                      const EpochStyle& style, EpochFacet& found) {
+  const std::vector<uint8_t>& mask = canvas.mask;
   const std::vector<uint8_t> painted_after = PaintedTexels(after);
   found.shown = ShareOf(painted_after, painted_after, mask);
   found.gsd_after_m = input.painted.facet.gsd_m;
@@ -156,15 +199,21 @@ FacetEvidence Compare(const EpochFacetInput& input, const FacetPicture& after,
   evidence.gsd_after_m = found.gsd_after_m;
   if (!input.before) return evidence;
   const std::vector<uint8_t> painted_before = PaintedTexels(*input.before);
-  const FacetChanges changes = FindChanges(*input.before, after, mask);
+  const FacetChanges changes =
+      FindChanges(*input.before, after, mask, SeenAlike(input, after, canvas.grid, style));
   found.compared = changes.compared;
   found.repainted = changes.repainted;
   found.other = changes.other;
-  found.shift_px = ShiftBetween(*input.before, after, align_limit_px);
+  found.shaded = changes.shaded;
+  found.shift_px = ShiftBetween(*input.before, after, style.options.align_limit_px);
   evidence.painted_before = ShareOf(painted_before, painted_before, mask);
   evidence.both = ShareOf(painted_before, painted_after, mask);
   evidence.gsd_before_m = found.gsd_before_m;
-  evidence.changed_share = changes.share();
+  found.both = evidence.both;
+  evidence.compared = changes.compared;
+  if (evidence.both > 0) {
+    evidence.changed_share = (changes.repainted + changes.other) / evidence.both;
+  }
   return evidence;
 }
 
@@ -210,25 +259,25 @@ EpochPicture MakeEpochPicture(EpochFacetInput input, const EpochStyle& style) {
     return result;
   }
   ApplyLevel(input.level, after->picture);
-  const TexelGrid grid = GridOf(input.painted.facet, input.facet);
-  std::vector<uint8_t> mask = RasterizeFacet(input.facet, grid);
-  const FacetDecision decision = Decide(
-      style.replace, Compare(input, *after, mask, style.options.align_limit_px, result.found));
+  Canvas canvas{GridOf(input.painted.facet, input.facet), {}};
+  canvas.mask = RasterizeFacet(input.facet, canvas.grid);
+  const FacetDecision decision =
+      Decide(style.replace, Compare(input, *after, canvas, style, result.found));
   result.found.choice = decision.choice;
   result.found.why = decision.why;
   if (decision.choice == FacetChoice::kKept) return result;
   const std::vector<uint8_t> all = PaintedTexels(*after);
   if (!input.before) {
     result.found.taken = result.found.shown;
-    result.files = FilesOf(std::move(*after), input, {grid, std::move(mask)}, style, false);
+    result.files = FilesOf(std::move(*after), input, std::move(canvas), style, false);
     return result;
   }
   const std::vector<uint8_t> take = TexelsToTake(decision.choice, *input.before, *after);
-  result.found.taken = ShareOf(take, all, mask);
+  result.found.taken = ShareOf(take, all, canvas.mask);
   const bool is_mostly_old = decision.choice == FacetChoice::kFilled || result.found.taken < 0.5;
   FacetPicture merged =
-      MergePictures(*input.before, *after, take, mask, input.painted.facet.photos.size());
-  result.files = FilesOf(std::move(merged), input, {grid, std::move(mask)}, style, is_mostly_old);
+      MergePictures(*input.before, *after, take, canvas.mask, input.painted.facet.photos.size());
+  result.files = FilesOf(std::move(merged), input, std::move(canvas), style, is_mostly_old);
   return result;
 }
 

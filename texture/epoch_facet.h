@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,7 +45,8 @@ struct EpochFacetInput {
 struct EpochStyle {
   std::string epoch;
   ReplaceMode replace = ReplaceMode::kAuto;
-  std::span<const SurveyPhoto> photos;  // new ones
+  std::span<const SurveyPhoto> photos;              // new ones
+  std::map<std::string, Eigen::Vector3d> taken_at;  // the survey's photos, by path
   const TextureOptions& options;
 };
 

@@ -145,7 +145,10 @@ std::vector<EpochFacet> WritePictures(const Work& work, TextureSet& textures) {
     largest = std::max(largest, kBytesPerTexel * old.width_px * old.height_px);
   }
   const std::vector<std::string> names = FileNames(ids);
-  const EpochStyle style{work.request.epoch, work.request.replace, work.input.photos, work.options};
+  EpochStyle style{work.request.epoch, work.request.replace, work.input.photos, {}, work.options};
+  for (const SurveyPhoto& photo : ReadSurveyPhotos(work.context.survey)) {
+    style.taken_at[photo.path()] = photo.cam_from_world.Center();
+  }
   std::vector<EpochFacet> found(ids.size());
   textures.facets.resize(ids.size());
   work.context.progress->Begin("comparing pictures", ids.size());

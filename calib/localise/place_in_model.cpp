@@ -38,6 +38,9 @@ constexpr double kFocalStep = 1.15;
 constexpr int kFocalSteps = 5;  // up and down
 constexpr int kRounds = 3;      // of choosing inliers and adjusting
 
+// Bodies of one model of camera differ in focal length by a per cent or two.
+constexpr double kOtherBody = 0.02;
+
 struct Sighting {
   SceneElement* element;
   const Eigen::Vector3d* point;
@@ -109,13 +112,18 @@ void ScaleFocal(double factor, SceneCamera& camera) {
   }
 }
 
-// First poses of a camera's photos; a focal length that is a guess becomes the one with which most
-// points agree.
-void BeginWithCamera(int camera, Scene& scene) {
+std::vector<int> PhotosOf(int camera, const Scene& scene) {
   std::vector<int> photos;
   for (int i = 0; i < static_cast<int>(scene.photos.size()); ++i) {
     if (scene.photos[i].camera == camera) photos.push_back(i);
   }
+  return photos;
+}
+
+// First poses of a camera's photos; a focal length that is a guess becomes the one with which most
+// points agree.
+void BeginWithCamera(int camera, Scene& scene) {
+  const std::vector<int> photos = PhotosOf(camera, scene);
   if (scene.cameras[camera].focal_sigma_ratio < kGuessedFocal) {
     ResectAll(photos, scene);
     return;
@@ -147,6 +155,47 @@ void Refine(Scene& scene) {
     options.refine = RefineIntrinsics::kDistortion;
     Adjust(options, scene);
   }
+}
+
+// What all that a camera's placed photos show says against its lens: twice the negative logarithm
+// of the likelihood under the loss that adjustment uses (Cauchy); and of how many points.
+struct Misfit {
+  double cost = 0;
+  size_t points = 0;
+};
+
+Misfit MisfitOf(int camera, Scene& scene) {
+  const double scale = AdjustOptions().loss_scale;
+  Misfit misfit;
+  for (const int photo : PhotosOf(camera, scene)) {
+    if (!scene.photos[photo].pose) continue;
+    for (const Sighting& sighting : SightingsOf(scene, photo)) {
+      const double sigmas = ReprojectionError(scene, *sighting.element, *sighting.point) /
+                            scene.photos[photo].keypoint_sigma_px;
+      misfit.cost += scale * scale * std::log1p(sigmas * sigmas / (scale * scale));
+      ++misfit.points;
+    }
+  }
+  return misfit;
+}
+
+// A lens that is held because the model knows a camera of its name may be that of another body, or
+// have changed since: it is let go where that explains the photos so much better that it is worth
+// its parameters (Schwarz, "Estimating the dimension of a model", 1978), and its photos are placed
+// anew. Whether it was.
+bool LetLensGo(int camera, Scene& scene) {
+  if (scene.cameras[camera].focal_sigma_ratio > 0) return false;
+  const Misfit held = MisfitOf(camera, scene);
+  if (held.points == 0) return false;
+  Scene trial = scene;
+  trial.cameras[camera].focal_sigma_ratio = kOtherBody;
+  Refine(trial);
+  const double gained = held.cost - MisfitOf(camera, trial).cost;
+  const auto parameters = static_cast<double>(trial.cameras[camera].intrinsics.params.size());
+  if (!(gained > parameters * std::log(2.0 * static_cast<double>(held.points)))) return false;
+  scene.cameras[camera] = trial.cameras[camera];
+  ResectAll(PhotosOf(camera, scene), scene);
+  return true;
 }
 
 std::string WhyTooFew(const PlacedPhoto& placed) {
@@ -212,9 +261,18 @@ std::vector<PlacedPhoto> PlaceInModel(Scene& scene) {
   for (int camera = 0; camera < static_cast<int>(scene.cameras.size()); ++camera) {
     BeginWithCamera(camera, scene);
   }
-  std::vector<PlacedPhoto> placed(scene.photos.size());
-  DropByChance(2, placed, scene);  // before they bend a camera that others share
-  Refine(scene);
+  const auto place = [&scene] {
+    std::vector<PlacedPhoto> placed(scene.photos.size());
+    DropByChance(2, placed, scene);  // before they bend a camera that others share
+    Refine(scene);
+    return placed;
+  };
+  std::vector<PlacedPhoto> placed = place();
+  bool anew = false;
+  for (int camera = 0; camera < static_cast<int>(scene.cameras.size()); ++camera) {
+    anew |= LetLensGo(camera, scene);
+  }
+  if (anew) placed = place();
   DropByChance(1, placed, scene);
   SigmaOptions options;
   options.points_are_given = true;

@@ -19,12 +19,12 @@ struct PlacedPhoto {
 };
 
 // Gives the photos of a scene whose tracks have points the poses that these say, and cameras whose
-// metadata are no more than a guess, or that are not held, their intrinsics. Points stay where they
-// are: photos are placed in a finished model one by one, from P3P (Resect) to least squares, and
-// bring nothing to it. A pose stays only when more points agree with it than chance lets
-// (LogFalseAlarms) and it is good to a pixel of the picture its keypoints were detected in.
-// Elements that agree are `used` afterwards. Requires an indexed scene without poses, with models
-// that can be adjusted. By photo.
+// metadata are no more than a guess, or that are not held, their intrinsics. A held camera is let
+// go where its photos clearly say another lens. Points stay where they are: photos are placed in a
+// finished model one by one, from P3P (Resect) to least squares, and bring nothing to it. A pose
+// stays only when more points agree with it than chance lets (LogFalseAlarms) and it is good to a
+// pixel of the picture its keypoints were detected in. Elements that agree are `used` afterwards.
+// Requires an indexed scene without poses, with models that can be adjusted. By photo.
 std::vector<PlacedPhoto> PlaceInModel(Scene& scene);
 
 }  // namespace stucco

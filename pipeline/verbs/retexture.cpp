@@ -24,6 +24,7 @@
 #include "pipeline/engine/shell.h"
 #include "pipeline/engine/units.h"
 #include "pipeline/engine/work_folder.h"
+#include "report/epoch_report.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
 #include "survey/plan_of_survey.h"
@@ -243,6 +244,7 @@ Epoch MakeEpoch(const RetextureRequest& request, const std::string& name, const 
       RepaintSurvey(OptionsOf<TextureOptions>(settings, "texture"),
                     {name, PosedPhotos(epoch.photos, captures, context), request.replace}, context);
   WriteEpoch(epoch, context.out / "retexture.json");
+  WriteEpochReport(epoch, context);
   return epoch;
 }
 

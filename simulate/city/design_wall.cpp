@@ -265,7 +265,9 @@ bool HasBalconies(const House& house) {
 }
 
 WallDesign DesignWall(const House& house, const WallPlace& place) {
-  return Designer(house, place).Design();
+  WallDesign design = Designer(house, place).Design();
+  design.repainted = place.edge == house.repainted_edge;
+  return design;
 }
 
 }  // namespace stucco::simulate

@@ -87,6 +87,7 @@ Town LayOutTown(const std::string& style, uint64_t seed) {
     Settle(town.relief, house);
   }
   FellTrees(town);
+  for (size_t i = 0; i < town.cars.size(); ++i) town.cars[i].number = static_cast<int>(i);
   return town;
 }
 

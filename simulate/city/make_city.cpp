@@ -13,6 +13,7 @@
 #include "simulate/city/city_model.h"
 #include "simulate/city/ground.h"
 #include "simulate/city/house_mesh.h"
+#include "simulate/city/later_day.h"
 #include "simulate/city/lay_out_town.h"
 #include "simulate/city/occluders.h"
 #include "simulate/city/town.h"
@@ -49,6 +50,7 @@ void Check(const CityOptions& options) {
   };
   require(options.metres_per_texel >= 0.002 && options.metres_per_texel <= 1,
           "the texel of walls must be 0.002 to 1 m");
+  require(options.day >= 1 && options.day <= 1000, "the day must be 1 to 1000");
   // Towards the poles a step of longitude is too short to write.
   require(std::abs(options.latitude_deg) <= 85, "the latitude must be -85 to 85 degrees");
   // A map must not cross the line where longitudes jump.
@@ -84,6 +86,7 @@ void RemoveOldScene(const fs::path& folder) {
     if (!name.empty()) fs::remove(folder / "truth" / "textures" / name, error);
   }
   fs::remove(folder / kSceneTerrain, error);
+  fs::remove(folder / kTruthChanges, error);
 }
 
 // Makes the folder, or clears an old scene out of it; files of the user's own stay.
@@ -167,7 +170,8 @@ CitySummary MakeCity(const CityOptions& options, const fs::path& scene_folder) {
   const bool sloping = !town.relief.IsFlat();
   PrepareFolder(scene_folder);
   const Georef georef = GeorefOf(options);
-  WriteSceneInfo({options.style, options.seed, georef, /*has_truth=*/true, sloping}, scene_folder);
+  WriteSceneInfo({options.style, options.seed, options.day, georef, /*has_truth=*/true, sloping},
+                 scene_folder);
   WriteMap(town, georef, scene_folder / kSceneMap);
   std::optional<fs::path> terrain;
   if (sloping) {
@@ -175,6 +179,10 @@ CitySummary MakeCity(const CityOptions& options, const fs::path& scene_folder) {
     WriteTerrain(town, georef, *terrain);
   }
   const FacadeIds facades = FindFacades(town, georef, scene_folder / kSceneMap, terrain);
+
+  CitySummary summary;
+  summary.changes = LiveUntil(options.day, facades, town);
+  if (options.day > 1) WriteDayChanges(summary.changes, options.day, scene_folder);
 
   const GroundGrid grid = MakeGroundGrid(town);
   const Proxy truth = TruthOf(town, facades, grid);
@@ -195,7 +203,6 @@ CitySummary MakeCity(const CityOptions& options, const fs::path& scene_folder) {
   internal::WriteGlbFile(model.scene, PaintAll(model, threads, scene_folder),
                          scene_folder / kSceneModel);
 
-  CitySummary summary;
   summary.buildings = static_cast<int>(town.houses.size());
   for (const auto& ids : facades) {
     summary.facades += static_cast<int>(

@@ -6,11 +6,14 @@
 #include <filesystem>
 #include <string>
 
+#include "simulate/scene/scene_folder.h"
+
 namespace stucco::simulate {
 
 struct CityOptions {
   std::string style = "hamlet";  // one of CityStyles()
   uint64_t seed = 1;
+  int day = 1;                     // of a later one some things have changed: LiveUntil
   bool repeat = false;             // every bay of a wall looks the same, to the texel
   double metres_per_texel = 0.01;  // of walls and roofs
   double latitude_deg = 50.0875;   // of the origin
@@ -24,6 +27,7 @@ struct CitySummary {
   int facades = 0;
   int triangles = 0;
   double wall_area_m2 = 0;
+  DayChanges changes;  // since the first day
 };
 
 // Makes a scene folder (scene_folder.h). The same options give the same bytes. Throws Error (kUsage

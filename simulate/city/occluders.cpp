@@ -251,6 +251,10 @@ std::vector<int> AddLeaves(uint64_t seed, CityModel& model) {
 
 }  // namespace
 
+std::string ElementOf(const Car& car) {
+  return fmt::format("{}car-{:03}", kOccluderPrefix, car.number);
+}
+
 void AddOccluders(const Town& town, CityModel& model) {
   const uint64_t seed = town.seed;
   Foliage foliage;
@@ -263,10 +267,10 @@ void AddOccluders(const Town& town, CityModel& model) {
     const double ground = GroundAt(town, town.trees[i].position);
     AddTree(town.trees[i], ground, foliage, Random(seed, 2000 + i), model);
   }
-  for (size_t i = 0; i < town.cars.size(); ++i) {
-    const int element = AddElement(fmt::format("{}car-{:03}", kOccluderPrefix, i), model);
-    const uint64_t own = Random(seed, 4000 + i).Next();
-    const int material = AddPainted(fmt::format("car-{:03}", i),
+  for (const Car& car : town.cars) {
+    const int element = AddElement(ElementOf(car), model);
+    const uint64_t own = Random(seed, 4000 + static_cast<uint64_t>(car.number)).Next();
+    const int material = AddPainted(fmt::format("car-{:03}", car.number),
                                     {[own] { return PaintCar(own, kCarTexel_m); }, ""}, model);
     model.scene.materials[material].gloss = 0.35f;
     Sheet sheet;
@@ -275,7 +279,7 @@ void AddOccluders(const Town& town, CityModel& model) {
     sheet.width_m = kCarLength_m;
     sheet.height_m = kCarPicture_m;
     const CarShape shape = ShapeOfCar(own);
-    CarBuilder(town.cars[i], shape, GroundAt(town, town.cars[i].position), sheet, model).Build();
+    CarBuilder(car, shape, GroundAt(town, car.position), sheet, model).Build();
   }
 }
 

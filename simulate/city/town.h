@@ -35,6 +35,7 @@ struct House {
   int palette = 0;
   // Every bay of every storey looks the same, to the texel: no balconies, shops or doors.
   bool repeats = false;
+  int repainted_edge = -1;  // the wall that has a new coat of paint; -1: none
   uint64_t seed = 0;
 
   double eaves_m() const { return floor_m + storeys * storey_m; }
@@ -57,6 +58,7 @@ struct Tree {
 struct Car {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   double heading_rad = 0;  // of its nose, counter-clockwise from east
+  int number = 0;          // in the town; with the town's seed it decides the car's looks
 };
 
 // The ground without roads: 0 everywhere, or a slope with waves.

@@ -54,13 +54,14 @@ std::vector<double> Exposures(std::span<const double> metered, const FlightOptio
   if (metered.empty()) return {};
   std::vector<double> sorted(metered.begin(), metered.end());
   std::sort(sorted.begin(), sorted.end());
-  const double usual = sorted[sorted.size() / 2];
+  const double median = sorted[sorted.size() / 2];
+  const double usual = median * std::exp2(options.exposure_ev);
   const double most = std::log1p(options.exposure_drift);
   constexpr double kKept = 0.5;
   std::vector<double> exposures;
-  double lagging = std::log(metered[0] / usual);
+  double lagging = std::log(metered[0] / median);
   for (const double wanted : metered) {
-    lagging = kKept * lagging + (1 - kKept) * std::log(wanted / usual);
+    lagging = kKept * lagging + (1 - kKept) * std::log(wanted / median);
     const double kept = most > 0 ? most * std::tanh(lagging / most) : 0;
     exposures.push_back(usual * std::exp(kept));
   }
@@ -71,6 +72,8 @@ Eigen::Vector3d WhiteBalance(const Eigen::Vector3d& neutral, double time_s,
                              const FlightOptions& options) {
   Random random(SeedOf(static_cast<uint64_t>(options.seed), kWhiteSeed));
   Eigen::Vector3d gains = neutral;
+  gains[0] *= 1 + options.warmth;
+  gains[2] *= 1 - options.warmth;
   gains[0] *= 1 + options.white_balance_drift * SlowWave(time_s, random);
   gains[2] *= 1 + options.white_balance_drift * SlowWave(time_s, random);
   return gains;

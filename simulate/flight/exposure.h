@@ -15,13 +15,13 @@ namespace stucco::simulate {
 // grey, and no more than a twentieth of it clipped.
 double MeteredExposure(const Radiance& picture);
 
-// What the camera uses, by photo: the median of what it metered, from which it departs by no more
-// than the share options.exposure_drift, slowly: a photo's exposure still has half of the one
-// before. Zero: locked for the whole survey.
+// What the camera uses, by photo: the median of what it metered, options.exposure_ev stops
+// brighter, from which it departs by no more than the share options.exposure_drift, slowly: a
+// photo's exposure still has half of the one before. Zero: locked for the whole survey.
 std::vector<double> Exposures(std::span<const double> metered, const FlightOptions& options);
 
-// Gains by channel, `neutral` with red and blue wandering smoothly by at most
-// options.white_balance_drift, `time_s` since the first photo.
+// Gains by channel, `neutral` made warmer by options.warmth, with red and blue wandering smoothly
+// by at most options.white_balance_drift, `time_s` since the first photo.
 Eigen::Vector3d WhiteBalance(const Eigen::Vector3d& neutral, double time_s,
                              const FlightOptions& options);
 

@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "simulate/flight/choose_views.h"
 #include "simulate/flight/ground_control.h"
 #include "simulate/flight/photo_store.h"
 #include "simulate/flight/prepare.h"
@@ -124,8 +125,9 @@ FlySummary Fly(const FlyRequest& request, const FlightOptions& options,
     real.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   }
   const fs::path plan_path = PlanPath(request.plan);
-  const Plan plan = About(plan_path.string(), "make the plan again with stucco plan",
-                          [&] { return ReadPlan(plan_path); });
+  const Plan plan = ChooseViews(About(plan_path.string(), "make the plan again with stucco plan",
+                                      [&] { return ReadPlan(plan_path); }),
+                                options);
   // Before anything is written, and before the scene is read, which takes time.
   RequireNoOtherPlan(plan_path, request.survey);
   RequireFreeStore(request.survey);

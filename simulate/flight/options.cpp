@@ -28,6 +28,10 @@ void Describe(OptionTable& table, FlightOptions& options) {
             "Share by which the exposure wanders over the flight.");
   table.Add("white_balance_drift", options.white_balance_drift, 0.0, 0.5,
             "Share by which red and blue wander over the flight.");
+  table.Add("exposure_ev", options.exposure_ev, -3.0, 3.0,
+            "How much brighter photos are than metered, in stops.");
+  table.Add("warmth", options.warmth, -0.5, 0.5,
+            "Share by which the white balance takes red up and blue down.");
   table.Add("noise", options.noise, 0.0, 0.2, "Noise of the sensor at white, share of white.");
   table.Add("motion_blur_px", options.motion_blur_px, 0.0, 20.0,
             "Typical movement of the picture while the shutter is open, in pixels.");
@@ -35,6 +39,11 @@ void Describe(OptionTable& table, FlightOptions& options) {
             "Radius of the lens's blur, in pixels.");
   table.Add("sharpening", options.sharpening, 0.0, 3.0,
             "Sharpening in the camera; 1 is about what DJI drones do to their JPEGs, 0 none.");
+  table.Add("facades", options.facades, {},
+            "Only views that are planned for these facades or look at them, such as "
+            "B0001/F00,B0002/F03; empty: all views.");
+  table.Add("most_photos", options.most_photos, 0, 100000,
+            "At most so many of the planned photos, spread over the facades; 0: all.");
   table.Add("lost_share", options.lost_share, 0.0, 0.9,
             "Share of the planned photos that is lost.");
   table.Add("duplicate_share", options.duplicate_share, 0.0, 0.9,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include "survey/options.h"
 
 namespace stucco::simulate {
@@ -23,10 +25,14 @@ struct FlightOptions {
   double vignetting = 0.25;      // light lost in the corners
   double exposure_drift = 0.15;  // over the flight, as the sun moves
   double white_balance_drift = 0.05;
-  double noise = 0.006;  // of the sensor at white, share of white
+  double exposure_ev = 0;  // how much brighter than metered, in stops
+  double warmth = 0;       // of the white balance: share by which red is up and blue is down
+  double noise = 0.006;    // of the sensor at white, share of white
   double motion_blur_px = 0.4;
   double focus_blur_px = 0.5;
   double sharpening = 1;  // in the camera, times what drones do to their JPEGs
+  std::string facades;    // ids that are photographed again, by commas; empty: the whole plan
+  int most_photos = 0;    // of the plan; 0: all
   double lost_share = 0;
   double duplicate_share = 0;
   double haze_m = 4000;

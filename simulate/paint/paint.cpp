@@ -69,6 +69,14 @@ void PaintGround(Tile& tile, const WallLook& look) {
   }
 }
 
+// Paint covers the material's colour; its grain and joints stay.
+void PaintOver(Tile& tile, const WallLook& look) {
+  const float usual = Luminance(look.palette.mean);
+  for (internal::Colour& colour : tile.colours) {
+    colour = std::clamp(Luminance(colour) / usual, 0.6f, 1.4f) * look.coat;
+  }
+}
+
 void PaintSurface(Tile& tile, const CoveringLook& look) {
   switch (look.design->covering) {
     case Covering::kTiles:
@@ -155,6 +163,7 @@ Image PaintWall(const WallDesign& design, double metres_per_texel) {
   const WallLook look = internal::LookOf(design);
   Image wall = InTiles(width, height, metres_per_texel, [&](Tile& tile) {
     PaintGround(tile, look);
+    if (design.repainted) PaintOver(tile, look);
     if (design.cladding != Cladding::kGlass) internal::Weather(tile, look);
     for (int layer = kFlush; layer <= kOnTop; ++layer) {
       for (const WallPart& part : design.parts) {

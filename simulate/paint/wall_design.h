@@ -45,8 +45,9 @@ struct WallDesign {
   // Width of a bay that looks like all others, in every storey, from the left edge on; 0: none
   // does.
   double repeated_bay_m = 0;
-  uint64_t seed = 0;  // the same for the walls of one building: its material; stains differ
-  int wall = 0;       // number of the wall in its building
+  uint64_t seed = 0;       // the same for the walls of one building: its material; stains differ
+  int wall = 0;            // number of the wall in its building
+  bool repainted = false;  // with a coat of paint of another hue than its material's
 };
 
 enum class Covering { kTiles, kMembrane, kGravel, kMetal, kAsphalt, kPaving, kGrass, kSoil, kCrop };

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "simulate/paint/internal/wall_look.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace stucco::simulate::internal {
 namespace {
 
@@ -54,6 +57,20 @@ Colour ShutterColour(float choice) {
   return FromSrgb(190, 186, 172);
 }
 
+// How far two hues are from each other: their ratios of red and blue to green.
+float HueDistance(Colour a, Colour b) {
+  const float red = std::log(a.r / a.g) - std::log(b.r / b.g);
+  const float blue = std::log(a.b / a.g) - std::log(b.b / b.g);
+  return std::hypot(red, blue);
+}
+
+// Paints of facades, the one that shows best that the wall was another.
+Colour CoatOver(Colour wall) {
+  const Colour paints[] = {FromSrgb(214, 168, 78), FromSrgb(176, 92, 72), FromSrgb(120, 158, 186),
+                           FromSrgb(140, 166, 120)};
+  return *std::ranges::max_element(paints, {}, [&](Colour c) { return HueDistance(c, wall); });
+}
+
 }  // namespace
 
 WallLook LookOf(const WallDesign& design) {
@@ -71,6 +88,7 @@ WallLook LookOf(const WallDesign& design) {
   if (design.cladding == Cladding::kGlass) {  // there, the metal of bars and ledges
     look.surround = Grey(Trait(look, 3) < 0.5f ? 0.35f : 0.06f);
   }
+  look.coat = CoatOver(look.palette.mean);
   look.frame = FrameColour(Trait(look, 33));
   look.shutter = ShutterColour(Trait(look, 34));
   look.soot = Trait(look, 35) * Trait(look, 36);

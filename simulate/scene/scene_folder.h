@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "simulate/scene/scene.h"
 #include "survey/georef.h"
@@ -21,12 +22,14 @@ namespace stucco::simulate {
 //   truth/facets.json    walls, roofs and ground as exact planar polygons, a Proxy; walls have the
 //                        ids that the planner gives to the map's facades
 //   truth/textures.json  their pictures at 1 cm, a TextureSet; images in truth/textures/
+//   truth/changes.json   of a later day: what is not as on the first
 inline constexpr char kSceneFile[] = "scene.json";
 inline constexpr char kSceneModel[] = "scene.glb";
 inline constexpr char kSceneMap[] = "map.geojson";
 inline constexpr char kSceneTerrain[] = "terrain.tif";
 inline constexpr char kTruthFacets[] = "truth/facets.json";
 inline constexpr char kTruthTextures[] = "truth/textures.json";
+inline constexpr char kTruthChanges[] = "truth/changes.json";
 
 // Things of a scene that are no buildings and no ground: what hides facades.
 inline constexpr char kOccluderPrefix[] = "occluder/";  // of element names: "occluder/tree-003"
@@ -34,6 +37,7 @@ inline constexpr char kOccluderPrefix[] = "occluder/";  // of element names: "oc
 struct SceneInfo {
   std::string style;  // hamlet, block, ...; empty for a model from elsewhere
   uint64_t seed = 0;
+  int day = 1;
   // Frame "enu": the scene's axes at its origin; heights are z plus origin_height_m. A model from
   // elsewhere has "arbitrary".
   Georef georef;
@@ -45,6 +49,16 @@ struct SceneInfo {
 // known about it. Throws Error (kBadInput).
 SceneInfo ReadSceneInfo(const std::filesystem::path& path);
 void WriteSceneInfo(const SceneInfo& info, const std::filesystem::path& scene_folder);
+
+// What is not as on the first day: elements of the model.
+struct DayChanges {
+  std::vector<std::string> repainted;  // facades
+  std::vector<std::string> gone;       // cars
+  std::vector<std::string> come;
+};
+
+// Writes truth/changes.json.
+void WriteDayChanges(const DayChanges& changes, int day, const std::filesystem::path& scene_folder);
 
 enum class UpAxis { kByFormat, kY, kZ };  // glTF: y. OBJ: y unless told
 

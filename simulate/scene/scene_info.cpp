@@ -41,6 +41,7 @@ SceneInfo ReadSceneInfo(const std::filesystem::path& path) {
     }
     json.at("style").get_to(info.style);
     json.at("seed").get_to(info.seed);
+    info.day = json.value("day", 1);
     json.at("has_truth").get_to(info.has_truth);
     json.at("has_terrain").get_to(info.has_terrain);
     json.at("frame").get_to(info.georef.frame);
@@ -64,6 +65,7 @@ void WriteSceneInfo(const SceneInfo& info, const std::filesystem::path& scene_fo
   Json json = {{"version", kVersion},
                {"style", info.style},
                {"seed", info.seed},
+               {"day", info.day},
                {"frame", info.georef.frame}};
   if (info.georef.frame == "enu") {
     json["origin"] = {{"latitude_deg", info.georef.origin_latitude_deg},
@@ -73,6 +75,16 @@ void WriteSceneInfo(const SceneInfo& info, const std::filesystem::path& scene_fo
   json["has_truth"] = info.has_truth;
   json["has_terrain"] = info.has_terrain;
   WriteFileAtomically(scene_folder / kSceneFile, json.dump(2) + "\n");
+}
+
+void WriteDayChanges(const DayChanges& changes, int day,
+                     const std::filesystem::path& scene_folder) {
+  const Json json = {{"version", kVersion},
+                     {"day", day},
+                     {"repainted", changes.repainted},
+                     {"gone", changes.gone},
+                     {"come", changes.come}};
+  WriteFileAtomically(scene_folder / kTruthChanges, json.dump(2) + "\n");
 }
 
 }  // namespace stucco::simulate

@@ -88,6 +88,35 @@ TEST(PlaceInModel, FindsTheFocalLengthOfACameraThatNobodyKnows) {
   EXPECT_LT(DistanceOf(scene, truth, 0), 0.3);
 }
 
+// The drone is of the model that the survey knows, but not the same one.
+TEST(PlaceInModel, LetsAKnownLensGoThatIsAnotherBodys) {
+  const Scene truth = MakeScene({.num_points = 500, .num_planes = 3, .noise_px = 0.5});
+  Scene scene = NewPhotos(truth, 3);
+  for (Camera* lens : {&scene.cameras[0].intrinsics, &scene.cameras[0].prior}) {
+    lens->params[0] *= 1.012;
+    lens->params[1] *= 1.012;
+    lens->params[2] += 6;
+    lens->params[4] += 0.01;
+  }
+  const std::vector<PlacedPhoto> placed = PlaceInModel(scene);
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(scene.photos[i].pose) << placed[i].why;
+    EXPECT_LT(DistanceOf(scene, truth, i), 0.05);
+    EXPECT_LT(placed[i].sigma.picture_px, 0.5);
+  }
+  const double ratio =
+      scene.cameras[0].intrinsics.params[0] / truth.cameras[0].intrinsics.params[0];
+  EXPECT_NEAR(ratio, 1, 0.002);
+}
+
+TEST(PlaceInModel, HoldsAKnownLensThatFits) {
+  const Scene truth = MakeScene({.num_points = 500, .num_planes = 3, .noise_px = 1});
+  Scene scene = NewPhotos(truth, 3);
+  PlaceInModel(scene);
+  EXPECT_EQ(scene.cameras[0].intrinsics.params, truth.cameras[0].intrinsics.params);
+  EXPECT_EQ(scene.cameras[0].focal_sigma_ratio, 0);
+}
+
 TEST(PlaceInModel, ForeignPhotoGetsNoPoseAndHarmsNoOther) {
   const Scene truth = MakeScene({});
   Scene scene = NewPhotos(truth, 2);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/mount.h>
 
 #include <fstream>
 #include <new>
@@ -15,6 +14,7 @@
 #include "survey/error.h"
 #include "survey/files.h"
 #include "tests/pipeline/fake_survey.h"
+#include "tests/pipeline/tiny_disk.h"
 
 namespace stucco {
 namespace {
@@ -194,24 +194,6 @@ TEST(Interrupt, StopsAlsoWhilePhotosAreHashed) {
   EXPECT_TRUE(fake.Outputs().empty());
   EXPECT_EQ(fake.Run().exit_code, 0);
 }
-
-// A file system of 200 KiB. Needs the right to mount, as in a container's root.
-class TinyDisk {
- public:
-  explicit TinyDisk(const fs::path& folder, const char* limits = "size=200k") : folder_(folder) {
-    mounted_ = mount("none", folder.c_str(), "tmpfs", 0, limits) == 0;
-  }
-  ~TinyDisk() {
-    if (mounted_) {
-      umount2(folder_.c_str(), MNT_DETACH);
-    }
-  }
-  bool mounted() const { return mounted_; }
-
- private:
-  fs::path folder_;
-  bool mounted_;
-};
 
 TEST(Failure, OfAUnitOnADiskWithoutRoomForItsFolderIsOutOfResource) {
   const FakeSurvey fake;

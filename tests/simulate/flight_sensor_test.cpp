@@ -236,6 +236,8 @@ TEST(Exposure, WandersNoFartherThanAskedAndSlowly) {
   EXPECT_LT(std::abs(step), 0.95 * std::log(most / least));
   options.exposure_drift = 0;
   for (const double exposure : Exposures(metered, options)) EXPECT_EQ(exposure, 2.0);
+  options.exposure_ev = -1;
+  for (const double exposure : Exposures(metered, options)) EXPECT_EQ(exposure, 1.0);
 }
 
 TEST(Exposure, WhiteBalanceStaysInItsBounds) {
@@ -251,6 +253,9 @@ TEST(Exposure, WhiteBalanceStaysInItsBounds) {
   EXPECT_GE(least, 0.95);
   EXPECT_LE(most, 1.05);
   EXPECT_GT(most - least, 0.04);
+  options.white_balance_drift = 0;
+  options.warmth = 0.1;
+  EXPECT_LT((WhiteBalance({2, 1, 1}, 70, options) - Eigen::Vector3d(2.2, 1, 0.9)).norm(), 1e-12);
 }
 
 TEST(Exposure, ShutterGivesTheExposureByTimeAndIso) {

@@ -41,13 +41,18 @@ FacetPicture Painted(const FacetPicture& before, const Repaint& repaint) {
 }
 
 FacetChanges Changes(const FacetPicture& before, const FacetPicture& after) {
-  return FindChanges(before, after, std::vector<uint8_t>(before.labels.size(), 1));
+  const std::vector<uint8_t> all(before.labels.size(), 1);
+  return FindChanges(before, after, all, all);
+}
+
+double Changed(const FacetChanges& changes) {
+  return changes.repainted + changes.other;
 }
 
 TEST(FindChanges, NothingChangedInTheSamePicture) {
   const FacetChanges changes = Changes(Wall(), Wall());
   EXPECT_DOUBLE_EQ(changes.compared, 1);
-  EXPECT_DOUBLE_EQ(changes.share(), 0);
+  EXPECT_DOUBLE_EQ(Changed(changes), 0);
 }
 
 TEST(FindChanges, LightIsNoChange) {
@@ -56,7 +61,7 @@ TEST(FindChanges, LightIsNoChange) {
   const FacetPicture shaded = Painted(wall, [](int x, int, const Colour& c) -> Colour {
     return x < 90 ? Colour(0.45 * c.x(), 0.5 * c.y(), 0.55 * c.z()) : 0.8 * c;
   });
-  EXPECT_LT(Changes(wall, shaded).share(), 0.02);
+  EXPECT_LT(Changed(Changes(wall, shaded)), 0.02);
 }
 
 TEST(FindChanges, SmallShiftIsNoChange) {
@@ -65,7 +70,7 @@ TEST(FindChanges, SmallShiftIsNoChange) {
     const uint8_t* rgb = wall.picture.Pixel(std::min(255, x + 5), y);
     return {static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2])};
   });
-  EXPECT_LT(Changes(wall, shifted).share(), 0.05);
+  EXPECT_LT(Changed(Changes(wall, shifted)), 0.05);
 }
 
 TEST(FindChanges, NewColourIsFound) {
@@ -83,9 +88,46 @@ TEST(FindChanges, NewPatternIsFound) {
   const FacetPicture with_sign = Painted(wall, [](int x, int y, const Colour& c) -> Colour {
     const bool in_sign = x >= 64 && x < 192 && y >= 48 && y < 144;
     if (!in_sign) return c;
-    return (x / 9 + y / 7) % 2 == 0 ? Colour(20, 20, 20) : Colour(230, 230, 230);
+    return (x / 9 + y / 7) % 2 == 0 ? Colour(20, 60, 160) : Colour(230, 230, 230);
   });
   EXPECT_NEAR(Changes(wall, with_sign).other, 0.25, 0.08);
+}
+
+// From another side eaves cover another part of the wall: that is no change, a wall all painted is.
+TEST(FindChanges, FromAnotherSideOnlyMuchColourCounts) {
+  const FacetPicture wall = Wall();
+  const std::vector<uint8_t> all(wall.labels.size(), 1);
+  const std::vector<uint8_t> none(wall.labels.size(), 0);
+  const auto changed_above = [&](int row) {
+    const FacetPicture after = Painted(wall, [=](int, int y, const Colour& c) -> Colour {
+      return y < row ? Colour(c.x(), 0.55 * c.y(), 0.5 * c.z()) : c;
+    });
+    return FindChanges(wall, after, all, none);
+  };
+  EXPECT_EQ(Changed(changed_above(32)), 0);
+  EXPECT_EQ(changed_above(32).compared, 0);
+  EXPECT_NEAR(changed_above(144).repainted, 0.75, 0.05);
+  EXPECT_GT(Changed(Changes(wall, Painted(wall,
+                                          [](int, int y, const Colour& c) -> Colour {
+                                            return y < 32 ? Colour(c.x(), 0.55 * c.y(), 0.5 * c.z())
+                                                          : c;
+                                          }))),
+            0.1);
+}
+
+// A shadow with slanting edges, as of eaves and a tree, a fifth bluer than the sun.
+TEST(FindChanges, ShadowsAreToldApart) {
+  const FacetPicture wall = Wall();
+  const auto draw = [&](int from, int to) {
+    return Painted(wall, [=](int x, int y, const Colour& c) -> Colour {
+      const int along = x + y / 2;
+      const bool in_shade = along % 40 >= from && along % 40 < to;
+      return in_shade ? Colour(0.32 * c.x(), 0.35 * c.y(), 0.39 * c.z()) : c;
+    });
+  };
+  const FacetChanges changes = Changes(draw(0, 14), draw(20, 34));
+  EXPECT_LT(Changed(changes), 0.02);
+  EXPECT_GT(changes.shaded, 0.1);
 }
 
 TEST(FindChanges, OnlyWhatBothShowIsCompared) {
@@ -97,9 +139,13 @@ TEST(FindChanges, OnlyWhatBothShowIsCompared) {
   const FacetChanges changes = Changes(wall, after);
   EXPECT_DOUBLE_EQ(changes.compared, 0.25);
   EXPECT_NEAR(changes.repainted + changes.other, 0.25, 0.03);
+  const std::vector<uint8_t> all(wall.labels.size(), 1);
+  std::vector<uint8_t> upper = all;
+  std::fill(upper.begin() + static_cast<long>(upper.size() / 2), upper.end(), uint8_t{0});
+  EXPECT_DOUBLE_EQ(FindChanges(wall, after, all, upper).compared, 0.125);
   std::ranges::fill(after.labels, uint8_t{0});
   EXPECT_DOUBLE_EQ(Changes(wall, after).compared, 0);
-  EXPECT_DOUBLE_EQ(Changes(wall, after).share(), 0);
+  EXPECT_DOUBLE_EQ(Changed(Changes(wall, after)), 0);
 }
 
 }  // namespace

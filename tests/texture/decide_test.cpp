@@ -17,6 +17,7 @@ FacetEvidence Unchanged() {
   return {.painted_before = 0.95,
           .painted_after = 0.95,
           .both = 0.95,
+          .compared = 0.95,
           .gsd_before_m = 0.02,
           .gsd_after_m = 0.021,
           .changed_share = 0.01};
@@ -26,6 +27,15 @@ TEST(Decide, KeepsWhatDidNotChange) {
   EXPECT_EQ(Decide(ReplaceMode::kAuto, Unchanged()).choice, FacetChoice::kKept);
   EXPECT_EQ(Decide(ReplaceMode::kAlways, Unchanged()).choice, FacetChoice::kReplaced);
   EXPECT_EQ(Decide(ReplaceMode::kNever, Unchanged()).choice, FacetChoice::kKept);
+}
+
+TEST(Decide, SaysWhatCannotBeCompared) {
+  FacetEvidence evidence = Unchanged();
+  EXPECT_THAT(Decide(ReplaceMode::kAuto, evidence).why, HasSubstr("has not changed"));
+  evidence.compared = 0.2;
+  const FacetDecision decision = Decide(ReplaceMode::kAuto, evidence);
+  EXPECT_EQ(decision.choice, FacetChoice::kKept);
+  EXPECT_THAT(decision.why, HasSubstr("75 % of it"));
 }
 
 TEST(Decide, KeepsWhatNoNewPhotoShows) {
@@ -62,12 +72,15 @@ TEST(Decide, ReplacesNoWholeWallByAPart) {
   EXPECT_EQ(Decide(ReplaceMode::kAlways, evidence).choice, FacetChoice::kReplaced);
 }
 
-TEST(Decide, ReplacesByClearlyFinerPhotos) {
+TEST(Decide, KeepsWhatIsOnlyShownFinerAndSaysSo) {
   FacetEvidence evidence = Unchanged();
-  evidence.gsd_after_m = 0.012;
-  EXPECT_EQ(Decide(ReplaceMode::kAuto, evidence).choice, FacetChoice::kReplaced);
+  EXPECT_EQ(Decide(ReplaceMode::kAuto, evidence).why, "it has not changed");
+  evidence.gsd_after_m = 0.01;
+  const FacetDecision decision = Decide(ReplaceMode::kAuto, evidence);
+  EXPECT_EQ(decision.choice, FacetChoice::kKept);
+  EXPECT_THAT(decision.why, HasSubstr("2.0 times finer"));
   evidence.gsd_before_m = 0;  // not known
-  EXPECT_EQ(Decide(ReplaceMode::kAuto, evidence).choice, FacetChoice::kKept);
+  EXPECT_EQ(Decide(ReplaceMode::kAuto, evidence).why, "it has not changed");
 }
 
 TEST(Decide, FillsGaps) {

@@ -21,6 +21,7 @@ struct WallLook {
   Colour surround;  // around openings, cornices: painted plaster or stone; metal on glass walls
   Colour frame;     // of windows
   Colour shutter;   // and doors
+  Colour coat;      // of paint, where the wall is repainted
   float soot = 0;   // 0 clean ... 1 never cleaned
   bool shutters = false;
   bool surrounds = false;
