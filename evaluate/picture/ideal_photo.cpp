@@ -127,11 +127,12 @@ cv::Mat Sampled(const cv::Mat& photo, const IdealShot& shot, const Pose& pose,
 
 void Take(const IdealShot& shot, const simulate::PicturePlane& plane, const Part& part,
           IdealPicture& out) {
-  const Vector3d middle = PlaceOn(plane, part.left + 0.5 * part.width, part.top + 0.5 * part.height);
+  const Vector3d middle =
+      PlaceOn(plane, part.left + 0.5 * part.width, part.top + 0.5 * part.height);
   const Pose pose = PoseBefore(plane, middle, shot.distance_m);
   const simulate::RenderOptions options{.threads = 1, .left_out = shot.left_out};
-  const Image photo = simulate::Develop(
-      shot.scene.Photograph(shot.lens, pose, shot.light, options), shot.lens, EffectsOf(shot), 1);
+  const Image photo = simulate::Develop(shot.scene.Photograph(shot.lens, pose, shot.light, options),
+                                        shot.lens, EffectsOf(shot), 1);
   const DepthMap depth = shot.scene.Depth(shot.lens, pose, options);
   const cv::Mat texels =
       Sampled(Compressed(photo, shot.faults.jpeg_quality), shot, pose, plane, part);
@@ -178,8 +179,8 @@ IdealPicture TakeIdealPhotos(const IdealShot& shot, const simulate::PicturePlane
       Cuts(plane.height_px, used * shot.lens.height_px / shot.lens.FocalY());
   for (size_t j = 0; j + 1 < down.size(); ++j) {
     for (size_t i = 0; i + 1 < across.size(); ++i) {
-      Take(shot, plane,
-           {across[i], down[j], across[i + 1] - across[i], down[j + 1] - down[j]}, out);
+      Take(shot, plane, {across[i], down[j], across[i + 1] - across[i], down[j + 1] - down[j]},
+           out);
     }
   }
   return out;

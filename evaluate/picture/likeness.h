@@ -16,8 +16,8 @@ Likeness LikenessOf(const PicturePair& pair, double texel_m);
 
 // The texels of a wall by what the scene has there.
 struct WallParts {
-  std::vector<uint8_t> plane;   // the wall's own plane
-  std::vector<uint8_t> relief;  // what stands out or lies back, and the rim around it
+  std::vector<uint8_t> plane;         // the wall's own plane
+  std::vector<uint8_t> relief;        // what stands out or lies back, and the rim around it
   double plane_share = kNotMeasured;  // of the texels in the mask
 };
 
