@@ -3,6 +3,7 @@
 #include "texture/consensus.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +15,8 @@ constexpr float kHalfDisagreement = 30;
 constexpr int kFewestVoices = 3;
 // Less is not worth the search for a point off the plane.
 constexpr float kWorthAsking = 0.1f;
+constexpr double kMostHeights = 6;  // tried before the plane, and as many behind it
+constexpr float kSameColour = 10;   // no better one is looked for
 constexpr double kFewestCompared = 50;
 constexpr float kOther = 0.5f;        // a disagreement that shows something else, not haze
 constexpr double kLeastContrast = 5;  // standard deviation in grey levels
@@ -86,8 +89,9 @@ float DistanceAtHeight(std::span<const RasterPicture> pictures, size_t asked,
   const float* rgb = &picture.rgb[3 * (static_cast<size_t>(place.y()) * raster.width +
                                        static_cast<size_t>(place.x()))];
   const Eigen::Vector2d foot = place + WayOnPlane(picture.camera, place, height);
-  std::vector<float> distances;
-  for (size_t q = 0; q < pictures.size(); ++q) {
+  std::array<float, 64> distances;
+  size_t count = 0;
+  for (size_t q = 0; q < pictures.size() && count < distances.size(); ++q) {
     if (q == asked || !(pictures[q].camera.z() > height)) continue;
     const Eigen::Vector2d there = foot - WayOnPlane(pictures[q].camera, foot, height);
     const auto x = static_cast<int>(std::floor(there.x()));
@@ -95,19 +99,22 @@ float DistanceAtHeight(std::span<const RasterPicture> pictures, size_t asked,
     if (x < 0 || y < 0 || x >= raster.width || y >= raster.height) continue;
     const size_t i = static_cast<size_t>(y) * raster.width + x;
     if (pictures[q].sight[i] != Sight::kFree) continue;
-    distances.push_back(Difference(&pictures[q].rgb[3 * i], rgb));
+    distances[count++] = Difference(&pictures[q].rgb[3 * i], rgb);
   }
-  if (distances.size() + 1 < kFewestVoices) return std::numeric_limits<float>::infinity();
-  return Median(distances);
+  if (count + 1 < kFewestVoices) return std::numeric_limits<float>::infinity();
+  const auto middle = distances.begin() + count / 2;
+  std::nth_element(distances.begin(), middle, distances.begin() + count);
+  return *middle;
 }
 
 // The least of these distances over points up to `relief` texels before or behind the plane.
 float LeastDistance(std::span<const RasterPicture> pictures, size_t asked, const TexelGrid& raster,
                     const Eigen::Vector2d& place, double relief) {
+  const double step = std::max(1.0, relief / kMostHeights);
   float least = std::numeric_limits<float>::infinity();
-  for (int step = 1; step <= static_cast<int>(relief); ++step) {
-    for (const int height : {-step, step}) {
-      least = std::min(least, DistanceAtHeight(pictures, asked, raster, place, height));
+  for (double height = step; height <= relief && least > kSameColour; height += step) {
+    for (const double at : {-height, height}) {
+      least = std::min(least, DistanceAtHeight(pictures, asked, raster, place, at));
     }
   }
   return least;
