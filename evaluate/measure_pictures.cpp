@@ -97,6 +97,36 @@ double MedianShift(std::span<const FacadeFigures> facades,
 
 namespace {
 
+// Beside PSNR and SSIM, which are means, shifts are medians: a wall of repeated windows may be off
+// by a whole one.
+void SummariseCeilings(Evaluation& evaluation) {
+  const std::span<const FacadeFigures> facades = evaluation.facades;
+  std::vector<WeightedLikeness> ceilings;
+  std::vector<WeightedPart> planes;
+  std::vector<WeightedPart> reliefs;
+  for (const FacadeFigures& facade : facades) {
+    const double painted_m2 = facade.area_m2 * facade.painted;
+    ceilings.push_back({facade.ceiling, painted_m2});
+    planes.push_back({facade.plane, painted_m2});
+    reliefs.push_back({facade.relief, painted_m2});
+  }
+  evaluation.ceiling_mean = MeanLikeness(ceilings);
+  evaluation.plane_mean = MeanPart(planes);
+  evaluation.relief_mean = MeanPart(reliefs);
+  const auto median = [&](double (*shift_of)(const FacadeFigures&)) {
+    return MedianShift(facades, shift_of);
+  };
+  evaluation.ceiling_mean.shift_m = median([](const auto& f) { return f.ceiling.shift_m; });
+  evaluation.plane_mean.result.shift_m =
+      median([](const auto& f) { return f.plane.result.shift_m; });
+  evaluation.plane_mean.ceiling.shift_m =
+      median([](const auto& f) { return f.plane.ceiling.shift_m; });
+  evaluation.relief_mean.result.shift_m =
+      median([](const auto& f) { return f.relief.result.shift_m; });
+  evaluation.relief_mean.ceiling.shift_m =
+      median([](const auto& f) { return f.relief.ceiling.shift_m; });
+}
+
 // One note for all pictures of a kind that could not be read.
 template <typename Figures>
 void NoteProblems(const char* of_what, const std::vector<Figures>& all, Evaluation& evaluation) {
@@ -108,13 +138,13 @@ void NoteProblems(const char* of_what, const std::vector<Figures>& all, Evaluati
                   of_what, first->problem));
 }
 
-void MeasureViews(const TextureComparison& comparison, const simulate::Flight& flight,
-                  const fs::path& flight_folder, Evaluation& evaluation) {
+void MeasureViews(const TextureComparison& comparison, const fs::path& flight_folder,
+                  Evaluation& evaluation) {
   if (comparison.textures.model_glb.empty()) {
     evaluation.notes.emplace_back("views are not measured: the textures have no model");
     return;
   }
-  evaluation.views = CompareViews(comparison, flight, flight_folder);
+  evaluation.views = CompareViews(comparison, flight_folder);
   if (evaluation.views.empty()) {
     evaluation.notes.emplace_back("views are not measured: no photo of the flight was held out");
   }
@@ -142,6 +172,7 @@ void MeasurePictures(const EvaluateRequest& request, const Truth& truth, simulat
       .truth = truth.facets,
       .scene = renderer,
       .light = MiddleLight(truth.flight),
+      .flight = truth.flight,
       .occluders = std::move(occluders),
       .truth_from_world = truth_from_world,
       .truth_texel_m = TruthTexel(request.scene),
@@ -152,6 +183,7 @@ void MeasurePictures(const EvaluateRequest& request, const Truth& truth, simulat
   evaluation.facades = CompareFacades(comparison);
   evaluation.texture_mean = MeanOfFacades(evaluation.facades);
   evaluation.painted = PaintedShare(evaluation.facades);
+  SummariseCeilings(evaluation);
   evaluation.misregistration_px =
       MedianShift(evaluation.facades, [](const auto& facade) { return facade.misregistration_px; });
   evaluation.misregistration_m = MedianShift(evaluation.facades, [](const auto& facade) {
@@ -159,7 +191,7 @@ void MeasurePictures(const EvaluateRequest& request, const Truth& truth, simulat
   });
   NoteProblems("walls have pictures that", evaluation.facades, evaluation);
   Attempt(
-      "views are", [&] { MeasureViews(comparison, truth.flight, flight, evaluation); }, evaluation);
+      "views are", [&] { MeasureViews(comparison, flight, evaluation); }, evaluation);
 }
 
 }  // namespace stucco::evaluate

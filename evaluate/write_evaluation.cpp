@@ -83,6 +83,19 @@ Json ProxyJson(const ProxyFigures& proxy) {
   return json;
 }
 
+Json LikenessJson(const Likeness& figures) {
+  return {{"ssim", Number(figures.ssim)},
+          {"psnr", Number(figures.psnr)},
+          {"shift_m", Number(figures.shift_m)}};
+}
+
+Json PartJson(const LikenessOfPart& part) {
+  Json json = {{"share", Number(part.share)}};
+  json.update(LikenessJson(part.result));
+  json["ceiling"] = LikenessJson(part.ceiling);
+  return json;
+}
+
 Json FacadeJson(const FacadeFigures& facade) {
   Json json = {{"id", facade.id},
                {"facet", facade.facet},
@@ -91,6 +104,10 @@ Json FacadeJson(const FacadeFigures& facade) {
   AddPicture(facade.picture, "", json);
   json["texel_m"] = Number(facade.texel_m);
   json["misregistration_px"] = Number(facade.misregistration_px);
+  json["ideal_distance_m"] = Number(facade.ideal_distance_m);
+  json["ceiling"] = LikenessJson(facade.ceiling);
+  json["plane"] = PartJson(facade.plane);
+  json["relief"] = PartJson(facade.relief);
   json["truth_picture"] = facade.truth_picture;
   json["result_picture"] = facade.result_picture;
   json["error_picture"] = facade.error_picture;
@@ -102,6 +119,9 @@ Json TextureJson(const Evaluation& evaluation) {
   AddPicture(evaluation.texture_mean, "_mean", json);
   json["misregistration_px"] = Number(evaluation.misregistration_px);
   json["misregistration_m"] = Number(evaluation.misregistration_m);
+  json["ceiling"] = LikenessJson(evaluation.ceiling_mean);
+  json["plane"] = PartJson(evaluation.plane_mean);
+  json["relief"] = PartJson(evaluation.relief_mean);
   json["facades"] = Json::array();
   for (const FacadeFigures& facade : evaluation.facades) {
     json["facades"].push_back(FacadeJson(facade));
@@ -143,13 +163,18 @@ std::string Cell(double value) {
 
 std::string FacadesCsv(const Evaluation& evaluation) {
   std::string csv =
-      "id,facet,area_m2,painted,ssim,ms_ssim,psnr,gmsd,flip,lpips,texel_m,misregistration_px\r\n";
+      "id,facet,area_m2,painted,ssim,ms_ssim,psnr,gmsd,flip,lpips,texel_m,misregistration_px,"
+      "ceiling_ssim,plane_share,plane_ssim,plane_ceiling_ssim,plane_shift_m,relief_ssim,"
+      "relief_ceiling_ssim\r\n";
   for (const FacadeFigures& facade : evaluation.facades) {
     const PictureFigures& picture = facade.picture;
     csv += CsvField(facade.id) + "," + CsvField(facade.facet);
     for (const double value :
          {facade.area_m2, facade.painted, picture.ssim, picture.ms_ssim, picture.psnr, picture.gmsd,
-          picture.flip, picture.lpips, facade.texel_m, facade.misregistration_px}) {
+          picture.flip, picture.lpips, facade.texel_m, facade.misregistration_px,
+          facade.ceiling.ssim, facade.plane.share, facade.plane.result.ssim,
+          facade.plane.ceiling.ssim, facade.plane.result.shift_m, facade.relief.result.ssim,
+          facade.relief.ceiling.ssim}) {
       csv += "," + Cell(value);
     }
     csv += "\r\n";

@@ -266,6 +266,46 @@ GridShift FitAlone(std::span<const GridMatch> own, int picture, const GridArea& 
   return start[picture];
 }
 
+// Shifts of `count` terms, fewer for pictures that would move too far; nothing where most pictures
+// do: then it is the terms that are wrong, not the pictures. `start` are identities.
+std::optional<std::vector<GridShift>> FitShifts(const std::vector<GridMatch>& matches,
+                                                std::span<const GridArea> areas,
+                                                const std::vector<GridShift>& start,
+                                                double limit_px, int count) {
+  std::vector<int> terms(areas.size(), count);
+  std::vector<GridShift> shifts = SolveTogether(matches, areas, start, limit_px, terms);
+  const auto left_out = std::count(terms.begin(), terms.end(), 0);
+  if (2 * static_cast<size_t>(left_out) >= areas.size() && count > 2) return std::nullopt;
+  for (size_t i = 0; i < areas.size(); ++i) {
+    if (terms[i] != 0) continue;
+    const int picture = static_cast<int>(i);
+    const std::vector<GridMatch> own = MatchesAgainst(matches, picture, terms, shifts);
+    shifts[i] = FitAlone(own, picture, areas[i], start, limit_px);
+  }
+  return shifts;
+}
+
+// The median distance of each half of the matches after the shifts that the other half asks for:
+// what was fitted says nothing of how well. Each pair's matches go to the halves by turns. -1 where
+// a half allows no such shifts.
+double HeldOutResidual(std::span<const GridMatch> matches, std::span<const GridArea> areas,
+                       const std::vector<GridShift>& start, double limit_px, int count) {
+  std::vector<GridMatch> halves[2];
+  std::map<std::pair<int, int>, int> count_of_pair;
+  for (const GridMatch& match : matches) {
+    halves[count_of_pair[{match.a, match.b}]++ % 2].push_back(match);
+  }
+  std::vector<double> lengths;
+  for (int fitted = 0; fitted < 2; ++fitted) {
+    const auto shifts = FitShifts(halves[fitted], areas, start, limit_px, count);
+    if (!shifts) return -1;
+    for (const GridMatch& match : halves[1 - fitted]) {
+      lengths.push_back(Residual(match, *shifts).norm());
+    }
+  }
+  return Median(std::move(lengths)).value_or(-1);
+}
+
 }  // namespace
 
 std::vector<GridMatch> MatchPictures(std::span<const GreyPicture> pictures, int a, int b,
@@ -307,22 +347,12 @@ Alignment SolveAlignment(std::span<const GridMatch> matches, std::span<const Gri
   out.after_px = out.before_px;
   if (!(limit_px > 0)) return out;
 
-  const auto is_left_out = [](int count) { return count == 0; };
   for (int count : {8, 6, 2}) {
-    std::vector<int> terms(areas.size(), count);
-    std::vector<GridShift> shifts = SolveTogether(believed, areas, out.shifts, limit_px, terms);
-    // When most pictures move too far it is the terms that are wrong, not the pictures.
-    const auto left_out = std::count_if(terms.begin(), terms.end(), is_left_out);
-    if (2 * static_cast<size_t>(left_out) >= areas.size() && count > 2) continue;
-    for (size_t i = 0; i < areas.size(); ++i) {
-      if (!is_left_out(terms[i])) continue;
-      const int picture = static_cast<int>(i);
-      const std::vector<GridMatch> own = MatchesAgainst(believed, picture, terms, shifts);
-      shifts[i] = FitAlone(own, picture, areas[i], out.shifts, limit_px);
-    }
-    const double after = MedianResidual(believed, shifts);
-    if (!(after < out.before_px)) continue;
-    out.shifts = std::move(shifts);
+    const auto shifts = FitShifts(believed, areas, out.shifts, limit_px, count);
+    if (!shifts) continue;
+    const double after = HeldOutResidual(believed, areas, out.shifts, limit_px, count);
+    if (!(after >= 0 && after < out.before_px)) continue;
+    out.shifts = *shifts;
     out.after_px = after;
     break;
   }

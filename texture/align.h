@@ -51,7 +51,9 @@ std::vector<GridMatch> MatchPictures(std::span<const GreyPicture> pictures, int 
 struct Alignment {
   std::vector<GridShift> shifts;  // one per picture, in raster texels; identity when unsure
   double before_px = -1;          // median distance of matched details, raster texels
-  double after_px = -1;           // the same after the shifts; -1: nothing could be matched
+  // The same of each half of the matches after the shifts that the other half asks for; -1: nothing
+  // could be matched.
+  double after_px = -1;
 };
 
 // One smooth shift per picture that brings matched details together, all pictures at once: least
@@ -59,8 +61,9 @@ struct Alignment {
 // proxy are shared), reweighted by Geman-McClure's function; with eight terms (homography), or six
 // (affine), or two. A shift that would move a corner of what its picture shows (`areas`) by more
 // than `limit_px` is not believed: that picture is left out and the others are solved anew, then it
-// is fitted to them with fewer terms if that keeps to the limit. When most would be left out, all
-// get fewer terms instead. Pairs with fewer than eight matches do not count.
+// is fitted to them with fewer terms if that keeps to the limit. When most would be left out, or
+// matches that had no say in the shifts lie no nearer by them, all get fewer terms instead. Pairs
+// with fewer than eight matches do not count.
 Alignment SolveAlignment(std::span<const GridMatch> matches, std::span<const GridArea> areas,
                          const Eigen::Vector2d& raster_size, double limit_px);
 

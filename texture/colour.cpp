@@ -27,6 +27,36 @@ constexpr size_t kFewestFacets = 3;  // of which one may have another colour
 // logarithms of encoded colours, about what eyes see beside each other.
 constexpr double kAgreeingHues = 0.05;
 
+// Hues of gains farther from the middle of all than both: logarithms, and times the median
+// distance.
+constexpr double kAlwaysLikely = 0.05;
+constexpr double kFarFromUsual = 4;
+
+Eigen::Vector3d HueOf(const Eigen::Vector3d& logs) {
+  return logs.array() - logs.mean();
+}
+
+// A tree or a car before most of what a photo shows makes its ratios those of leaves to plaster; a
+// camera's white balance does no such thing to one photo. Hues that are far from those of the other
+// photos in `logs` come back to where they are still likely.
+void LimitHues(const std::vector<size_t>& compared, std::vector<Eigen::Vector3d>& logs) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> values;
+    for (const size_t i : compared) values.push_back(HueOf(logs[i])[k]);
+    middle[k] = Median(std::move(values)).value_or(0);
+  }
+  std::vector<double> apart;
+  for (const size_t i : compared) apart.push_back((HueOf(logs[i]) - middle).norm());
+  const double most = std::max(kAlwaysLikely, kFarFromUsual * Median(apart).value_or(0));
+  for (size_t n = 0; n < compared.size(); ++n) {
+    if (!(apart[n] > most)) continue;
+    Eigen::Vector3d& log = logs[compared[n]];
+    const Eigen::Vector3d hue = middle + (HueOf(log) - middle) * (most / apart[n]);
+    log = hue.array() + (log.mean() - hue.mean());
+  }
+}
+
 // One channel: log gains.
 Eigen::VectorXd SolveChannel(std::span<const ColourRatio> ratios, size_t photos, int channel) {
   const auto count = static_cast<Eigen::Index>(photos);
@@ -82,12 +112,20 @@ std::optional<ColourRatio> MeasureRatio(int a, int b, std::span<const float> rgb
 std::vector<Eigen::Vector3d> SolveGains(std::span<const ColourRatio> ratios, size_t photos) {
   std::vector<Eigen::Vector3d> gains(photos, Eigen::Vector3d::Ones());
   if (ratios.empty()) return gains;
+  std::vector<Eigen::Vector3d> logs(photos, Eigen::Vector3d::Zero());
   for (int channel = 0; channel < 3; ++channel) {
     const Eigen::VectorXd log_gain = SolveChannel(ratios, photos, channel);
-    for (size_t i = 0; i < photos; ++i) {
-      gains[i][channel] = std::clamp(std::exp(log_gain[static_cast<Eigen::Index>(i)]),
-                                     1 / kLargestGain, kLargestGain);
-    }
+    for (size_t i = 0; i < photos; ++i) logs[i][channel] = log_gain[static_cast<Eigen::Index>(i)];
+  }
+  std::vector<uint8_t> is_compared(photos, 0);
+  for (const ColourRatio& ratio : ratios) is_compared[ratio.a] = is_compared[ratio.b] = 1;
+  std::vector<size_t> compared;
+  for (size_t i = 0; i < photos; ++i) {
+    if (is_compared[i]) compared.push_back(i);
+  }
+  LimitHues(compared, logs);
+  for (const size_t i : compared) {
+    gains[i] = logs[i].array().exp().max(1 / kLargestGain).min(kLargestGain);
   }
   return gains;
 }
@@ -99,12 +137,9 @@ Eigen::Vector3d CommonGain(std::span<const ColourRatio> ratios) {
     for (const ColourRatio& ratio : ratios) values.push_back(ratio.log_ratio[channel]);
     log_ratio[channel] = Median(std::move(values)).value_or(0);
   }
-  const auto hue_of = [](const Eigen::Vector3d& v) {
-    return Eigen::Vector3d(v.array() - v.mean());
-  };
   std::vector<double> apart;
   for (const ColourRatio& ratio : ratios) {
-    apart.push_back((hue_of(ratio.log_ratio) - hue_of(log_ratio)).norm());
+    apart.push_back((HueOf(ratio.log_ratio) - HueOf(log_ratio)).norm());
   }
   if (ratios.size() < kFewestFacets || *Median(std::move(apart)) > kAgreeingHues) {
     log_ratio.setConstant(log_ratio.mean());

@@ -26,7 +26,8 @@ std::optional<ColourRatio> MeasureRatio(int a, int b, std::span<const float> rgb
 
 // Gains per photo and channel that make the photos agree: least squares on the logarithms over all
 // overlaps of the whole model, with Huber weights, drawn to 1 (Brown & Lowe, "Automatic Panoramic
-// Image Stitching using Invariant Features", 2007, on ratios). Photos without overlap keep 1.
+// Image Stitching using Invariant Features", 2007, on ratios). Hues that only one photo has are
+// held near those of the others. Photos without overlap keep 1.
 std::vector<Eigen::Vector3d> SolveGains(std::span<const ColourRatio> ratios, size_t photos);
 
 // What brings all of `a` to their `b`, when each ratio is of another facet and of the same two

@@ -3,7 +3,9 @@
 #include "texture/consensus.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace stucco {
 namespace {
@@ -11,6 +13,10 @@ namespace {
 // Colour differences (0 to 255) that count half as disagreement.
 constexpr float kHalfDisagreement = 30;
 constexpr int kFewestVoices = 3;
+// Less is not worth the search for a point off the plane.
+constexpr float kWorthAsking = 0.1f;
+constexpr double kMostHeights = 6;  // tried before the plane, and as many behind it
+constexpr float kSameColour = 10;   // no better one is looked for
 constexpr double kFewestCompared = 50;
 constexpr float kOther = 0.5f;        // a disagreement that shows something else, not haze
 constexpr double kLeastContrast = 5;  // standard deviation in grey levels
@@ -63,6 +69,57 @@ float Contrast(const std::vector<float>& rgb, const TexelGrid& raster, int x, in
   return contrast;
 }
 
+float DisagreementAt(float distance) {
+  return distance > 0 ? 1 / (1 + std::pow(kHalfDisagreement / distance, 4.0f)) : 0;
+}
+
+// Where a photo shows a point `height` texels before what it shows at (x, y) of the plane itself,
+// as seen from another one's place: texels to the right and down.
+Eigen::Vector2d WayOnPlane(const Eigen::Vector3d& camera, const Eigen::Vector2d& place,
+                           double height) {
+  return height / camera.z() * (camera.head<2>() - place);
+}
+
+// How far the colour that one picture has in a texel is from those of the others where they show
+// the same point, if it lies `height` texels before the plane: the median over the others that show
+// it freely. Infinity with fewer than two.
+float DistanceAtHeight(std::span<const RasterPicture> pictures, size_t asked,
+                       const TexelGrid& raster, const Eigen::Vector2d& place, double height) {
+  const RasterPicture& picture = pictures[asked];
+  const float* rgb = &picture.rgb[3 * (static_cast<size_t>(place.y()) * raster.width +
+                                       static_cast<size_t>(place.x()))];
+  const Eigen::Vector2d foot = place + WayOnPlane(picture.camera, place, height);
+  std::array<float, 64> distances;
+  size_t count = 0;
+  for (size_t q = 0; q < pictures.size() && count < distances.size(); ++q) {
+    if (q == asked || !(pictures[q].camera.z() > height)) continue;
+    const Eigen::Vector2d there = foot - WayOnPlane(pictures[q].camera, foot, height);
+    const auto x = static_cast<int>(std::floor(there.x()));
+    const auto y = static_cast<int>(std::floor(there.y()));
+    if (x < 0 || y < 0 || x >= raster.width || y >= raster.height) continue;
+    const size_t i = static_cast<size_t>(y) * raster.width + x;
+    if (pictures[q].sight[i] != Sight::kFree) continue;
+    distances[count++] = Difference(&pictures[q].rgb[3 * i], rgb);
+  }
+  if (count + 1 < kFewestVoices) return std::numeric_limits<float>::infinity();
+  const auto middle = distances.begin() + count / 2;
+  std::nth_element(distances.begin(), middle, distances.begin() + count);
+  return *middle;
+}
+
+// The least of these distances over points up to `relief` texels before or behind the plane.
+float LeastDistance(std::span<const RasterPicture> pictures, size_t asked, const TexelGrid& raster,
+                    const Eigen::Vector2d& place, double relief) {
+  const double step = std::max(1.0, relief / kMostHeights);
+  float least = std::numeric_limits<float>::infinity();
+  for (double height = step; height <= relief && least > kSameColour; height += step) {
+    for (const double at : {-height, height}) {
+      least = std::min(least, DistanceAtHeight(pictures, asked, raster, place, at));
+    }
+  }
+  return least;
+}
+
 float Brightness(const float* rgb) {
   return (rgb[0] + rgb[1] + rgb[2]) / 3;
 }
@@ -91,11 +148,28 @@ std::vector<std::vector<float>> Disagreement(std::span<const RasterPicture> pict
         if (pictures[p].sight[i] == Sight::kNot) continue;
         const float distance =
             std::max(0.0f, Difference(&pictures[p].rgb[3 * i], &consensus.rgb[3 * i]) - forgiven);
-        out[p][i] = distance > 0 ? 1 / (1 + std::pow(kHalfDisagreement / distance, 4.0f)) : 0;
+        out[p][i] = DisagreementAt(distance);
       }
     }
   }
   return out;
+}
+
+void ForgiveRelief(std::span<const RasterPicture> pictures, const Consensus& consensus,
+                   const TexelGrid& raster, double relief,
+                   std::vector<std::vector<float>>& disagreement) {
+  for (size_t p = 0; p < pictures.size(); ++p) {
+    if (!(pictures[p].camera.z() > relief)) continue;
+    for (int y = 0; y < raster.height; ++y) {
+      for (int x = 0; x < raster.width; ++x) {
+        float& own = disagreement[p][static_cast<size_t>(y) * raster.width + x];
+        if (own < kWorthAsking) continue;
+        const float forgiven = 0.5f * Contrast(consensus.rgb, raster, x, y);
+        const float distance = LeastDistance(pictures, p, raster, {x + 0.5, y + 0.5}, relief);
+        own = std::min(own, DisagreementAt(distance - forgiven));
+      }
+    }
+  }
 }
 
 float Haze(const RasterPicture& picture, const Consensus& consensus,

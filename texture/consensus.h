@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct RasterPicture {
   std::vector<Sight> sight;
   std::vector<float> cost;  // ViewCost, 0 where not seen
   std::vector<float> rgb;   // 3 per texel, 0 to 255, after colour gains; 0 where not seen
+  // Of the photo over the raster: column and row of its foot and height, all in texels. Height 0:
+  // not known.
+  Eigen::Vector3d camera = Eigen::Vector3d::Zero();
 };
 
 // What most pictures show: per texel the median colour of those that see it freely (of all that see
@@ -31,6 +35,14 @@ Consensus FindConsensus(std::span<const RasterPicture> pictures, const TexelGrid
 // knows who is right.
 std::vector<std::vector<float>> Disagreement(std::span<const RasterPicture> pictures,
                                              const Consensus& consensus, const TexelGrid& raster);
+
+// Lowers disagreement that relief explains. Photos that look from elsewhere show it elsewhere, so
+// that many tilted ones, alike among themselves, would outvote the one that looks straight: a
+// picture agrees with the others where they show the same of some point up to `relief` texels
+// before or behind the plane. Pictures whose camera is not known keep theirs.
+void ForgiveRelief(std::span<const RasterPicture> pictures, const Consensus& consensus,
+                   const TexelGrid& raster, double relief,
+                   std::vector<std::vector<float>>& disagreement);
 
 // The share of the consensus's contrast that a picture lacks, 0 to 1: haze, lens flare, blur. The
 // slope of its brightness against the consensus's where they show the same thing; 0 with fewer than

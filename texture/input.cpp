@@ -12,6 +12,7 @@
 #include "survey/plan_of_survey.h"
 #include "survey/ply.h"
 #include "survey/survey_folder.h"
+#include "survey/views_by_pose.h"
 
 namespace stucco {
 namespace {
@@ -19,7 +20,8 @@ namespace {
 // Enough to cover the small rasters in which foreground is looked up; more only costs time.
 constexpr size_t kMostPoints = 1'000'000;
 
-std::vector<SurveyPhoto> ReadPhotos(const StageContext& context, bool guided) {
+std::vector<SurveyPhoto> ReadPhotos(const StageContext& context, const Georef& georef,
+                                    bool guided) {
   std::vector<SurveyPhoto> photos = ReadSurveyPhotos(context.survey);
   for (SurveyPhoto& photo : photos) {
     const std::filesystem::path path = context.photos / photo.path();
@@ -32,19 +34,26 @@ std::vector<SurveyPhoto> ReadPhotos(const StageContext& context, bool guided) {
   }
   std::ranges::sort(photos, {}, &SurveyPhoto::path);
   if (guided) {
-    if (const auto plan = PlanOfSurvey(context)) JoinPlan(*plan, photos);
+    if (const auto plan = PlanOfSurvey(context)) {
+      NameViewsByPose(*plan, georef, photos);
+      JoinPlan(*plan, photos);
+    }
   }
   return photos;
 }
 
 // Every k-th point of a cloud, so that about kMostPoints are left.
-std::vector<Eigen::Vector3d> ReadThinned(const std::filesystem::path& cloud) {
-  const uint64_t step =
-      std::max<uint64_t>(1, (ReadPlyLayout(cloud).points + kMostPoints - 1) / kMostPoints);
-  std::vector<Eigen::Vector3d> points;
+SightedPoints ReadThinned(const std::filesystem::path& cloud) {
+  const PlyLayout layout = ReadPlyLayout(cloud);
+  const uint64_t step = std::max<uint64_t>(1, (layout.points + kMostPoints - 1) / kMostPoints);
+  SightedPoints points;
   uint64_t number = 0;
   ForEachPoint(cloud, [&](const CloudPoint& point) {
-    if (number++ % step == 0) points.push_back(point.position);
+    if (number++ % step != 0) return;
+    points.positions.push_back(point.position);
+    if (!layout.views) return;
+    points.views.insert(points.views.end(), point.views.begin(), point.views.end());
+    points.ends.push_back(points.views.size());
   });
   return points;
 }
@@ -74,7 +83,7 @@ TextureInput ReadSurfaces(const StageContext& context, const TextureOptions& opt
 
 TextureInput ReadTextureInput(const StageContext& context, const TextureOptions& options) {
   TextureInput input = ReadSurfaces(context, options);
-  input.photos = ReadPhotos(context, options.guided);
+  input.photos = ReadPhotos(context, input.georef, options.guided);
   if (input.photos.empty()) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: no photo is posed", (context.survey / kSparseFolder).string()),

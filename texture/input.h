@@ -11,6 +11,7 @@
 #include "survey/stage.h"
 #include "survey/survey_photo.h"
 #include "texture/options.h"
+#include "texture/visibility.h"
 
 namespace stucco {
 
@@ -18,9 +19,9 @@ namespace stucco {
 struct TextureInput {
   Proxy proxy;
   Georef georef;
-  std::vector<SurveyPhoto> photos;     // posed and on disk, by name
-  std::vector<Eigen::Vector3d> cloud;  // thinned; empty without one
-  std::string geometry_hash;           // of the proxy and the cloud
+  std::vector<SurveyPhoto> photos;  // posed and on disk, by name
+  SightedPoints cloud;              // thinned; empty without one
+  std::string geometry_hash;        // of the proxy and the cloud
 };
 
 // All but the photos: proxy/facets.json and, where they are, calib/georef.json and dense/cloud.ply

@@ -75,6 +75,9 @@ RasterPicture MakeRasterPicture(const RasterView& view, const TexelGrid& raster,
   clues.skyward = FindSkyward(raster, photo.cam_from_world.Center(), scene.up);
   MarkSky(raster, clues, picture.rgb, picture.sight);
   ApplyGain(gain, picture.rgb);
+  const Eigen::Vector3d camera = photo.cam_from_world.Center();
+  picture.camera.head<2>() = raster.From(camera);
+  picture.camera.z() = (camera - raster.origin).dot(raster.normal) / raster.texel;
   return picture;
 }
 
@@ -131,7 +134,8 @@ Selected SelectPhotos(const PaintJob& job, const PaintedFacet& canvas) {
       out.views.back().texels[i].sight = pictures.back().sight[i];
     }
   }
-  const SelectOptions select{kCellSplit, options.photo_cost, options.seam_cost, options.min_region};
+  const SelectOptions select{kCellSplit, options.photo_cost, options.seam_cost, options.min_region,
+                             look.limits.clearance / out.raster.grid.texel};
   out.ownership.owner = SelectPictures(pictures, out.raster, select);
   DropBackground(out.raster.grid, out.raster.inside, pictures, out.ownership.owner);
   KeepUsed(out.views, out.raster.inside, out.ownership.owner);

@@ -184,8 +184,9 @@ std::vector<EpochFacet> RepaintSurvey(const TextureOptions& options, const Repai
   const OcclusionScene occlusion(input.proxy);
   const std::vector<NearestPoints> nearest = SplatAll(input, context);
   PhotoCache cache(context.photos, context.memory_limit_bytes / 3);
-  const PaintScene scene{
-      {input.photos, &occlusion, nearest, input.cloud}, &cache, input.proxy.up.normalized()};
+  const PaintScene scene{{input.photos, &occlusion, nearest, input.cloud.positions},
+                         &cache,
+                         input.proxy.up.normalized()};
   Work work{options, request, input, scene, context, old};
   work.facets = FacetsOf(old, input.proxy);
   LookAtFacets(work);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace stucco {
 namespace {
@@ -73,21 +74,30 @@ float SeamAt(const RasterPicture& a, const RasterPicture& b, size_t i, size_t j)
          (flat ? 0 : kSeamRelief);
 }
 
-using TexelCosts = std::vector<std::vector<float>>;  // [picture][texel]
+// The pictures and what each costs where: [picture][texel].
+struct CostedPictures {
+  std::span<const RasterPicture> pictures;
+  std::vector<std::vector<float>> costs;
+};
 
-TexelCosts CostsOfTexels(std::span<const RasterPicture> pictures, const TexelGrid& raster) {
+CostedPictures CostPictures(std::span<const RasterPicture> pictures, const TexelGrid& raster,
+                            double relief) {
   const Consensus consensus = FindConsensus(pictures, raster);
-  TexelCosts costs = Disagreement(pictures, consensus, raster);
+  std::vector<std::vector<float>> costs = Disagreement(pictures, consensus, raster);
+  std::vector<float> haze;
   for (size_t p = 0; p < pictures.size(); ++p) {
-    const float haze = kHazeWeight * Haze(pictures[p], consensus, costs[p]);
+    haze.push_back(kHazeWeight * Haze(pictures[p], consensus, costs[p]));
+  }
+  ForgiveRelief(pictures, consensus, raster, relief, costs);
+  for (size_t p = 0; p < pictures.size(); ++p) {
     for (size_t i = 0; i < raster.size(); ++i) {
       const Sight sight = pictures[p].sight[i];
-      costs[p][i] = pictures[p].cost[i] + haze + kDisagreementWeight * costs[p][i];
+      costs[p][i] = pictures[p].cost[i] + haze[p] + kDisagreementWeight * costs[p][i];
       if (sight != Sight::kFree) costs[p][i] += kBehindWeight;
       if (sight == Sight::kNot) costs[p][i] = kUnseenCost;
     }
   }
-  return costs;
+  return {pictures, std::move(costs)};
 }
 
 // What `inside` sums up to in a cell that is all of the facet.
@@ -95,14 +105,13 @@ double FullCell(const FacetRaster& raster, int cell) {
   return static_cast<double>(raster.full) * cell * cell;
 }
 
-void FillData(std::span<const RasterPicture> pictures, const FacetRaster& raster, int cell,
+void FillData(const CostedPictures& costed, const FacetRaster& raster, int cell,
               LabelProblem& problem) {
   const TexelGrid& grid = raster.grid;
   const double full_cell = FullCell(raster, cell);
-  const TexelCosts costs = CostsOfTexels(pictures, grid);
   problem.data.assign(problem.cells() * problem.labels, 0);
   for (int label = 0; label < problem.labels; ++label) {
-    const RasterPicture& picture = pictures[label];
+    const RasterPicture& picture = costed.pictures[label];
     std::vector<uint8_t> seen(problem.cells(), 0);
     for (int y = 0; y < grid.height; ++y) {
       for (int x = 0; x < grid.width; ++x) {
@@ -111,7 +120,7 @@ void FillData(std::span<const RasterPicture> pictures, const FacetRaster& raster
         const size_t c = static_cast<size_t>(y / cell) * problem.width + x / cell;
         if (picture.sight[i] != Sight::kNot) seen[c] = 1;
         problem.data[c * problem.labels + label] +=
-            costs[label][i] * static_cast<float>(raster.inside[i] / full_cell);
+            costed.costs[label][i] * static_cast<float>(raster.inside[i] / full_cell);
       }
     }
     for (size_t c = 0; c < problem.cells(); ++c) {
@@ -200,8 +209,8 @@ std::vector<uint8_t> NearbyLabels(const LabelProblem& problem, const Labels& lab
 }
 
 // The cheapest of the pictures marked in `allowed` that see a texel, -1 for none.
-int Cheapest(std::span<const RasterPicture> pictures, const TexelCosts& costs,
-             const std::vector<uint8_t>& allowed, size_t texel) {
+int Cheapest(const CostedPictures& costed, const std::vector<uint8_t>& allowed, size_t texel) {
+  const auto& [pictures, costs] = costed;
   int best = -1;
   for (size_t p = 0; p < pictures.size(); ++p) {
     if (!allowed[p] || pictures[p].sight[texel] == Sight::kNot) continue;
@@ -224,10 +233,10 @@ int CountAround(const std::vector<int>& values, const TexelGrid& raster, int x, 
 // From cells to texels: a texel that its cell's picture does not see takes the cheapest in use;
 // those that another picture nearby shows far better (the rim of an occluder) take that, unless
 // they are stray ones.
-std::vector<int> RefineToTexels(std::span<const RasterPicture> pictures, const FacetRaster& raster,
-                                int cell, const LabelProblem& problem, const Labels& labels) {
+std::vector<int> RefineToTexels(const CostedPictures& costed, const FacetRaster& raster, int cell,
+                                const LabelProblem& problem, const Labels& labels) {
+  const auto& [pictures, costs] = costed;
   const TexelGrid& grid = raster.grid;
-  const TexelCosts costs = CostsOfTexels(pictures, grid);
   std::vector<uint8_t> in_use(pictures.size(), 0);
   for (int label : labels) {
     if (label >= 0) in_use[label] = 1;
@@ -240,12 +249,11 @@ std::vector<int> RefineToTexels(std::span<const RasterPicture> pictures, const F
       if (raster.inside[i] == 0) continue;
       const int own = labels[static_cast<size_t>(y / cell) * problem.width + x / cell];
       if (own < 0 || pictures[own].sight[i] == Sight::kNot) {
-        out[i] = Cheapest(pictures, costs, in_use, i);
+        out[i] = Cheapest(costed, in_use, i);
         continue;
       }
       out[i] = own;
-      const int other =
-          Cheapest(pictures, costs, NearbyLabels(problem, labels, x / cell, y / cell), i);
+      const int other = Cheapest(costed, NearbyLabels(problem, labels, x / cell, y / cell), i);
       if (costs[other][i] + kClearlyBetter < costs[own][i]) wish[i] = other;
     }
   }
@@ -258,16 +266,18 @@ std::vector<int> RefineToTexels(std::span<const RasterPicture> pictures, const F
   return out;
 }
 
-}  // namespace
-
-LabelProblem MakeLabelProblem(std::span<const RasterPicture> pictures, const FacetRaster& raster,
+// The labelling problem on cells of options.cell raster texels. Data term: view cost, disagreement,
+// points of the cloud in front; seams: difference of colour and gradient on both sides of the cell
+// border (Kwatra et al., "Graphcut Textures", 2003).
+LabelProblem MakeLabelProblem(const CostedPictures& costed, const FacetRaster& raster,
                               const SelectOptions& options) {
+  const std::span<const RasterPicture> pictures = costed.pictures;
   LabelProblem problem;
   const int cell = options.cell;
   problem.width = (raster.grid.width + cell - 1) / cell;
   problem.height = (raster.grid.height + cell - 1) / cell;
   problem.labels = static_cast<int>(pictures.size());
-  FillData(pictures, raster, cell, problem);
+  FillData(costed, raster, cell, problem);
 
   problem.seams.assign(problem.cells() * 2 * problem.labels * problem.labels, 0);
   const auto scale = static_cast<float>(options.seam_cost / cell);
@@ -296,6 +306,8 @@ LabelProblem MakeLabelProblem(std::span<const RasterPicture> pictures, const Fac
   return problem;
 }
 
+}  // namespace
+
 void MergeSmallRegions(const LabelProblem& problem, size_t min_cells, Labels& labels) {
   std::vector<int> region_of;
   for (bool changed = true; changed;) {
@@ -321,14 +333,15 @@ void MergeSmallRegions(const LabelProblem& problem, size_t min_cells, Labels& la
 
 std::vector<int> SelectPictures(std::span<const RasterPicture> pictures, const FacetRaster& raster,
                                 const SelectOptions& options) {
-  const LabelProblem problem = MakeLabelProblem(pictures, raster, options);
+  const CostedPictures costed = CostPictures(pictures, raster.grid, options.relief);
+  const LabelProblem problem = MakeLabelProblem(costed, raster, options);
   Labels labels = CutLabels(problem);
   const auto used_cells =
       std::count_if(labels.begin(), labels.end(), [](int label) { return label >= 0; });
   MergeSmallRegions(problem,
                     static_cast<size_t>(options.min_region * static_cast<double>(used_cells)) + 1,
                     labels);
-  return RefineToTexels(pictures, raster, options.cell, problem, labels);
+  return RefineToTexels(costed, raster, options.cell, problem, labels);
 }
 
 }  // namespace stucco

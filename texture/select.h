@@ -17,13 +17,8 @@ struct SelectOptions {
   double photo_cost = 0.03;
   double seam_cost = 1;
   double min_region = 0.01;
+  double relief = 0;  // of the facade, before and behind its plane, in raster texels
 };
-
-// The labelling problem on cells of options.cell raster texels. Data term: view cost, disagreement,
-// points of the cloud in front; seams: difference of colour and gradient on both sides of the cell
-// border (Kwatra et al., "Graphcut Textures", 2003).
-LabelProblem MakeLabelProblem(std::span<const RasterPicture> pictures, const FacetRaster& raster,
-                              const SelectOptions& options);
 
 // Gives connected regions of fewer than `min_cells` cells to the neighbour they share most of their
 // border with, where that photo can paint them.

@@ -45,7 +45,7 @@ std::vector<const Facet*> FacetsToPaint(const Proxy& proxy, bool ground) {
 }
 
 std::vector<NearestPoints> SplatAll(const TextureInput& input, const StageContext& context) {
-  std::vector<NearestPoints> nearest(input.cloud.empty() ? 0 : input.photos.size());
+  std::vector<NearestPoints> nearest(input.cloud.positions.empty() ? 0 : input.photos.size());
   if (nearest.empty()) return nearest;
   context.progress->Begin("foreground", nearest.size());
   ParallelFor(nearest.size(), context.threads, [&](size_t i) {

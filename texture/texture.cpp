@@ -124,8 +124,9 @@ void RunTexture(const TextureOptions& options, StageContext& context) {
   const OcclusionScene occlusion(input.proxy);
   const std::vector<NearestPoints> nearest = SplatAll(input, context);
   PhotoCache cache(context.photos, context.memory_limit_bytes / 3);
-  const PaintScene scene{
-      {input.photos, &occlusion, nearest, input.cloud}, &cache, input.proxy.up.normalized()};
+  const PaintScene scene{{input.photos, &occlusion, nearest, input.cloud.positions},
+                         &cache,
+                         input.proxy.up.normalized()};
 
   // 3. Who sees each facet, how finely and how brightly.
   painting.looks = LookAtAll(painting.facets, input, scene, options, context);

@@ -43,18 +43,24 @@ bool OcclusionScene::Blocked(const Eigen::Vector3d& from, const Eigen::Vector3d&
   return occluders_.Block(from, to - from, 1);
 }
 
-NearestPoints SplatNearest(const SurveyPhoto& photo, std::span<const Eigen::Vector3d> points,
-                           int most_px) {
+bool SightedPoints::IsSeenBy(size_t point, PhotoId photo) const {
+  if (ends.empty()) return true;
+  const auto first = views.begin() + static_cast<std::ptrdiff_t>(point > 0 ? ends[point - 1] : 0);
+  const auto last = views.begin() + static_cast<std::ptrdiff_t>(ends[point]);
+  return std::find(first, last, photo.value) != last;
+}
+
+NearestPoints SplatNearest(const SurveyPhoto& photo, const SightedPoints& points, int most_px) {
   struct Splat {
     Eigen::Vector2d pixel;
     float depth;
     int32_t index;
   };
   std::vector<Splat> splats;
-  for (size_t i = 0; i < points.size(); ++i) {
-    const auto pixel = ProjectIntoPhoto(photo, points[i]);
+  for (size_t i = 0; i < points.positions.size(); ++i) {
+    const auto pixel = ProjectIntoPhoto(photo, points.positions[i]);
     if (!pixel) continue;
-    const auto depth = static_cast<float>((photo.cam_from_world * points[i]).z());
+    const auto depth = static_cast<float>((photo.cam_from_world * points.positions[i]).z());
     splats.push_back({*pixel, depth, static_cast<int32_t>(i)});
   }
   NearestPoints out;
@@ -77,6 +83,11 @@ NearestPoints SplatNearest(const SurveyPhoto& photo, std::span<const Eigen::Vect
       out.index[cell] = splat.index;
     }
   }
+  out.seen.assign(out.index.size(), 0);
+  for (size_t cell = 0; cell < out.index.size(); ++cell) {
+    const int32_t i = out.index[cell];
+    out.seen[cell] = i >= 0 && points.IsSeenBy(static_cast<size_t>(i), photo.id);
+  }
   return out;
 }
 
@@ -89,22 +100,26 @@ CloudView AskCloud(const SightScene& scene, int photo_index, const Eigen::Vector
   const int y = static_cast<int>(pixel.y() * nearest.height / photo.camera.height_px);
   int in_front = 0;
   int beyond = 0;
+  int beyond_and_seen = 0;
   int near = 0;
   int all = 0;
   for (int row = std::max(0, y - 2); row <= std::min(nearest.height - 1, y + 2); ++row) {
     for (int column = std::max(0, x - 2); column <= std::min(nearest.width - 1, x + 2); ++column) {
-      const int32_t i = nearest.index[static_cast<size_t>(row) * nearest.width + column];
+      const size_t cell = static_cast<size_t>(row) * nearest.width + column;
+      const int32_t i = nearest.index[cell];
       if (i < 0) continue;
       ++all;
       const double height = facet.normal.dot(scene.points[i]) - facet.offset;
       const bool close = std::abs(row - y) <= 1 && std::abs(column - x) <= 1;
       near += close;
       in_front += close && height > clearance && height < camera_height;
-      beyond += height < -clearance;
+      if (!(height < -clearance)) continue;
+      ++beyond;
+      beyond_and_seen += nearest.seen[cell];
     }
   }
   if (in_front >= kFewestInFront) return CloudView::kInFront;
-  if (all >= kFewestBeyond && beyond == all) return CloudView::kBeyond;
+  if (beyond_and_seen >= kFewestBeyond && beyond == all) return CloudView::kBeyond;
   return near == 0 ? CloudView::kNoPoints : CloudView::kSurface;
 }
 

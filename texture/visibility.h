@@ -25,17 +25,28 @@ class OcclusionScene {
   Occluders occluders_;
 };
 
+// Points of a cloud and the ids of the photos that see each.
+struct SightedPoints {
+  std::vector<Eigen::Vector3d> positions;
+  // Those of point i are in `views` from ends[i - 1] (0 for the first) to ends[i]. No ends: not
+  // known of any point.
+  std::vector<size_t> ends;
+  std::vector<uint32_t> views;
+
+  bool IsSeenBy(size_t point, PhotoId photo) const;  // true where it is not known
+};
+
 // The cloud points nearest to one photo, splatted into a small raster over the photo's picture:
 // index into the cloud, -1 where none.
 struct NearestPoints {
   int width = 0;
   int height = 0;
   std::vector<int32_t> index;
+  std::vector<uint8_t> seen;  // the photo itself sees that point
 };
 
 // The raster gets as fine as the points are dense, between 100 and `most_px` cells wide.
-NearestPoints SplatNearest(const SurveyPhoto& photo, std::span<const Eigen::Vector3d> points,
-                           int most_px);
+NearestPoints SplatNearest(const SurveyPhoto& photo, const SightedPoints& points, int most_px);
 
 // The photos of a survey and what hides surfaces from them. `nearest` is empty or holds one raster
 // per photo.
@@ -56,8 +67,10 @@ enum class CloudView {
 
 // Looks at the photo's splats around `pixel`, where it sees the facet's plane. Points more than
 // `clearance` (world units) on the outer side of the plane, nearer to it than the photo, are in
-// front; it takes two of the nine nearest splats, as one may be noise. Beyond means that of the
-// twenty-five nearest at least three hold points, all farther than `clearance` behind the plane.
+// front; it takes two of the nine nearest splats, as one may be noise. Beyond means that all points
+// in the twenty-five nearest are farther than `clearance` behind the plane, and that the photo
+// itself sees three of them: through a wall that has few points (plain plaster, panes) those behind
+// it shine, but it hides them from the photo.
 CloudView AskCloud(const SightScene& scene, int photo, const Eigen::Vector2d& pixel,
                    const Facet& facet, double clearance);
 

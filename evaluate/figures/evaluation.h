@@ -59,6 +59,21 @@ struct PictureFigures {
   double lpips = kNotMeasured;
 };
 
+// How like the truth a picture is, without what depends on its light as a whole.
+struct Likeness {
+  double ssim = kNotMeasured;
+  double psnr = kNotMeasured;
+  double shift_m = kNotMeasured;  // of the content
+};
+
+// Of some texels: the result's and that of ideal photos on the same ones, which is all that a
+// texture can reach.
+struct LikenessOfPart {
+  double share = kNotMeasured;  // of the compared area
+  Likeness result;
+  Likeness ceiling;
+};
+
 struct FacadeFigures {
   std::string id;     // of the truth
   std::string facet;  // of the result; empty: none
@@ -67,6 +82,10 @@ struct FacadeFigures {
   PictureFigures picture;
   double texel_m = kNotMeasured;  // at which both pictures were compared
   double misregistration_px = kNotMeasured;
+  double ideal_distance_m = kNotMeasured;  // of the photos that make the ceiling
+  Likeness ceiling;                        // of everything that is compared
+  LikenessOfPart plane;                    // on the wall's plane
+  LikenessOfPart relief;                   // what stands out or lies back, with its rim
   std::string truth_picture;  // for the page, relative to the output folder; may be empty
   std::string result_picture;
   std::string error_picture;  // FLIP's map
@@ -105,6 +124,10 @@ struct Evaluation {
   PictureFigures texture_mean;
   double misregistration_px = kNotMeasured;  // median over facades, by area
   double misregistration_m = kNotMeasured;
+  // Means by painted area, of shifts medians.
+  Likeness ceiling_mean;
+  LikenessOfPart plane_mean;
+  LikenessOfPart relief_mean;
   std::vector<FacadeFigures> facades;
   double views_compared = kNotMeasured;  // mean of HeldOutFigures::compared
   PictureFigures views_mean;

@@ -97,6 +97,20 @@ bool HasAny(const PictureFigures& figures) {
   return std::isfinite(figures.psnr) || std::isfinite(figures.flip);
 }
 
+// SSIM beside what ideal photos reach on the same texels.
+std::string Ceilings(const Evaluation& evaluation) {
+  const auto beside = [](const char* name, double ssim, const Likeness& ceiling, double share) {
+    return FigureHtml(name, Decimal(ssim, 3) + " of " + Decimal(ceiling.ssim, 3),
+                      std::isfinite(share) ? Percent(share) + " of the painted area" : "");
+  };
+  return beside("SSIM of its ceiling", evaluation.texture_mean.ssim, evaluation.ceiling_mean,
+                kNotMeasured) +
+         beside("on the walls' planes", evaluation.plane_mean.result.ssim,
+                evaluation.plane_mean.ceiling, evaluation.plane_mean.share) +
+         beside("on relief", evaluation.relief_mean.result.ssim, evaluation.relief_mean.ceiling,
+                evaluation.relief_mean.share);
+}
+
 std::string Textures(const Evaluation& evaluation) {
   std::string html;
   if (HasAny(evaluation.texture_mean)) {
@@ -105,7 +119,8 @@ std::string Textures(const Evaluation& evaluation) {
         FigureHtml("painted", Percent(evaluation.painted), "of the facades' area") +
             PictureFiguresHtml(evaluation.texture_mean) +
             FigureHtml("shift", Metres(evaluation.misregistration_m),
-                       Decimal(evaluation.misregistration_px, 2) + " texels, median of facades"));
+                       Decimal(evaluation.misregistration_px, 2) + " texels, median of facades") +
+            Ceilings(evaluation));
   }
   if (HasAny(evaluation.views_mean)) {
     html +=

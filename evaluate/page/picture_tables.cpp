@@ -97,6 +97,11 @@ std::string FacadeRow(const FacadeFigures& facade, bool with_lpips) {
          NumberCell("Area", facade.area_m2, Area(facade.area_m2, /*metric=*/true)) +
          NumberCell("Painted", facade.painted, Percent(facade.painted)) +
          MeasureCells(facade.picture, with_lpips) +
+         NumberCell("Ceiling", facade.ceiling.ssim, Decimal(facade.ceiling.ssim, 3)) +
+         NumberCell("On the plane", facade.plane.result.ssim,
+                    Decimal(facade.plane.result.ssim, 3)) +
+         NumberCell("Its ceiling", facade.plane.ceiling.ssim,
+                    Decimal(facade.plane.ceiling.ssim, 3)) +
          NumberCell("Shift", facade.misregistration_px * facade.texel_m,
                     Length(facade.misregistration_px * facade.texel_m, /*metric=*/true)) +
          "</tr>";
@@ -121,6 +126,9 @@ std::string FacadesSection(const Evaluation& evaluation) {
   std::vector<Column> columns = {{"Area", "of the truth's wall"},
                                  {"Painted", "share of it that the result paints from photos"}};
   for (const Column& column : MeasureColumns(with_lpips)) columns.push_back(column);
+  columns.push_back({"Ceiling", "SSIM of ideal photos of the same wall"});
+  columns.push_back({"On the plane", "SSIM where the wall is flat"});
+  columns.push_back({"Its ceiling", "SSIM of ideal photos where the wall is flat"});
   columns.push_back({"Shift", "median shift of the content"});
   std::string rows;
   for (const FacadeFigures& facade : evaluation.facades) rows += FacadeRow(facade, with_lpips);

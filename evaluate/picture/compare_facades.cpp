@@ -12,6 +12,8 @@
 #include "evaluate/geometry/moved.h"
 #include "evaluate/picture/compare_textures.h"
 #include "evaluate/picture/facade_picture.h"
+#include "evaluate/picture/ideal_photo.h"
+#include "evaluate/picture/likeness.h"
 #include "evaluate/picture/lpips.h"
 #include "evaluate/picture/measure.h"
 #include "evaluate/picture/misregistration.h"
@@ -57,12 +59,35 @@ std::vector<bool> LeftOut(const TextureComparison& comparison, const std::string
   return left_out;
 }
 
-Radiance DrawTruth(const TextureComparison& comparison, const Facet& truth,
-                   const simulate::PicturePlane& plane) {
+simulate::RenderOptions DrawingOf(const TextureComparison& comparison, const Facet& truth) {
+  return {.threads = 1, .left_out = LeftOut(comparison, BuildingOf(truth.id))};
+}
+
+simulate::Light ClearLight(const TextureComparison& comparison) {
   simulate::Light light = comparison.light;
   light.haze_m = 0;
-  return comparison.scene.Flatten(
-      plane, light, {.threads = 1, .left_out = LeftOut(comparison, BuildingOf(truth.id))});
+  return light;
+}
+
+Radiance DrawTruth(const TextureComparison& comparison, const Facet& truth,
+                   const simulate::PicturePlane& plane) {
+  return comparison.scene.Flatten(plane, ClearLight(comparison), DrawingOf(comparison, truth));
+}
+
+// How far before the wall's own plane, which is not quite the picture's, what texels show lies.
+std::vector<float> HeightsOf(const TextureComparison& comparison, const Facet& truth,
+                             const simulate::PicturePlane& plane) {
+  std::vector<float> heights = comparison.scene.Heights(plane, DrawingOf(comparison, truth));
+  const Eigen::Vector3d towards_us = plane.v_axis.cross(plane.u_axis).normalized();
+  for (size_t i = 0; i < heights.size(); ++i) {
+    const double x = static_cast<double>(i % plane.width_px) + 0.5;
+    const double y = static_cast<double>(i / plane.width_px) + 0.5;
+    const Eigen::Vector3d place = plane.origin +
+                                  plane.metres_per_texel * (x * plane.u_axis + y * plane.v_axis) +
+                                  heights[i] * towards_us;
+    heights[i] = static_cast<float>(truth.normal.dot(place) - truth.offset);
+  }
+  return heights;
 }
 
 // The result's picture on the overlap of both outlines, with texels of at least `texel_m`.
@@ -115,8 +140,10 @@ std::array<double, 3> GainsOf(const TextureComparison& comparison,
 
 struct ComparedFacade {
   double area_m2 = 0;  // painted and in both outlines
-  double texel_m = 0;
+  simulate::PicturePlane plane;
   PicturePair pictures;
+
+  double texel_m() const { return plane.metres_per_texel; }
 };
 
 std::optional<ComparedFacade> Compare(const TextureComparison& comparison, const Pairing& pairing,
@@ -130,7 +157,7 @@ std::optional<ComparedFacade> Compare(const TextureComparison& comparison, const
   const double texel_m = result.plane.metres_per_texel;
   return ComparedFacade{
       static_cast<double>(known) * texel_m * texel_m,
-      texel_m,
+      result.plane,
       {Developed(truth.rgb, size, gains), Developed(result.rgb, size, {1, 1, 1}), result.known}};
 }
 
@@ -141,47 +168,128 @@ struct Measuring {
   const Lpips* lpips = nullptr;
 };
 
-// What the facets on one wall say together, weighted by their painted area. The page shows the one
-// with the largest overlap.
-FacadeFigures MeasureWall(const Measuring& measuring, const TruthFacet& wall,
-                          const std::vector<Pairing>& pairings, size_t number) {
-  FacadeFigures figures;
-  figures.id = wall.truth->id;
-  figures.area_m2 = wall.truth->seen * wall.area_m2;  // the rest is below the ground
-  if (!wall.matches.empty()) figures.facet = wall.matches.front().result->id;
-  std::vector<WeightedPicture> pictures;
+// What is measured of one facet on a wall.
+struct MeasuredFacade {
+  double area_m2 = 0;
+  double texel_m = 0;
+  PictureFigures picture;
+  double shift_px = kNotMeasured;
+  Likeness ceiling;
+  LikenessOfPart plane;
+  LikenessOfPart relief;
+};
+
+// Ideal photos of the compared texels against the truth. Texels that they do not show are out.
+std::optional<PicturePair> IdealPair(const Measuring& measuring, const Pairing& pairing,
+                                     const ComparedFacade& compared, double distance_m) {
+  const TextureComparison& comparison = measuring.comparison;
+  if (!(distance_m > 0) || comparison.flight.photos.empty()) return std::nullopt;
+  IdealPicture ideal =
+      TakeIdealPhotos({.scene = comparison.scene,
+                       .light = ClearLight(comparison),
+                       .left_out = LeftOut(comparison, BuildingOf(pairing.truth->id)),
+                       .lens = comparison.flight.photos.front().camera,
+                       .faults = comparison.flight.faults,
+                       .distance_m = distance_m,
+                       .gains = measuring.gains},
+                      compared.plane);
+  std::vector<uint8_t>& shown = ideal.shown;
+  for (size_t i = 0; i < shown.size(); ++i) shown[i] &= compared.pictures.mask[i];
+  return PicturePair{compared.pictures.truth, std::move(ideal.picture), std::move(shown)};
+}
+
+LikenessOfPart MeasurePart(const ComparedFacade& compared, const std::optional<PicturePair>& ideal,
+                           const std::vector<uint8_t>& part, double share) {
+  LikenessOfPart out{.share = share, .result = {}, .ceiling = {}};
+  out.result =
+      LikenessOf({compared.pictures.truth, compared.pictures.result, part}, compared.texel_m());
+  if (!ideal) return out;
+  std::vector<uint8_t> shown = part;
+  for (size_t i = 0; i < shown.size(); ++i) shown[i] &= ideal->mask[i];
+  out.ceiling = LikenessOf({ideal->truth, ideal->result, std::move(shown)}, compared.texel_m());
+  return out;
+}
+
+// `page_stem` names the pictures of the page; empty: none are written.
+MeasuredFacade Measure(const Measuring& measuring, const Pairing& pairing,
+                       const ComparedFacade& compared, FacadeFigures& figures,
+                       const std::string& page_stem) {
+  MeasuredFacade out;
+  out.area_m2 = compared.area_m2;
+  out.texel_m = compared.texel_m();
+  const MeasuredPair measured = MeasurePair(compared.pictures, measuring.lpips);
+  out.picture = measured.figures;
+  out.shift_px = Misregistration(compared.pictures);
+  const auto ideal = IdealPair(measuring, pairing, compared, figures.ideal_distance_m);
+  if (ideal) out.ceiling = LikenessOf(*ideal, out.texel_m);
+  const WallParts parts =
+      PartsOfWall(HeightsOf(measuring.comparison, *pairing.truth, compared.plane),
+                  compared.pictures.mask, {compared.plane.width_px, compared.plane.height_px});
+  out.plane = MeasurePart(compared, ideal, parts.plane, parts.plane_share);
+  out.relief = MeasurePart(compared, ideal, parts.relief, 1 - parts.plane_share);
+  if (page_stem.empty()) return out;
+  const PagePictures names =
+      WritePagePictures(compared.pictures, measured.flip, measuring.comparison.output, page_stem);
+  figures.truth_picture = names.truth;
+  figures.result_picture = names.result;
+  figures.error_picture = names.error;
+  return out;
+}
+
+// What the facets on one wall say together, by their painted area.
+void Summarise(std::span<const MeasuredFacade> facets, FacadeFigures& figures) {
   double painted_m2 = 0;
   double texel_sum = 0;
   double shift_sum = 0;
   double shift_m2 = 0;
-  for (const Pairing& pairing : pairings) {
-    std::optional<ComparedFacade> compared;
-    const std::string problem =
-        ProblemIn([&] { compared = Compare(measuring.comparison, pairing, measuring.gains); });
-    if (figures.problem.empty()) figures.problem = problem;
-    if (!compared) continue;
-    const MeasuredPair measured = MeasurePair(compared->pictures, measuring.lpips);
-    const double shift = Misregistration(compared->pictures);
-    if (!std::isnan(shift)) {
-      shift_sum += compared->area_m2 * shift;
-      shift_m2 += compared->area_m2;
+  std::vector<WeightedPicture> pictures;
+  std::vector<WeightedLikeness> ceilings;
+  std::vector<WeightedPart> planes;
+  std::vector<WeightedPart> reliefs;
+  for (const MeasuredFacade& facet : facets) {
+    painted_m2 += facet.area_m2;
+    texel_sum += facet.area_m2 * facet.texel_m;
+    if (!std::isnan(facet.shift_px)) {
+      shift_sum += facet.area_m2 * facet.shift_px;
+      shift_m2 += facet.area_m2;
     }
-    if (pictures.empty()) {
-      const PagePictures names =
-          WritePagePictures(compared->pictures, measured.flip, measuring.comparison.output,
-                            PictureStem(number, figures.id));
-      figures.truth_picture = names.truth;
-      figures.result_picture = names.result;
-      figures.error_picture = names.error;
-    }
-    pictures.push_back({measured.figures, compared->area_m2});
-    painted_m2 += compared->area_m2;
-    texel_sum += compared->area_m2 * compared->texel_m;
+    pictures.push_back({facet.picture, facet.area_m2});
+    ceilings.push_back({facet.ceiling, facet.area_m2});
+    planes.push_back({facet.plane, facet.area_m2});
+    reliefs.push_back({facet.relief, facet.area_m2});
   }
   figures.painted = figures.area_m2 > 0 ? std::min(1.0, painted_m2 / figures.area_m2) : 0;
   figures.picture = MeanFigures(pictures);
+  figures.ceiling = MeanLikeness(ceilings);
+  figures.plane = MeanPart(planes);
+  figures.relief = MeanPart(reliefs);
   if (painted_m2 > 0) figures.texel_m = texel_sum / painted_m2;
   if (shift_m2 > 0) figures.misregistration_px = shift_sum / shift_m2;
+}
+
+// The page shows the facet with the largest overlap.
+FacadeFigures MeasureWall(const Measuring& measuring, const TruthFacet& wall,
+                          const std::vector<Pairing>& pairings, size_t number) {
+  const TextureComparison& comparison = measuring.comparison;
+  FacadeFigures figures;
+  figures.id = wall.truth->id;
+  figures.area_m2 = wall.truth->seen * wall.area_m2;  // the rest is below the ground
+  if (!wall.matches.empty()) figures.facet = wall.matches.front().result->id;
+  if (!pairings.empty()) {
+    figures.ideal_distance_m =
+        IdealDistance(*wall.truth, comparison.flight.photos, comparison.scene);
+  }
+  std::vector<MeasuredFacade> facets;
+  for (const Pairing& pairing : pairings) {
+    std::optional<ComparedFacade> compared;
+    const std::string problem =
+        ProblemIn([&] { compared = Compare(comparison, pairing, measuring.gains); });
+    if (figures.problem.empty()) figures.problem = problem;
+    if (!compared) continue;
+    facets.push_back(Measure(measuring, pairing, *compared, figures,
+                             facets.empty() ? PictureStem(number, figures.id) : ""));
+  }
+  Summarise(facets, figures);
   return figures;
 }
 

@@ -22,6 +22,7 @@ struct TextureComparison {
   const Proxy& truth;
   const simulate::Renderer& scene;  // the truth is drawn on the texel grid of the result
   simulate::Light light;            // of the middle of the flight
+  const simulate::Flight& flight;   // whose camera takes the ideal photos
   std::vector<bool> occluders;      // elements of the scene that are no part of a facade
   Similarity truth_from_world;
   double truth_texel_m = 0.01;        // of the truth's pictures: nothing is compared finer
@@ -35,7 +36,8 @@ struct TextureComparison {
 // result was painted from photos. One gain per channel for the whole survey brings the truth's
 // light to the result's, for exposure and white balance cannot be known; what differs from facade
 // to facade is error. Where a picture of the result is missing or damaged, its facade's `problem`
-// says so, and the picture counts as not painted.
+// says so, and the picture counts as not painted. Beside the result's figures are those of ideal
+// photos of the same texels (ideal_photo.h); without a photo that sees the wall there are none.
 std::vector<FacadeFigures> CompareFacades(const TextureComparison& comparison);
 
 // Renders texture/model.glb where the held-out photos of the flight were taken, with their lens,
@@ -43,7 +45,6 @@ std::vector<FacadeFigures> CompareFacades(const TextureComparison& comparison);
 // out. Photos that cannot be read have a `problem` and no figures. Throws Error (kBadInput) where
 // the model cannot be read.
 std::vector<HeldOutFigures> CompareViews(const TextureComparison& comparison,
-                                         const simulate::Flight& flight,
                                          const std::filesystem::path& flight_folder);
 
 }  // namespace stucco::evaluate

@@ -147,10 +147,9 @@ PicturePair Pair(const View& view, const std::array<double, 3>& gains, const Fal
 }  // namespace
 
 std::vector<HeldOutFigures> CompareViews(const TextureComparison& comparison,
-                                         const simulate::Flight& flight,
                                          const std::filesystem::path& flight_folder) {
   std::vector<const FlownPhoto*> held_out;
-  for (const FlownPhoto& photo : flight.photos) {
+  for (const FlownPhoto& photo : comparison.flight.photos) {
     if (photo.held_out && !photo.lost) held_out.push_back(&photo);
   }
   if (held_out.empty()) return {};

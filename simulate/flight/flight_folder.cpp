@@ -155,6 +155,24 @@ FlownPhoto PhotoFrom(const Json& json, const std::vector<Camera>& cameras) {
   return photo;
 }
 
+Json ToJson(const PictureFaults& faults) {
+  return {{"motion_blur_px", faults.motion_blur_px},
+          {"focus_blur_px", faults.focus_blur_px},
+          {"noise", faults.noise},
+          {"sharpening", faults.sharpening},
+          {"jpeg_quality", faults.jpeg_quality}};
+}
+
+PictureFaults FaultsFrom(const Json& json) {
+  PictureFaults faults;
+  faults.motion_blur_px = json.at("motion_blur_px").get<double>();
+  faults.focus_blur_px = json.at("focus_blur_px").get<double>();
+  faults.noise = json.at("noise").get<double>();
+  faults.sharpening = json.at("sharpening").get<double>();
+  faults.jpeg_quality = json.at("jpeg_quality").get<int>();
+  return faults;
+}
+
 Flight FlightFrom(const Json& json) {
   if (json.at("version").get<int>() != kVersion) {
     throw Error(ErrorKind::kBadInput, fmt::format("is not of version {}", kVersion));
@@ -165,6 +183,7 @@ Flight FlightFrom(const Json& json) {
   flight.seed = json.at("seed").get<uint64_t>();
   flight.made_from = json.at("made_from").get<std::string>();
   flight.georef = GeorefFrom(json.at("georef"));
+  if (json.contains("faults")) flight.faults = FaultsFrom(json.at("faults"));
   std::vector<Camera> cameras;
   for (const Json& camera : json.at("cameras")) cameras.push_back(CameraFrom(camera));
   for (const Json& photo : json.at("photos")) flight.photos.push_back(PhotoFrom(photo, cameras));
@@ -204,9 +223,13 @@ void WriteFlight(const Flight& flight, const std::filesystem::path& survey) {
   std::vector<Camera> cameras;
   Json photos = Json::array();
   for (const FlownPhoto& photo : flight.photos) photos.push_back(ToJson(photo, cameras));
-  Json json = {
-      {"version", kVersion}, {"scene", flight.scene},         {"scene_hash", flight.scene_hash},
-      {"seed", flight.seed}, {"made_from", flight.made_from}, {"georef", ToJson(flight.georef)}};
+  Json json = {{"version", kVersion},
+               {"scene", flight.scene},
+               {"scene_hash", flight.scene_hash},
+               {"seed", flight.seed},
+               {"made_from", flight.made_from},
+               {"georef", ToJson(flight.georef)},
+               {"faults", ToJson(flight.faults)}};
   json["cameras"] = Json::array();
   for (const Camera& camera : cameras) json["cameras"].push_back(ToJson(camera));
   json["photos"] = std::move(photos);

@@ -37,12 +37,22 @@ struct FlownPhoto {
   std::string duplicate_of;  // path of the photo that was taken twice
 };
 
+// What is not perfect about every picture of a flight; see FlightOptions.
+struct PictureFaults {
+  double motion_blur_px = 0.4;
+  double focus_blur_px = 0.5;
+  double noise = 0.006;
+  double sharpening = 1;
+  int jpeg_quality = 92;
+};
+
 struct Flight {
   std::string scene;       // as given
   std::string scene_hash;  // of its model's bytes; empty: not known
   uint64_t seed = 0;
   std::string made_from;           // hash of scene, plan and options: equal ones make equal photos
   Georef georef;                   // of the world: frame "enu"
+  PictureFaults faults;            // the usual ones where flight.json has none
   std::vector<FlownPhoto> photos;  // in order of capture, held-out ones last
 };
 

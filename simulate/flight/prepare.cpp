@@ -152,6 +152,11 @@ PreparedFlight PrepareFlight(const Plan& plan, const SceneInfo& info, const Scen
   NoteWallsUnknown(prepared);
   prepared.flight.seed = static_cast<uint64_t>(options.seed);
   prepared.flight.georef = prepared.placed.world;
+  prepared.flight.faults = {.motion_blur_px = options.motion_blur_px,
+                            .focus_blur_px = options.focus_blur_px,
+                            .noise = options.noise,
+                            .sharpening = options.sharpening,
+                            .jpeg_quality = options.jpeg_quality};
   const Camera lens = MakeLens(plan.camera, options);
   for (const Shot& shot : ScheduleShots(plan, options)) Append(shot, lens, options, prepared);
   RequireFewBlocked(LoseBlockedPhotos(scene, prepared), prepared);

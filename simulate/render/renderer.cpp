@@ -107,6 +107,19 @@ Radiance Renderer::Flatten(const PicturePlane& plane, const Light& light,
   return state_->Draw(internal::ViewOf(plane), light, options);
 }
 
+std::vector<float> Renderer::Heights(const PicturePlane& plane,
+                                     const RenderOptions& options) const {
+  RenderOptions limited = options;
+  limited.threads = ThreadsOf(options);
+  std::vector<float> heights =
+      internal::MeasureWays(internal::ViewOf(plane), state_->scene, limited);
+  for (float& value : heights) {
+    value = value > 0 ? static_cast<float>(plane.from_m) - value
+                      : std::numeric_limits<float>::quiet_NaN();
+  }
+  return heights;
+}
+
 DepthMap Renderer::Depth(const Camera& camera, const Pose& cam_from_world,
                          const RenderOptions& options) const {
   RequireSane(camera, cam_from_world);

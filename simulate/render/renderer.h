@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "simulate/render/light.h"
 #include "simulate/render/pictures.h"
@@ -36,6 +37,9 @@ class Renderer {
                       const RenderOptions& options = {}) const;
   Radiance Flatten(const PicturePlane& plane, const Light& light,
                    const RenderOptions& options = {}) const;
+  // How far what each texel of Flatten shows lies before the plane (behind: negative), in metres;
+  // NaN where there is nothing.
+  std::vector<float> Heights(const PicturePlane& plane, const RenderOptions& options = {}) const;
   // Distance along the camera's z axis in metres on rays through pixel centres, 0 where there is
   // only sky; no normals, and costs of 0.
   DepthMap Depth(const Camera& camera, const Pose& cam_from_world,

@@ -22,6 +22,7 @@ struct Survey {
   Proxy truth = MadeHouse();
   Proxy proxy = MadeHouse();
   TextureSet textures;
+  simulate::Flight flight;
   Similarity truth_from_world;
   std::vector<bool> occluders;
 };
@@ -40,6 +41,7 @@ std::vector<FacadeFigures> Compare(const Survey& survey, const Renderer& scene, 
                          .truth = survey.truth,
                          .scene = scene,
                          .light = Light{},
+                         .flight = survey.flight,
                          .occluders = survey.occluders,
                          .truth_from_world = survey.truth_from_world,
                          .output = survey.folder / "evaluation",
@@ -207,16 +209,73 @@ TEST(CompareFacades, AWallWithoutAResultSaysSo) {
   ExpectEqual(figures[2]);
 }
 
+// A photo 4 m south of the house.
+simulate::FlownPhoto SouthPhoto() {
+  simulate::FlownPhoto photo = HeldOutPhoto("a.jpg", 1);
+  photo.held_out = false;
+  return photo;
+}
+
+TEST(CompareFacades, TheCeilingIsWhatIdealPhotosShow) {
+  const Renderer scene(MadeHouseScene());
+  Survey survey = MadeSurvey("ceiling", scene, {.shift = 4});
+  survey.flight.photos = {SouthPhoto()};
+  const auto figures = Compare(survey, scene);
+  const FacadeFigures& south = figures[0];
+  EXPECT_GT(south.ideal_distance_m, 4);
+  EXPECT_LT(south.ideal_distance_m, 4.5);  // to the corners the way is longer
+  // Photos of about the pictures' resolution lose detail, but nothing lies elsewhere.
+  EXPECT_LT(south.picture.ssim, 0.8);
+  EXPECT_GT(south.ceiling.ssim, 0.9);
+  EXPECT_LT(south.ceiling.ssim, 0.999);
+  EXPECT_GT(south.ceiling.psnr, 30);
+  EXPECT_LT(south.ceiling.shift_m, 0.001);
+  EXPECT_NEAR(south.plane.result.shift_m, 0.04, 0.002);
+  EXPECT_TRUE(std::isnan(figures[2].ceiling.ssim));  // no photo sees it
+}
+
+TEST(CompareFacades, ACoarserCameraHasALowerCeiling) {
+  const Renderer scene(MadeHouseScene());
+  Survey survey = MadeSurvey("coarse_ceiling", scene);
+  survey.flight.photos = {SouthPhoto()};
+  const double fine = Compare(survey, scene)[0].ceiling.ssim;
+  survey.flight.photos[0].camera = Resized(survey.flight.photos[0].camera, 40, 30);
+  EXPECT_LT(Compare(survey, scene)[0].ceiling.ssim, fine - 0.05);
+  survey.flight.photos = {SouthPhoto()};
+  survey.flight.faults.focus_blur_px = 8;
+  EXPECT_LT(Compare(survey, scene)[0].ceiling.ssim, fine - 0.05);
+}
+
+TEST(CompareFacades, TellsTheWallsPlaneFromRelief) {
+  simulate::Scene scene_with_balcony = MadeHouseScene();
+  AddBoard("B0001/trim", 0.3, scene_with_balcony);  // 1 m x 1 m before a wall of 3 m x 2.5 m
+  const Renderer scene(scene_with_balcony);
+  Survey survey = MadeSurvey("relief", scene);
+  survey.flight.photos = {SouthPhoto()};
+  // Wrong on relief alone: as if no board were there.
+  const Renderer bare(MadeHouseScene());
+  PaintHouse(bare, Light{}, {}, survey.folder);
+  const FacadeFigures south = Compare(survey, scene)[0];
+  EXPECT_NEAR(south.plane.share, 1 - 1 / 7.5, 0.01);
+  EXPECT_NEAR(south.relief.share, 1 / 7.5, 0.01);
+  EXPECT_LT(south.relief.result.ssim, 0.5);
+  EXPECT_GT(south.plane.result.ssim, south.relief.result.ssim + 0.3);
+  EXPECT_GT(south.plane.ceiling.ssim, 0.9);
+}
+
 TEST(CompareFacades, IsTheSameAtAnyNumberOfThreads) {
   const Renderer scene(MadeHouseScene());
-  const Survey survey = MadeSurvey("threads", scene, {.shift = 1});
+  Survey survey = MadeSurvey("threads", scene, {.shift = 1});
+  survey.flight.photos = {SouthPhoto()};
   const auto one = Compare(survey, scene, 1);
   const auto two = Compare(survey, scene, 2);
   for (size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].picture.ssim, two[i].picture.ssim);
     EXPECT_EQ(one[i].picture.flip, two[i].picture.flip);
     EXPECT_EQ(one[i].misregistration_px, two[i].misregistration_px);
+    EXPECT_EQ(one[i].plane.result.ssim, two[i].plane.result.ssim);
   }
+  EXPECT_EQ(one[0].ceiling.ssim, two[0].ceiling.ssim);
 }
 
 TEST(CompareFacades, AMissingPictureIsNamedAndTheOthersAreMeasured) {

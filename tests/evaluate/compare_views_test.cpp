@@ -84,12 +84,13 @@ std::vector<HeldOutFigures> Compare(const Survey& survey, const Renderer& scene,
                        .truth = truth,
                        .scene = scene,
                        .light = {},
+                       .flight = survey.flight,
                        .occluders = occluders,
                        .truth_from_world = survey.truth_from_world,
                        .output = survey.folder / "evaluation",
                        .lpips_model = {},
                        .threads = 2},
-                      survey.flight, survey.folder);
+                      survey.folder);
 }
 
 TEST(CompareViews, APerfectModelLooksLikeThePhotos) {

@@ -44,6 +44,11 @@ TEST(EvaluationJson, KeepsTheNamesThatOthersRelyOn) {
                            "/texture/flip_mean",
                            "/texture/misregistration_px",
                            "/texture/facades",
+                           "/texture/ceiling/ssim",
+                           "/texture/plane/share",
+                           "/texture/plane/shift_m",
+                           "/texture/plane/ceiling/ssim",
+                           "/texture/relief/ceiling/psnr",
                            "/views/ssim_mean",
                            "/views/psnr_mean",
                            "/plan",
@@ -76,15 +81,20 @@ TEST(WriteEvaluation, WritesAFacadePerLine) {
   evaluation.facades[0].id = "B0001/F00";
   evaluation.facades[0].area_m2 = 60;
   evaluation.facades[0].picture.ssim = 0.75;
+  evaluation.facades[0].ceiling.ssim = 0.875;
+  evaluation.facades[0].plane.share = 0.5;
+  evaluation.facades[0].plane.result.shift_m = 0.125;
+  evaluation.facades[0].relief.ceiling.ssim = 0.25;
   evaluation.facades[1].id = "a \"b\", c";
   const auto output = std::filesystem::path(::testing::TempDir()) / "stucco_write_evaluation";
   std::filesystem::remove_all(output);
   WriteEvaluation(evaluation, output);
-  EXPECT_EQ(
-      ReadFile(output / "facades.csv"),
-      "id,facet,area_m2,painted,ssim,ms_ssim,psnr,gmsd,flip,lpips,texel_m,misregistration_px\r\n"
-      "B0001/F00,,60,0,0.75,,,,,,,\r\n"
-      "\"a \"\"b\"\", c\",,0,0,,,,,,,,\r\n");
+  EXPECT_EQ(ReadFile(output / "facades.csv"),
+            "id,facet,area_m2,painted,ssim,ms_ssim,psnr,gmsd,flip,lpips,texel_m,misregistration_px,"
+            "ceiling_ssim,plane_share,plane_ssim,plane_ceiling_ssim,plane_shift_m,relief_ssim,"
+            "relief_ceiling_ssim\r\n"
+            "B0001/F00,,60,0,0.75,,,,,,,,0.875,0.5,,,0.125,,0.25\r\n"
+            "\"a \"\"b\"\", c\",,0,0,,,,,,,,,,,,,,,\r\n");
   EXPECT_EQ(Json::parse(ReadFile(output / "evaluation.json"))["texture"]["facades"][0]["id"],
             "B0001/F00");
 }

@@ -30,6 +30,7 @@ Flight MadeFlight() {
   flight.seed = 9;
   flight.made_from = "abc";
   flight.scene_hash = "def";
+  flight.faults = {0.1, 0.2, 0.3, 0.4, 55};
   flight.georef.frame = "enu";
   flight.georef.origin_latitude_deg = 50.1;
   flight.georef.origin_longitude_deg = -14.2;
@@ -66,6 +67,11 @@ TEST_F(FlightFolder, ReadsBackWhatWasWritten) {
   const Flight back = ReadFlight(survey_);
   EXPECT_EQ(back.scene, flight.scene);
   EXPECT_EQ(back.seed, flight.seed);
+  EXPECT_EQ(back.faults.motion_blur_px, 0.1);
+  EXPECT_EQ(back.faults.focus_blur_px, 0.2);
+  EXPECT_EQ(back.faults.noise, 0.3);
+  EXPECT_EQ(back.faults.sharpening, 0.4);
+  EXPECT_EQ(back.faults.jpeg_quality, 55);
   EXPECT_EQ(back.made_from, flight.made_from);
   EXPECT_EQ(back.scene_hash, flight.scene_hash);
   EXPECT_EQ(back.georef.frame, "enu");

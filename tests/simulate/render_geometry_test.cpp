@@ -245,8 +245,12 @@ TEST(RenderGeometry, FlattenSeesOnlyWhatIsNear) {
   Light albedo;
   albedo.lit = false;
   EXPECT_EQ(renderer.Flatten(plane, albedo).rgb[0], 0);
+  EXPECT_TRUE(std::isnan(renderer.Heights(plane)[0]));
   plane.to_m = 4;
   EXPECT_EQ(renderer.Flatten(plane, albedo).rgb[0], 1);
+  EXPECT_NEAR(renderer.Heights(plane)[0], -3.5, 1e-5);
+  plane.from_m = 3;
+  EXPECT_NEAR(renderer.Heights(plane)[0], 2, 1e-5);
 }
 
 TEST(RenderGeometry, CastTellsElementAndNormal) {

@@ -66,15 +66,15 @@ TEST_F(MeasuredWall, IsHiddenByAnotherFacet) {
 }
 
 TEST_F(MeasuredWall, CountsAsBehindWherePointsStandInFront) {
-  std::vector<Eigen::Vector3d> points;
+  SightedPoints points;
   for (int i = 0; i < 60; ++i) {
-    for (int j = 0; j < 60; ++j) points.push_back({1.7 + 0.01 * i, -1, 1.2 + 0.01 * j});
+    for (int j = 0; j < 60; ++j) points.positions.push_back({1.7 + 0.01 * i, -1, 1.2 + 0.01 * j});
   }
   const std::vector<SurveyPhoto> photos = {
       LookFrom("a", {2, -5, 1.5}, {2, 0, 1.5}, {1000, 800, 500})};
   const std::vector<NearestPoints> nearest = {SplatNearest(photos[0], points, 200)};
   const OcclusionScene scene(MakeProxy({wall_}));
-  const RasterView view = MeasureView({photos, &scene, nearest, points}, 0, wall_,
+  const RasterView view = MeasureView({photos, &scene, nearest, points.positions}, 0, wall_,
                                       {raster_, inside_, 1}, {78, 0.02, 0.2});
   EXPECT_EQ(view.texels[15 * raster_.width + 20].sight, Sight::kBehind);
   EXPECT_EQ(view.texels[15 * raster_.width + 35].sight, Sight::kFree);

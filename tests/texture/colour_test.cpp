@@ -69,6 +69,34 @@ TEST(SolveGains, OutvotesAWrongRatio) {
   EXPECT_NEAR(gains[1][2] / gains[0][2], 1.2, 0.05);
 }
 
+TEST(SolveGains, APhotoFullOfLeavesIsNotTinted) {
+  std::vector<ColourRatio> ratios;
+  for (int a = 0; a < 6; ++a) {
+    for (int b = a + 1; b < 6; ++b) ratios.push_back(Ratio(a, b, 1));
+  }
+  for (int a = 0; a < 6; ++a) {
+    ratios.push_back({a, 6, -Eigen::Vector3d(std::log(0.5), std::log(0.8), std::log(0.4)), 500});
+  }
+  const auto gains = SolveGains(ratios, 7);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(gains[6][k] / gains[6].mean(), 1, 0.06);
+  EXPECT_GT(gains[6].mean(), 1.5);  // that it is darker may be so
+}
+
+TEST(SolveGains, AnotherWhiteBalanceOfHalfThePhotosIsEvenedOut) {
+  const Eigen::Vector3d warm(std::log(1.2), 0, std::log(0.8));
+  std::vector<ColourRatio> ratios;
+  for (int a = 0; a < 6; ++a) {
+    for (int b = a + 1; b < 6; ++b) {
+      const bool differ = a < 3 && b >= 3;
+      ratios.push_back({a, b, differ ? warm : Eigen::Vector3d::Zero(), 500});
+    }
+  }
+  const auto gains = SolveGains(ratios, 6);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(std::log(gains[5][k] / gains[0][k]), warm[k], 0.01);
+  }
+}
+
 TEST(CommonGain, OneRepaintedFacetDoesNotRecolourTheOthers) {
   std::vector<ColourRatio> ratios(4, Ratio(0, 1, 1.25));
   ratios[2].log_ratio = {0.1, -0.6, -0.7};

@@ -63,6 +63,47 @@ TEST(Disagreement, OfTwoIsNobodysFault) {
   }
 }
 
+// A dark square 3 texels before the wall, as a camera sees it whose line of sight goes `across`
+// texels to the right for each that it comes nearer.
+RasterPicture WithRelief(float cost, double across) {
+  constexpr int kHeight = 3;
+  RasterPicture picture = Wall(cost);
+  const auto shift = static_cast<int>(-kHeight * across);
+  ForSquare(15 + shift, 15, 23 + shift, 23,
+            [&](size_t i) { std::fill_n(&picture.rgb[3 * i], 3, 20.0f); });
+  picture.camera = {kSide / 2 + 1e4 * across, kSide / 2, 1e4};
+  return picture;
+}
+
+TEST(Disagreement, ReliefIsNoReasonToOutvoteWhoLooksStraight) {
+  const std::vector<RasterPicture> pictures = {WithRelief(0.0f, 0), WithRelief(0.5f, 2),
+                                               WithRelief(0.5f, 2), WithRelief(0.5f, 2)};
+  const size_t middle = size_t{19} * kSide + 19;
+  EXPECT_GT(DisagreementOf(pictures)[0][middle], 0.7f);
+  const Consensus consensus = FindConsensus(pictures, Raster());
+  const auto forgiven = [&](double relief) {
+    std::vector<std::vector<float>> disagreement = DisagreementOf(pictures);
+    ForgiveRelief(pictures, consensus, Raster(), relief, disagreement);
+    return disagreement[0][middle];
+  };
+  EXPECT_LT(forgiven(4), 0.1f);
+  EXPECT_GT(forgiven(1), 0.7f);
+  SelectOptions options;
+  options.relief = 4;
+  const std::vector<int> owner = Select(pictures, options);
+  EXPECT_EQ(std::count(owner.begin(), owner.end(), 0), kSide * kSide);
+}
+
+TEST(Disagreement, WhatStandsFarBeforeTheWallIsNoRelief) {
+  std::vector<RasterPicture> pictures = {WithRelief(0.0f, 0), WithRelief(0.5f, 2),
+                                         WithRelief(0.5f, 2), WithRelief(0.5f, 2)};
+  // A leaf that one photo alone shows.
+  ForSquare(30, 5, 36, 11, [&](size_t i) { pictures[0].rgb[3 * i + 1] = 220; });
+  std::vector<std::vector<float>> disagreement = DisagreementOf(pictures);
+  ForgiveRelief(pictures, FindConsensus(pictures, Raster()), Raster(), 4, disagreement);
+  EXPECT_GT(disagreement[0][size_t{8} * kSide + 33], 0.7f);
+}
+
 TEST(Haze, IsTheContrastThatIsMissing) {
   std::vector<RasterPicture> pictures = {Wall(0.1f), Wall(0.1f), Wall(0.1f)};
   for (float& value : pictures[1].rgb) value = 55 + 0.5f * value;

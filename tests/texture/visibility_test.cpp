@@ -41,23 +41,24 @@ class Foreground : public ::testing::Test {
   // Points 1 m in front of the wall's middle.
   Foreground() {
     AddPatch(2, -1, 1.5);
-    points_.push_back({0.5, -1, 0.5});  // noise
+    points_.positions.push_back({0.5, -1, 0.5});  // noise
   }
   CloudView Ask(const Eigen::Vector3d& on_wall, double clearance) const {
     const NearestPoints nearest = SplatNearest(photo_, points_, 100);
-    const SightScene scene{{&photo_, 1}, nullptr, {&nearest, 1}, points_};
+    const SightScene scene{{&photo_, 1}, nullptr, {&nearest, 1}, points_.positions};
     return AskCloud(scene, 0, *ProjectIntoPhoto(photo_, on_wall), wall_, clearance);
   }
   // A patch of points of 40 cm around a place.
   void AddPatch(double x, double y, double z) {
     for (int i = 0; i < 40; ++i) {
-      for (int j = 0; j < 40; ++j) points_.push_back({x - 0.2 + 0.01 * i, y, z - 0.2 + 0.01 * j});
+      for (int j = 0; j < 40; ++j)
+        points_.positions.push_back({x - 0.2 + 0.01 * i, y, z - 0.2 + 0.01 * j});
     }
   }
 
   Facet wall_ = MakeWall(4, 3);
   SurveyPhoto photo_ = LookFrom("a.jpg", {2, -6, 1.5}, {2, 0, 1.5}, {400, 300, 400});
-  std::vector<Eigen::Vector3d> points_;
+  SightedPoints points_;
 };
 
 TEST_F(Foreground, HidesWhatIsBehindIt) {
@@ -71,7 +72,7 @@ TEST_F(Foreground, ThatIsWithinTheClearanceBelongsToTheWall) {
 
 TEST_F(Foreground, OfASinglePointIsNoise) {
   // The wall point behind the lone point, seen from the camera.
-  const Eigen::Vector3d lone = points_.back();
+  const Eigen::Vector3d lone = points_.positions.back();
   const Eigen::Vector3d camera(2, -6, 1.5);
   const Eigen::Vector3d behind = camera + (lone - camera) * 6 / 5;
   EXPECT_EQ(Ask(behind, 0.3), CloudView::kSurface);
@@ -86,9 +87,25 @@ TEST_F(Foreground, IsNotWhatLiesBeyondThePlane) {
   EXPECT_EQ(Ask(on_wall, 0.3), CloudView::kSurface);
 }
 
+TEST_F(Foreground, BeyondIsOnlyWhatThePhotoItselfSees) {
+  AddPatch(3.5, 2, 2.5);
+  const Eigen::Vector3d camera(2, -6, 1.5);
+  const Eigen::Vector3d on_wall = camera + (Eigen::Vector3d(3.5, 2, 2.5) - camera) * 6 / 8;
+  photo_.id = PhotoId{7};
+  for (size_t i = 0; i < points_.positions.size(); ++i) {
+    points_.views.insert(points_.views.end(), {3, 9});
+    points_.ends.push_back(points_.views.size());
+  }
+  // Others saw it, from the far side of a wall that has no points here.
+  EXPECT_EQ(Ask(on_wall, 0.3), CloudView::kSurface);
+  EXPECT_EQ(Ask({2, 0, 1.5}, 0.3), CloudView::kInFront);
+  photo_.id = PhotoId{9};
+  EXPECT_EQ(Ask(on_wall, 0.3), CloudView::kBeyond);
+}
+
 TEST(SplatNearest, KeepsTheNearestPoint) {
   const SurveyPhoto photo = LookFrom("a.jpg", {0, -6, 0}, {0, 0, 0}, {400, 300, 400});
-  const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {0, -2, 0}, {0, -1, 0}, {0, -7, 0}};
+  const SightedPoints points{{{0, 0, 0}, {0, -2, 0}, {0, -1, 0}, {0, -7, 0}}, {}, {}};
   const NearestPoints nearest = SplatNearest(photo, points, 100);
   EXPECT_EQ(nearest.width, 100);
   EXPECT_EQ(nearest.height, 75);
