@@ -19,7 +19,7 @@ struct FuseOptions {
   float max_reprojection_px = 1.5f;
   float max_depth_difference = 0.01f;  // relative
   float max_normal_angle_rad = 1.0f;
-  float max_cost = 0.6f;
+  float max_cost = 0.5f;
   int threads = 1;
 };
 

@@ -10,7 +10,7 @@ struct DenseOptions {
   int max_image_px = 1600;
   int max_sources = 6;
   int min_consistent = 2;
-  double max_cost = 0.6;
+  double max_cost = 0.5;
   double max_reprojection_px = 1.5;
   double max_depth_difference = 0.01;
   int iterations = 2;

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the Stucco authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What bench/ladder.py extrudes from a map is closed, and maps keep sense under errors."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BENCH = pathlib.Path(__file__).resolve().parents[2] / "bench"
+sys.path.insert(0, str(BENCH))
+import ladder  # noqa: E402
+
+RING = [[0, 0], [10, 0], [10, 4], [6, 4], [6, 8], [0, 8]]
+COURT = [[1, 1], [1, 2], [2, 2], [2, 1]]
+
+
+def plan():
+    """An L with a courtyard; one view is meant for all of its shortest wall."""
+    facades = [{"id": f"B0001/F{i:02}", "a_m": p, "b_m": q, "z_m": [0, 5], "unobservable_m": [],
+                "views": []} for i, (p, q) in enumerate(zip(RING, RING[1:] + RING[:1]))]
+    return {"footprints": [{"building": "B0001", "z_m": [0, 5], "rings_m": [RING, COURT]}],
+            "facades": facades,
+            "views": [{"id": "v0", "targets": [{"facade": "B0001/F02", "along_m": [0, 4],
+                                                "z_m": [0, 5]}]}]}
+
+
+class Prism(unittest.TestCase):
+    def setUp(self):
+        made = plan()
+        self.facets = ladder.prism(made["footprints"][0], made["facades"], (100, 50), 2, 0)
+
+    def test_is_closed(self):
+        edges = {}
+        for facet in self.facets:
+            for ring in [facet["outer"], *facet["holes"]]:
+                for p, q in zip(ring, ring[1:] + ring[:1]):
+                    edges[(tuple(p), tuple(q))] = edges.get((tuple(p), tuple(q)), 0) + 1
+        self.assertEqual(set(edges.values()), {1})
+        self.assertEqual({(q, p) for p, q in edges}, set(edges))
+
+    def test_lies_where_it_was_shifted_to_and_faces_outwards(self):
+        roof, floor = self.facets[:2]
+        self.assertEqual(roof["outer"][0], [100, 50, 7])
+        self.assertEqual(floor["outer"][-1], [100, 50, 2])
+        self.assertAlmostEqual(roof["normal"][2], 1)
+        self.assertAlmostEqual(floor["normal"][2], -1)
+        south = next(f for f in self.facets if f["facade"] == "B0001/F00")
+        self.assertAlmostEqual(south["normal"][1], -1)
+        self.assertAlmostEqual(south["area_m2"], 50)
+        self.assertAlmostEqual(south["offset"], -50)
+
+    def test_names_walls_of_the_map(self):
+        named = [f["facade"] for f in self.facets if f["facade"]]
+        self.assertEqual(sorted(named), [f"B0001/F{i:02}" for i in range(6)])
+        self.assertEqual(len([f for f in self.facets if f["class"] == "WallSurface"]), 10)
+
+
+class LocalMetres(unittest.TestCase):
+    def test_agrees_with_the_ellipsoid(self):
+        # A degree of latitude at 50 degrees north is 111.229 km long, one of longitude 71.696 km.
+        east, north = ladder.local_metres((50, 14), 50.001, 14.001)
+        self.assertAlmostEqual(north, 111.23, delta=0.02)
+        self.assertAlmostEqual(east, 71.70, delta=0.02)
+
+
+class PerturbedPlan(unittest.TestCase):
+    def test_targets_stay_on_their_facades(self):
+        for seed in range(5):
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder) / "plan.json"
+                path.write_text(json.dumps(plan()))
+                subprocess.run([sys.executable, BENCH / "perturb_plan.py", path, "--seed", str(seed),
+                                "--gone", "1"], check=True, stdout=subprocess.DEVNULL)
+                moved = json.loads(path.read_text())
+            self.assertNotEqual(moved["footprints"][0]["rings_m"], [RING, COURT])
+            facade = moved["facades"][2]
+            length = sum((a - b) ** 2 for a, b in zip(facade["a_m"], facade["b_m"])) ** 0.5
+            self.assertLessEqual(moved["views"][0]["targets"][0]["along_m"][1], length)
+
+
+if __name__ == "__main__":
+    unittest.main()
