@@ -127,8 +127,8 @@ class Fusion {
           py < static_cast<float>(map.height) - 0.5f)) {
       return std::nullopt;
     }
-    const int u = std::min(map.width - 1, static_cast<int>(px + 0.5f));
-    const int v = std::min(map.height - 1, static_cast<int>(py + 0.5f));
+    const int u = std::min(map.width - 1, static_cast<int>(std::lround(px)));
+    const int v = std::min(map.height - 1, static_cast<int>(std::lround(py)));
     const size_t pixel = map.Index(u, v);
     if (!IsUsable(map, pixel)) return std::nullopt;
     const float depth = map.depths[pixel];
@@ -215,7 +215,8 @@ class Fusion {
   float RangeAlong(const Eigen::Vector3f& ray, const Neighbour& neighbour, size_t pixel) const {
     const DepthMap& map = *neighbour.map;
     const auto u = static_cast<float>(pixel % map.width);
-    const auto v = static_cast<float>(pixel / map.width);
+    const size_t row = pixel / map.width;
+    const auto v = static_cast<float>(row);
     const SourceGeometry& back = neighbour.back;
     const Eigen::Vector3f on_plane =
         back.source_from_reference * (neighbour.camera.Ray(u, v) * map.depths[pixel]) +

@@ -83,9 +83,9 @@ struct FacadeFigures {
   double texel_m = kNotMeasured;  // at which both pictures were compared
   double misregistration_px = kNotMeasured;
   double ideal_distance_m = kNotMeasured;  // of the photos that make the ceiling
-  Likeness ceiling;                        // of everything that is compared
-  LikenessOfPart plane;                    // on the wall's plane
-  LikenessOfPart relief;                   // what stands out or lies back, with its rim
+  Likeness ceiling = {};                   // of everything that is compared
+  LikenessOfPart plane = {};               // on the wall's plane
+  LikenessOfPart relief = {};              // what stands out or lies back, with its rim
   std::string truth_picture;  // for the page, relative to the output folder; may be empty
   std::string result_picture;
   std::string error_picture;  // FLIP's map

@@ -20,25 +20,28 @@ class GridIndex {
 
   // fn(index) for every point within `radius` of `center`, the point itself included.
   template <typename Fn>
-  void ForEachNear(const Eigen::Vector3d& center, double radius, Fn&& fn) const {
+  void ForEachNear(const Eigen::Vector3d& center, double radius, const Fn& fn) const {
     const double squared = radius * radius;
     const Eigen::Array3i low = Cell(center.array() - radius);
     const Eigen::Array3i high = Cell(center.array() + radius);
     for (int x = low.x(); x <= high.x(); ++x) {
       for (int y = low.y(); y <= high.y(); ++y) {
-        for (int z = low.z(); z <= high.z(); ++z) {
-          const auto found = ranges_.find(Key({x, y, z}));
-          if (found == ranges_.end()) continue;
-          const auto [begin, end] = found->second;
-          for (const uint32_t point : std::span(order_).subspan(begin, end - begin)) {
-            if ((points_[point] - center).squaredNorm() <= squared) fn(static_cast<int>(point));
-          }
-        }
+        for (int z = low.z(); z <= high.z(); ++z) ForEachIn({x, y, z}, center, squared, fn);
       }
     }
   }
 
  private:
+  template <typename Fn>
+  void ForEachIn(const Eigen::Array3i& cell, const Eigen::Vector3d& center, double squared,
+                 const Fn& fn) const {
+    const auto found = ranges_.find(Key(cell));
+    if (found == ranges_.end()) return;
+    const auto [begin, end] = found->second;
+    for (const uint32_t point : std::span(order_).subspan(begin, end - begin)) {
+      if ((points_[point] - center).squaredNorm() <= squared) fn(static_cast<int>(point));
+    }
+  }
   Eigen::Array3i Cell(const Eigen::Array3d& point) const {
     return ((point - origin_.array()) / cell_).floor().cast<int>();
   }

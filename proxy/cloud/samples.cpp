@@ -13,17 +13,9 @@
 namespace stucco {
 namespace {
 
-struct Box {
-  Eigen::Vector3d min = Eigen::Vector3d::Zero();
-  Eigen::Vector3d max = Eigen::Vector3d::Zero();
-  bool Contains(const Eigen::Vector3d& p) const {
-    return (p.array() >= min.array()).all() && (p.array() <= max.array()).all();
-  }
-};
-
 // The box of the middle 98 % of the points along each axis, grown by three times its size: points
 // beyond it are strays of the dense matching, not part of the scene.
-Box BoxOfScene(const PointStream& stream) {
+Eigen::AlignedBox3d BoxOfScene(const PointStream& stream) {
   constexpr size_t kProbes = 200000;
   const size_t stride = std::max<size_t>(1, stream.count / kProbes);
   std::array<std::vector<double>, 3> values;
@@ -32,29 +24,31 @@ Box BoxOfScene(const PointStream& stream) {
     if (i++ % stride != 0 || !point.position.allFinite()) return;
     for (int axis = 0; axis < 3; ++axis) values[axis].push_back(point.position[axis]);
   });
-  Box box;
-  if (values[0].empty()) return box;
+  if (values[0].empty()) {
+    return {Eigen::Vector3d(Eigen::Vector3d::Zero()), Eigen::Vector3d(Eigen::Vector3d::Zero())};
+  }
+  Eigen::AlignedBox3d box;
   const auto count = static_cast<std::ptrdiff_t>(values[0].size());
   const std::ptrdiff_t low = count / 100;
   for (int axis = 0; axis < 3; ++axis) {
     const auto begin = values[axis].begin();
     std::nth_element(begin, begin + low, values[axis].end());
-    box.min[axis] = begin[low];
+    box.min()[axis] = begin[low];
     std::nth_element(begin, begin + (count - 1 - low), values[axis].end());
-    box.max[axis] = begin[count - 1 - low];
+    box.max()[axis] = begin[count - 1 - low];
   }
-  const double margin = 3 * (box.max - box.min).maxCoeff() + 1e-9;
-  box.min.array() -= margin;
-  box.max.array() += margin;
+  const double margin = 3 * box.sizes().maxCoeff() + 1e-9;
+  box.min().array() -= margin;
+  box.max().array() += margin;
   return box;
 }
 
 constexpr int kBitsPerAxis = 21;
 
-uint64_t CellOf(const Eigen::Vector3d& point, const Box& box, double cell) {
+uint64_t CellOf(const Eigen::Vector3d& point, const Eigen::AlignedBox3d& box, double cell) {
   uint64_t key = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto index = static_cast<uint64_t>((point[axis] - box.min[axis]) / cell);
+    const auto index = static_cast<uint64_t>((point[axis] - box.min()[axis]) / cell);
     key = key << kBitsPerAxis | index;
   }
   return key;
@@ -88,11 +82,12 @@ struct CellCount {
 };
 
 // Counts the cells with points; doubles their size whenever there are more than `most`.
-CellCount CountCells(const PointStream& stream, const Box& box, double cell, size_t most) {
+CellCount CountCells(const PointStream& stream, const Eigen::AlignedBox3d& box, double cell,
+                     size_t most) {
   CellCount result{.cell = cell};
   std::unordered_set<uint64_t, MixedHash> keys;
   stream.for_each([&](const CloudPoint& point) {
-    if (!box.Contains(point.position)) return;
+    if (!box.contains(point.position)) return;
     ++result.kept;
     keys.insert(CellOf(point.position, box, result.cell));
     if (keys.size() <= most) return;
@@ -106,8 +101,9 @@ CellCount CountCells(const PointStream& stream, const Box& box, double cell, siz
 }
 
 // The cell size that leaves about nine tenths of `max_points`; 0 when no thinning is needed.
-double ChooseCell(const PointStream& stream, const Box& box, int max_points, double min_cell) {
-  const double largest = (box.max - box.min).maxCoeff();
+double ChooseCell(const PointStream& stream, const Eigen::AlignedBox3d& box, int max_points,
+                  double min_cell) {
+  const double largest = box.sizes().maxCoeff();
   const double finest = largest / ((1 << kBitsPerAxis) - 2);
   const double least = std::max(min_cell, finest);
   const double guess = std::max(least, largest / 28 / std::sqrt(double(max_points)));
@@ -149,14 +145,14 @@ struct CellSums {
 };
 
 // Cell 0: every point is a cell of its own.
-CellSums SumCells(const PointStream& stream, const PlaceOfPhoto& places, const Box& box,
-                  double cell, size_t most) {
+CellSums SumCells(const PointStream& stream, const PlaceOfPhoto& places,
+                  const Eigen::AlignedBox3d& box, double cell, size_t most) {
   CellSums result;
   std::unordered_map<uint64_t, size_t, MixedHash> place;
   size_t number = 0;
   stream.for_each([&](const CloudPoint& point) {
     const size_t i = number++;
-    if (!point.position.allFinite() || !box.Contains(point.position)) {
+    if (!point.position.allFinite() || !box.contains(point.position)) {
       ++result.dropped;
       return;
     }
@@ -195,16 +191,21 @@ PointStream StreamOf(const std::filesystem::path& ply) {
 
 Samples ThinCloud(const PointStream& stream, std::span<const SurveyPhoto> photos, int max_points,
                   double min_cell) {
+  const Eigen::AlignedBox3d box = BoxOfScene(stream);
+  return ThinInside(box, stream, photos, max_points, ChooseCell(stream, box, max_points, min_cell));
+}
+
+Samples ThinInside(const Eigen::AlignedBox3d& box, const PointStream& stream,
+                   std::span<const SurveyPhoto> photos, int max_points, double cell) {
   constexpr double kLarger = 1.08;  // about 15 % fewer cells
-  const Box box = BoxOfScene(stream);
   Samples samples;
   PlaceOfPhoto places;
   for (const SurveyPhoto& photo : photos) {
     places[photo.id.value] = static_cast<int>(samples.camera_centers.size());
     samples.camera_centers.push_back(photo.cam_from_world.Center());
   }
-  samples.cell = ChooseCell(stream, box, max_points, min_cell);
   const auto most = static_cast<size_t>(max_points);
+  samples.cell = cell;
   CellSums cells = SumCells(stream, places, box, samples.cell, most);
   while (cells.too_many) {
     samples.cell *= kLarger;

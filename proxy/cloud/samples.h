@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -47,5 +48,10 @@ PointStream StreamOf(const std::filesystem::path& ply);
 // box of the middle 98 % away from it, are dropped.
 Samples ThinCloud(const PointStream& stream, std::span<const SurveyPhoto> photos, int max_points,
                   double min_cell);
+
+// The same in one go for what lies in a box: cells of this size, larger only where there would be
+// more than `max_points`.
+Samples ThinInside(const Eigen::AlignedBox3d& box, const PointStream& stream,
+                   std::span<const SurveyPhoto> photos, int max_points, double cell);
 
 }  // namespace stucco

@@ -185,9 +185,9 @@ std::vector<Traced> TraceRings(const Arrangement& arrangement, const std::vector
   return rings;
 }
 
-std::vector<Eigen::Vector2d> PointsOf(const Arrangement& arrangement,
-                                      const std::vector<int>& ring) {
-  std::vector<Eigen::Vector2d> points;
+Ring PointsOf(const Arrangement& arrangement, const std::vector<int>& ring) {
+  Ring points;
+  points.reserve(ring.size());
   for (const int v : ring) points.push_back(arrangement.vertices[v]);
   return points;
 }

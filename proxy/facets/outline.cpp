@@ -71,10 +71,11 @@ std::vector<CutNode> PriceFaces(const PlaneRaster& raster, const std::vector<Evi
   return nodes;
 }
 
-// The evidence of a cell near an active crease.
+// The evidence of a cell near a crease, where that is active.
 Evidence NearCrease(const CutLine& crease, const Eigen::Vector2d& p, Evidence evidence,
                     double to_seen, const OutlineOptions& options) {
   constexpr double kFootReach = 3;  // of options.reach
+  if (!crease.IsActiveAt(p)) return evidence;
   const double above = crease.HeightOf(p);
   if (crease.foot && above < -options.epsilon) return Evidence::kOpen;
   const double reach = options.reach * (crease.foot ? kFootReach : 1);
@@ -95,9 +96,7 @@ std::vector<Evidence> FreeStrips(const PlaneRaster& raster, std::vector<Evidence
       const size_t i = raster.Index(x, y);
       const Eigen::Vector2d p = raster.Center(x, y);
       for (const CutLine& crease : creases) {
-        if (crease.IsActiveAt(p)) {
-          evidence[i] = NearCrease(crease, p, evidence[i], to_seen[i], options);
-        }
+        evidence[i] = NearCrease(crease, p, evidence[i], to_seen[i], options);
       }
     }
   }

@@ -131,13 +131,12 @@ std::vector<Evidence> Classify(const PlaneRaster& raster, double fill_gap, doubl
     for (int x = 0; x < raster.width; ++x) {
       Evidence& e = evidence[raster.Index(x, y)];
       const bool inside = closed.at<uint8_t>(y, x) != 0;
-      if (window.at<uint8_t>(y, x) != 0) {
-        e = Evidence::kGap;
-      } else if (open.at<uint8_t>(y, x) != 0) {
+      const bool in_window = window.at<uint8_t>(y, x) != 0;
+      if (!in_window && open.at<uint8_t>(y, x) != 0) {
         e = Evidence::kOpen;
-      } else if (inside && seen.at<uint8_t>(y, x) != 0) {
+      } else if (!in_window && inside && seen.at<uint8_t>(y, x) != 0) {
         e = Evidence::kSeen;
-      } else if (inside || enclosed.at<uint8_t>(y, x) != 0) {
+      } else if (in_window || inside || enclosed.at<uint8_t>(y, x) != 0) {
         e = Evidence::kGap;
       }
     }

@@ -105,24 +105,34 @@ std::vector<std::vector<size_t>> SetsOfBuildings(const UprightSurvey& survey,
 }
 
 UprightSurvey CloserLook(const PlanarScene& scene, const ProxyInput& input,
-                         std::span<const MapBuilding> buildings, const ProxyOptions& options,
-                         int threads) {
+                         std::span<const MapBuilding> buildings, int max_points,
+                         const ProxyOptions& options) {
   const Surroundings surroundings(buildings);
   const Eigen::Matrix<double, 2, 3> plan_from_world = UprightFromWorld(scene.up).topRows<2>();
+  const auto wanted = [&](const Eigen::Vector3d& p) {
+    return surroundings.Contains(plan_from_world * p);
+  };
+  // Heights come from what the survey has already; strays above and below stay out.
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : scene.samples.positions) {
+    if (wanted(p)) box.extend(p);
+  }
+  if (box.isEmpty()) return UprightSurveyOf(Samples{}, scene.tolerances, scene.up);
+  box = {box.min().array() - kAround_m, box.max().array() + kAround_m};
   const PointStream near{input.cloud.count,
                          [&](const std::function<void(const CloudPoint&)>& visit) {
                            input.cloud.for_each([&](const CloudPoint& point) {
-                             if (surroundings.Contains(plan_from_world * point.position))
-                               visit(point);
+                             if (wanted(point.position)) visit(point);
                            });
                          }};
-  Samples samples = ThinCloud(near, input.photos, options.max_points, FineCell(scene.tolerances));
+  Samples samples = ThinInside(box, near, input.photos, max_points, FineCell(scene.tolerances));
   constexpr size_t kFewest = 100;
-  if (samples.size() < kFewest)
+  if (samples.size() < kFewest) {
     return UprightSurveyOf(std::move(samples), scene.tolerances, scene.up);
+  }
   const Tolerances tolerances = DeriveTolerances(MeasureScale(samples), true, options);
   const GridIndex index(samples.positions, tolerances.radius);
-  SmoothNormals(samples, index, tolerances.radius, threads);
+  SmoothNormals(samples, index, tolerances.radius, 1);
   return UprightSurveyOf(std::move(samples), tolerances, scene.up);
 }
 

@@ -276,26 +276,28 @@ std::vector<Outcome> CloseAll(const UprightSurvey& survey, const OutlineMap& map
                               const Workshop& with) {
   const double plan_to_survey_m = HeightShift(survey, map.buildings);
   std::vector<Outcome> outcomes(map.buildings.size());
-  const auto close = [&](const UprightSurvey& seen, const std::vector<size_t>& numbers) {
-    std::vector<MapBuilding> buildings;
-    for (const size_t b : numbers) buildings.push_back(map.buildings[b]);
+  const auto close = [&](const UprightSurvey& seen, const std::vector<size_t>& numbers,
+                         const std::vector<MapBuilding>& buildings) {
     const auto fitted = FitOutlines(seen, buildings, map.facades, plan_to_survey_m);
     const BuildingCloser closer(seen.tolerances, with.scene.up, with.options);
     ParallelFor(fitted.size(), with.threads, [&](size_t i) {
       outcomes[numbers[i]] = CloseOne(seen, closer, buildings[i], fitted[i], plan_to_survey_m);
     });
   };
-  if (NeedsCloserLook(with.scene)) {
-    for (const auto& numbers : SetsOfBuildings(survey, map.buildings, with.options.max_points)) {
-      std::vector<MapBuilding> buildings;
-      for (const size_t b : numbers) buildings.push_back(map.buildings[b]);
-      close(CloserLook(with.scene, with.input, buildings, with.options, with.threads), numbers);
-    }
-  } else {
+  if (!NeedsCloserLook(with.scene)) {
     std::vector<size_t> all(map.buildings.size());
     std::iota(all.begin(), all.end(), size_t{0});
-    close(survey, all);
+    close(survey, all, map.buildings);
+    return outcomes;
   }
+  constexpr int kAtOnce = 2;  // whatever threads there are: the sets must not depend on them
+  const int most = with.options.max_points / kAtOnce;
+  const auto sets = SetsOfBuildings(survey, map.buildings, most);
+  ParallelFor(sets.size(), std::min(with.threads, kAtOnce), [&](size_t s) {
+    std::vector<MapBuilding> buildings;
+    for (const size_t b : sets[s]) buildings.push_back(map.buildings[b]);
+    close(CloserLook(with.scene, with.input, buildings, most, with.options), sets[s], buildings);
+  });
   return outcomes;
 }
 

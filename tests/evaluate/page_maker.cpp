@@ -23,16 +23,16 @@ FacadeFigures MadeFacade(const std::string& id, const PicturePair& pair, size_t 
   const auto measured = stucco::evaluate::MeasurePair(pair);
   const auto names = stucco::evaluate::WritePagePictures(pair, measured.flip, folder,
                                                          stucco::evaluate::PictureStem(number, id));
-  return {id,
-          id,
-          pair.truth.width_px * pair.truth.height_px * 1e-4,
-          0.9,
-          measured.figures,
-          0.01,
-          stucco::evaluate::Misregistration(pair),
-          names.truth,
-          names.result,
-          names.error};
+  return {.id = id,
+          .facet = id,
+          .area_m2 = pair.truth.width_px * pair.truth.height_px * 1e-4,
+          .painted = 0.9,
+          .picture = measured.figures,
+          .texel_m = 0.01,
+          .misregistration_px = stucco::evaluate::Misregistration(pair),
+          .truth_picture = names.truth,
+          .result_picture = names.result,
+          .error_picture = names.error};
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST(SurfaceSamples, TheSmallestRoofHasOne) {
   const auto samples = SampleSurface(site, {.spacing_m = 5});
   ASSERT_EQ(Count(samples, SurfaceKind::kRoof), 1U);
   const auto roof = std::ranges::find(samples, SurfaceKind::kRoof, &SurfaceSample::kind);
-  EXPECT_TRUE(Contains({{thin}}, roof->position.head<2>()));
+  EXPECT_TRUE(Contains(thin, roof->position.head<2>()));
 }
 
 TEST(SurfaceSamples, GroundIsAroundTheBuildingsAndInsideTheArea) {
