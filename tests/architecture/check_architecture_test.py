@@ -172,16 +172,16 @@ class CheckArchitectureTest(unittest.TestCase):
         self.assert_problem("proxy/a.h", "stucco::Scene", "calib/a.h")
 
     def test_folders_and_files_do_not_include_each_other_in_circles(self):
-        self.include("proxy/internal/b.h", '"proxy/c.h"')
-        self.include("proxy/b.cpp", '"proxy/internal/b.h"', '"proxy/deep/d.h"')
-        self.include("proxy/deep/d.cpp", '"proxy/deep/d.h"', '"survey/e.h"')
-        self.include("tests/proxy/deep/d_test.cpp", '"proxy/b.h"')
+        self.include("texture/internal/b.h", '"texture/c.h"')
+        self.include("texture/b.cpp", '"texture/internal/b.h"', '"texture/deep/d.h"')
+        self.include("texture/deep/d.cpp", '"texture/deep/d.h"', '"survey/e.h"')
+        self.include("tests/texture/deep/d_test.cpp", '"texture/b.h"')
         self.assert_clean()
-        self.include("proxy/c.cpp", '"proxy/b.h"')
-        self.assert_problem("files that include each other in a circle: proxy/b, proxy/c")
-        self.include("proxy/c.cpp", '"proxy/c.h"')
-        self.include("proxy/deep/internal/f.h", '"proxy/c.h"')
-        self.assert_problem("folders that include each other in a circle: proxy, proxy/deep")
+        self.include("texture/c.cpp", '"texture/b.h"')
+        self.assert_problem("files that include each other in a circle: texture/b, texture/c")
+        self.include("texture/c.cpp", '"texture/c.h"')
+        self.include("texture/deep/internal/f.h", '"texture/c.h"')
+        self.assert_problem("folders that include each other in a circle: texture, texture/deep")
 
     def write_module(self, module, headers):
         (self.root / module).mkdir(exist_ok=True)
