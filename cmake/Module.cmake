@@ -47,9 +47,9 @@ endfunction()
 # name is linked where there is one; `pipeline` has several, which are named in LINK.
 function(add_module_test name)
   cmake_parse_arguments(T "" "" "SOURCES;LINK" ${ARGN})
-  add_executable(${name}_test ${T_SOURCES})
+  add_executable(${name}_test ${T_SOURCES} ${PROJECT_SOURCE_DIR}/tests/main.cpp)
   target_link_libraries(${name}_test
-    PRIVATE $<TARGET_NAME_IF_EXISTS:${name}> ${T_LINK} project_warnings GTest::gmock GTest::gtest_main)
+    PRIVATE $<TARGET_NAME_IF_EXISTS:${name}> ${T_LINK} project_warnings GTest::gmock GTest::gtest)
   target_include_directories(${name}_test PRIVATE ${PROJECT_SOURCE_DIR})
   gtest_discover_tests(${name}_test TEST_PREFIX ${name}/ DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 300)
