@@ -80,8 +80,9 @@ std::vector<float> HeightsOf(const TextureComparison& comparison, const Facet& t
   std::vector<float> heights = comparison.scene.Heights(plane, DrawingOf(comparison, truth));
   const Eigen::Vector3d towards_us = plane.v_axis.cross(plane.u_axis).normalized();
   for (size_t i = 0; i < heights.size(); ++i) {
-    const double x = static_cast<double>(i % plane.width_px) + 0.5;
-    const double y = static_cast<double>(i / plane.width_px) + 0.5;
+    const size_t column = i % plane.width_px, row = i / plane.width_px;
+    const double x = static_cast<double>(column) + 0.5;
+    const double y = static_cast<double>(row) + 0.5;
     const Eigen::Vector3d place = plane.origin +
                                   plane.metres_per_texel * (x * plane.u_axis + y * plane.v_axis) +
                                   heights[i] * towards_us;
