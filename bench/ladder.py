@@ -11,15 +11,14 @@ Rungs: "map", the plan's footprints extruded without any photo; "nomap" and "clo
 with holes and noise into proxy, without and with the map; "poses", true poses into dense and proxy;
 "own", the survey as it is, from ingest to proxy. The map that proxy goes by has the errors of real
 ones (perturb_plan.py) unless --exact-map; the drone has flown by the exact one. Printed is a table
-for docs/benchmarks.md. Each rung is a survey OUT/STYLE-SEED-RUNG, made anew from OUT/STYLE-SEED-flown
-each time; that is flown once.
+for docs/benchmarks.md. Each rung is a survey OUT/STYLE-SEED-RUNG, made anew each time from
+OUT/STYLE-SEED-flown, which is flown once.
 """
 import argparse
 import json
 import math
 import os
 import pathlib
-import shlex
 import shutil
 import sys
 
@@ -57,16 +56,19 @@ def facet(name, facet_class, corners, holes=(), facade=""):
             "holes": list(holes)}
 
 
-def prism(footprint, facades, shift, up_m, number):
+def level(ring, z):
+    return [[x, y, z] for x, y in ring]
+
+
+def prism(footprint, facades, shift, number):
     """The facets of one footprint between the heights that the map gives."""
-    low, high = (z + up_m for z in footprint["z_m"])
+    low, high = footprint["z_m"]
     name = footprint["building"]
     rings = [[(x + shift[0], y + shift[1]) for x, y in ring] for ring in footprint["rings_m"]]
-    lift = lambda ring, z: [[x, y, z] for x, y in ring]
-    made = [facet(f"{name}/R{number}", "RoofSurface", lift(rings[0], high),
-                  [lift(ring, high) for ring in rings[1:]]),
-            facet(f"{name}/G{number}", "OuterFloorSurface", lift(rings[0][::-1], low),
-                  [lift(ring[::-1], low) for ring in rings[1:]])]
+    made = [facet(f"{name}/R{number}", "RoofSurface", level(rings[0], high),
+                  [level(ring, high) for ring in rings[1:]]),
+            facet(f"{name}/G{number}", "OuterFloorSurface", level(rings[0][::-1], low),
+                  [level(ring[::-1], low) for ring in rings[1:]])]
     for r, ring in enumerate(rings):
         for i, (p, q) in enumerate(zip(ring, ring[1:] + ring[:1])):
             middle = ((p[0] + q[0]) / 2 - shift[0], (p[1] + q[1]) / 2 - shift[1])
@@ -94,7 +96,7 @@ def extrude_plan(survey, georef):
     buildings = {}
     for footprint in plan["footprints"]:
         of_one = buildings.setdefault(footprint["building"], [])
-        of_one += prism(footprint, plan["facades"], shift, 0.0, len(of_one))
+        of_one += prism(footprint, plan["facades"], shift, len(of_one))
     (survey / "proxy").mkdir(exist_ok=True)
     (survey / "proxy/facets.json").write_text(json.dumps(
         {"version": 1, "up": [0, 0, 1], "metric": True,
@@ -134,8 +136,9 @@ class Ladder:
         chain = steps.Chain(self.arguments.out / "logs", survey.name,
                             ("errors", "cloud", "run", "evaluate"), again="errors")
         if not self.arguments.exact_map:
-            chain.run("errors", [sys.executable, BENCH / "perturb_plan.py", survey / "plan/plan.json",
-                                 *self.errors()], survey / "plan/plan.json")
+            plan = survey / "plan/plan.json"
+            chain.run("errors", [sys.executable, BENCH / "perturb_plan.py", plan, *self.errors()],
+                      plan)
         run = [self.program, "run", survey, "--until", "proxy", *self.arguments.run_args]
         if rung != "own":
             georef = true_poses(survey)
@@ -143,8 +146,9 @@ class Ladder:
             extrude_plan(survey, georef)
         elif rung in ("cloud", "nomap"):
             (survey / "dense").mkdir()
-            chain.run("cloud", [sys.executable, BENCH / "true_cloud.py", survey, survey / "dense/cloud.ply",
-                                "--step", "2"], survey / "dense/cloud.ply")
+            cloud = survey / "dense/cloud.ply"
+            chain.run("cloud", [sys.executable, BENCH / "true_cloud.py", survey, cloud,
+                                "--step", "2"], cloud)
             run += ["--from", "proxy"]
             run += ["--set", "proxy.use_map=false"] if rung == "nomap" else []
         elif rung == "poses":
@@ -177,13 +181,7 @@ class Ladder:
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
-    parser.add_argument("out", type=pathlib.Path)
-    parser.add_argument("--style", default="hamlet")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--scale", default="0.25")
-    for step in ("plan", "fly", "run"):
-        parser.add_argument(f"--{step}-args", type=shlex.split, default=[], metavar="WORDS")
-    parser.add_argument("--stucco", default=str(surveys.PROGRAM))
+    loop.add_flight_arguments(parser)
     parser.add_argument("--rungs", default="map,nomap,cloud,poses,own")
     parser.add_argument("--exact-map", action="store_true")
     parser.add_argument("--map-seed", default="1")

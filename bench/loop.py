@@ -139,7 +139,7 @@ def plan_command(program, scene, survey, method, args):
             *(["--terrain", terrain] if terrain.exists() else []), *args]
 
 
-def add_loop_arguments(parser):
+def add_flight_arguments(parser):
     """What every command that flies a made scene understands."""
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--style", default="hamlet")
@@ -147,8 +147,13 @@ def add_loop_arguments(parser):
     parser.add_argument("--scale", default="0.25")
     for step in ("plan", "fly", "run"):
         parser.add_argument(f"--{step}-args", type=shlex.split, default=[], metavar="WORDS")
-    parser.add_argument("--again", choices=STEPS)
     parser.add_argument("--stucco", default=str(surveys.PROGRAM))
+
+
+def add_loop_arguments(parser):
+    """What every command that goes on with a loop understands."""
+    add_flight_arguments(parser)
+    parser.add_argument("--again", choices=STEPS)
 
 
 def fly(arguments, method):

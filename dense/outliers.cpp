@@ -24,6 +24,7 @@ constexpr size_t kProbes = 200'000;  // points that the cloud is measured by
 constexpr size_t kMostSlabs = 256;   // files that are open at a time
 constexpr float kReach = 16;         // spacings
 constexpr float kMostSpacing = 4;    // of all points' median: bounds what has to be looked through
+constexpr double kNoStray = 2;       // means: in a regular grid's corner it is 1.5 of them
 
 // What of a point its neighbours are found by, in floats relative to the layout's origin.
 struct SlabPoint {
@@ -180,7 +181,7 @@ std::vector<bool> FindInliers(FusedPointsFile& points, const OutlierOptions& opt
   const auto count = static_cast<double>(points.size());
   const double mean = sum / count;
   const double deviation = std::sqrt(std::max(0.0, squares / count - mean * mean));
-  const double limit = mean + options.sigmas * deviation;
+  const double limit = std::max(mean + options.sigmas * deviation, kNoStray * mean);
   std::vector<bool> inliers(points.size());
   measured.Rewind();
   for (size_t i = 0; i < points.size(); ++i) {

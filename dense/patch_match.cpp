@@ -422,8 +422,7 @@ DepthMap MatchDepths(const PatchMatchInput& input, const PatchMatchOptions& opti
       finer->Run(6, true);
     } else {
       finer->StartFrom(*matcher);
-      // At full size once: the second pass goes on from there.
-      finer->Run(level > 0 ? options.iterations + 1 : 1, level > 0);
+      finer->Run(options.iterations + (level > 0 ? 1 : 0), level > 0);
     }
     matcher = std::move(finer);
   }

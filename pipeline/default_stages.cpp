@@ -47,7 +47,7 @@ Stage CalibStage() {
 Stage DenseStage() {
   Stage stage;
   stage.name = "dense";
-  stage.version = 2;
+  stage.version = 3;
   stage.title = "the dense point cloud";
   stage.needs = {"ingest", "calib"};
   stage.inputs = {kCapturesFile, kSparseFolder};

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "texture/colour.h"
+
 namespace stucco {
 namespace {
 
@@ -49,11 +51,6 @@ struct Block {
 
 // kColourAslant: in blocks that may not be compared but for their colour.
 enum class Change : uint8_t { kNone, kColour, kPattern, kShade, kColourAslant };
-
-// Of a difference of log colours: what no light alone makes.
-double HueOf(const Eigen::Vector3d& difference) {
-  return (difference.array() - difference.mean()).matrix().norm();
-}
 
 // Means of a rectangle of texels that both show.
 struct Means {
@@ -162,7 +159,7 @@ class Comparison {
       const Eigen::Vector3d after = LogColour(means.after);
       block.before[part] = before.mean();
       block.after[part] = after.mean();
-      block.parts_of_other_hue += HueOf(after - before) > kOtherHue;
+      block.parts_of_other_hue += HueOf(after - before).norm() > kOtherHue;
     }
     return block;
   }
@@ -172,7 +169,7 @@ class Comparison {
     std::vector<Change> found(blocks_.size(), Change::kNone);
     for (size_t i = 0; i < blocks_.size(); ++i) {
       if (!blocks_[i].shown) continue;
-      const bool other_colour = HueOf(blocks_[i].difference) > kOtherHue;
+      const bool other_colour = HueOf(blocks_[i].difference).norm() > kOtherHue;
       if (!blocks_[i].comparable) {
         if (other_colour) found[i] = Change::kColourAslant;
       } else if (!GoTogether(blocks_[i].before, blocks_[i].after) &&

@@ -32,10 +32,6 @@ constexpr double kAgreeingHues = 0.05;
 constexpr double kAlwaysLikely = 0.05;
 constexpr double kFarFromUsual = 4;
 
-Eigen::Vector3d HueOf(const Eigen::Vector3d& logs) {
-  return logs.array() - logs.mean();
-}
-
 // A tree or a car before most of what a photo shows makes its ratios those of leaves to plaster; a
 // camera's white balance does no such thing to one photo. Hues that are far from those of the other
 // photos in `logs` come back to where they are still likely.
@@ -87,6 +83,10 @@ Eigen::VectorXd SolveChannel(std::span<const ColourRatio> ratios, size_t photos,
 }
 
 }  // namespace
+
+Eigen::Vector3d HueOf(const Eigen::Vector3d& logs) {
+  return logs.array() - logs.mean();
+}
 
 std::optional<ColourRatio> MeasureRatio(int a, int b, std::span<const float> rgb_a,
                                         std::span<const float> rgb_b,

@@ -18,6 +18,9 @@ struct ColourRatio {
   double weight = 0;                                    // number of texels it is the median of
 };
 
+// The part of a difference between logarithms of colours that brighter light does not make.
+Eigen::Vector3d HueOf(const Eigen::Vector3d& logs);
+
 // The median ratio over the texels that both show freely and that are neither black nor clipped
 // in either; nothing with fewer than 24 of them. Colours are 3 per texel, 0 to 255.
 std::optional<ColourRatio> MeasureRatio(int a, int b, std::span<const float> rgb_a,

@@ -18,6 +18,8 @@ class GridIndex {
  public:
   GridIndex(std::span<const Eigen::Vector3d> points, double cell);
 
+  const Eigen::Vector3d& point(int index) const { return points_[index]; }
+
   // fn(index) for every point within `radius` of `center`, the point itself included.
   template <typename Fn>
   void ForEachNear(const Eigen::Vector3d& center, double radius, const Fn& fn) const {
@@ -42,9 +44,11 @@ class GridIndex {
       if ((points_[point] - center).squaredNorm() <= squared) fn(static_cast<int>(point));
     }
   }
+
   Eigen::Array3i Cell(const Eigen::Array3d& point) const {
     return ((point - origin_.array()) / cell_).floor().cast<int>();
   }
+
   static uint64_t Key(const Eigen::Array3i& cell) {
     constexpr int kHalf = 1 << 20;
     return (static_cast<uint64_t>(cell.x() + kHalf) & 0x1fffff) << 42 |

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "proxy/cloud/spread.h"
 #include "survey/parallel.h"
 
 namespace stucco {
@@ -23,18 +24,9 @@ void ForEachSample(size_t count, int threads, Fn&& fn) {
 
 Eigen::Vector3d PlaneNormal(const Samples& samples, const GridIndex& index, size_t i,
                             double radius) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  int count = 0;
-  index.ForEachNear(samples.positions[i], radius, [&](int j) {
-    const Eigen::Vector3d d = samples.positions[j] - samples.positions[i];
-    sum += d;
-    squares += d * d.transpose();
-    ++count;
-  });
-  if (count < 3) return Eigen::Vector3d::UnitZ();
-  const Eigen::Matrix3d covariance = squares / count - sum * sum.transpose() / (count * count);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  const Spread spread = SpreadAround(index, samples.positions[i], radius);
+  if (spread.count < 3) return Eigen::Vector3d::UnitZ();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread.covariance);
   return solver.eigenvectors().col(0);
 }
 

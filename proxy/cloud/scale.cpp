@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "proxy/cloud/grid_index.h"
+#include "proxy/cloud/spread.h"
 #include "survey/median.h"
 
 namespace stucco {
@@ -44,17 +45,8 @@ double NearestDistance(const Samples& samples, const GridIndex& index, size_t i,
 // Root of the smallest eigenvalue of the neighbours' covariance; negative with too few neighbours.
 double LocalNoise(const Samples& samples, const GridIndex& index, size_t i, double radius) {
   constexpr int kFewest = 8;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  int count = 0;
-  index.ForEachNear(samples.positions[i], radius, [&](int j) {
-    const Eigen::Vector3d d = samples.positions[j] - samples.positions[i];
-    sum += d;
-    squares += d * d.transpose();
-    ++count;
-  });
+  const auto [count, covariance] = SpreadAround(index, samples.positions[i], radius);
   if (count < kFewest) return -1;
-  const Eigen::Matrix3d covariance = squares / count - sum * sum.transpose() / (count * count);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
   // A plane fitted to n points takes up three of the n degrees of freedom.
   return std::sqrt(std::max(0.0, solver.eigenvalues()[0]) * count / (count - 3));

@@ -14,8 +14,7 @@
 namespace stucco {
 namespace {
 
-constexpr double kAround_m =
-    5;  // of a building's bounds: the ground at its foot, a map that is off
+constexpr double kAround_m = 5;  // of its bounds: the ground at its foot, a map that is off
 
 // What samples may lie apart for the details that are wanted of the survey.
 double FineCell(const Tolerances& tolerances) {
@@ -67,11 +66,8 @@ std::map<size_t, std::vector<size_t>> Neighbours(std::span<const MapBuilding> bu
       if (bounds[a].intersects(bounds[b])) sets.Join(a, b);
     }
   }
-  std::map<size_t, size_t> first;
   std::map<size_t, std::vector<size_t>> result;
-  for (size_t b = 0; b < buildings.size(); ++b) {
-    result[first.try_emplace(sets.Find(b), b).first->second].push_back(b);
-  }
+  for (size_t b = 0; b < buildings.size(); ++b) result[sets.Find(b)].push_back(b);
   return result;
 }
 
@@ -105,8 +101,8 @@ std::vector<std::vector<size_t>> SetsOfBuildings(const UprightSurvey& survey,
 }
 
 UprightSurvey CloserLook(const PlanarScene& scene, const ProxyInput& input,
-                         std::span<const MapBuilding> buildings, int max_points,
-                         const ProxyOptions& options) {
+                         std::span<const MapBuilding> buildings, const ProxyOptions& options,
+                         int threads) {
   const Surroundings surroundings(buildings);
   const Eigen::Matrix<double, 2, 3> plan_from_world = UprightFromWorld(scene.up).topRows<2>();
   const auto wanted = [&](const Eigen::Vector3d& p) {
@@ -125,14 +121,15 @@ UprightSurvey CloserLook(const PlanarScene& scene, const ProxyInput& input,
                              if (wanted(point.position)) visit(point);
                            });
                          }};
-  Samples samples = ThinInside(box, near, input.photos, max_points, FineCell(scene.tolerances));
+  Samples samples =
+      ThinInside(box, near, input.photos, options.max_points, FineCell(scene.tolerances));
   constexpr size_t kFewest = 100;
   if (samples.size() < kFewest) {
     return UprightSurveyOf(std::move(samples), scene.tolerances, scene.up);
   }
   const Tolerances tolerances = DeriveTolerances(MeasureScale(samples), true, options);
   const GridIndex index(samples.positions, tolerances.radius);
-  SmoothNormals(samples, index, tolerances.radius, 1);
+  SmoothNormals(samples, index, tolerances.radius, threads);
   return UprightSurveyOf(std::move(samples), tolerances, scene.up);
 }
 

@@ -25,9 +25,9 @@ std::vector<std::vector<size_t>> SetsOfBuildings(const UprightSurvey& survey,
                                                  std::span<const MapBuilding> buildings,
                                                  int max_points);
 
-// The cloud thinned once more, on and around these buildings only, to at most `max_points`.
+// The cloud thinned once more, on and around these buildings only.
 UprightSurvey CloserLook(const PlanarScene& scene, const ProxyInput& input,
-                         std::span<const MapBuilding> buildings, int max_points,
-                         const ProxyOptions& options);
+                         std::span<const MapBuilding> buildings, const ProxyOptions& options,
+                         int threads);
 
 }  // namespace stucco

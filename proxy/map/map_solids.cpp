@@ -291,12 +291,13 @@ std::vector<Outcome> CloseAll(const UprightSurvey& survey, const OutlineMap& map
     return outcomes;
   }
   constexpr int kAtOnce = 2;  // whatever threads there are: the sets must not depend on them
-  const int most = with.options.max_points / kAtOnce;
-  const auto sets = SetsOfBuildings(survey, map.buildings, most);
+  ProxyOptions of_set = with.options;
+  of_set.max_points /= kAtOnce;
+  const auto sets = SetsOfBuildings(survey, map.buildings, of_set.max_points);
   ParallelFor(sets.size(), std::min(with.threads, kAtOnce), [&](size_t s) {
     std::vector<MapBuilding> buildings;
     for (const size_t b : sets[s]) buildings.push_back(map.buildings[b]);
-    close(CloserLook(with.scene, with.input, buildings, most, with.options), sets[s], buildings);
+    close(CloserLook(with.scene, with.input, buildings, of_set, with.threads), sets[s], buildings);
   });
   return outcomes;
 }

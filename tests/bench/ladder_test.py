@@ -30,7 +30,7 @@ def plan():
 class Prism(unittest.TestCase):
     def setUp(self):
         made = plan()
-        self.facets = ladder.prism(made["footprints"][0], made["facades"], (100, 50), 2, 0)
+        self.facets = ladder.prism(made["footprints"][0], made["facades"], (100, 50), 0)
 
     def test_is_closed(self):
         edges = {}
@@ -43,8 +43,8 @@ class Prism(unittest.TestCase):
 
     def test_lies_where_it_was_shifted_to_and_faces_outwards(self):
         roof, floor = self.facets[:2]
-        self.assertEqual(roof["outer"][0], [100, 50, 7])
-        self.assertEqual(floor["outer"][-1], [100, 50, 2])
+        self.assertEqual(roof["outer"][0], [100, 50, 5])
+        self.assertEqual(floor["outer"][-1], [100, 50, 0])
         self.assertAlmostEqual(roof["normal"][2], 1)
         self.assertAlmostEqual(floor["normal"][2], -1)
         south = next(f for f in self.facets if f["facade"] == "B0001/F00")

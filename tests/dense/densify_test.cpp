@@ -138,11 +138,11 @@ TEST_F(Densify, ReusesCheckpoints) {
   EXPECT_EQ(units_.saved, before);
 
   DenseOptions options = Options(1);  // concerns only what comes after the maps
-  options.max_cost = 0.4;
+  options.max_cost = 0.05;
   options.outlier_sigmas = 0;
   EXPECT_FALSE(fs::exists(folder_ / "again" / "depth"));
   options.write_depth_maps = true;
-  EXPECT_NE(Cloud(options, Context("again")), first);
+  EXPECT_LT(Cloud(options, Context("again")).size(), first.size());
   EXPECT_EQ(units_.saved, before);
   const DepthMap map =
       DeserializeDepthMap(ReadFile(folder_ / "again" / "depth" / "flight" / "0.jpg.dmap"));

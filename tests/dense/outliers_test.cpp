@@ -37,6 +37,13 @@ class Outliers : public testing::Test {
     return of_wall;
   }
 
+  // A wall seen from near, a smaller one whose points are ten times as far apart, and a stray.
+  void AddNearAndFarWallAndStray(float far_spacing) {
+    for (int i = 0; i < 10'000; ++i) Add({0.01 * (i % 100), 0, 0.01 * (i / 100)}, 0.01f);
+    for (int i = 0; i < 100; ++i) Add({50 + 0.1 * (i % 10), 0, 0.1 * (i / 10)}, far_spacing);
+    Add({0.5, 2, 0.5}, 0.01f);
+  }
+
   std::vector<bool> Find(const OutlierOptions& options) {
     return FindInliers(*file_, options, folder_.path());
   }
@@ -79,15 +86,16 @@ TEST_F(Outliers, AreNoneInSmallClouds) {
   EXPECT_EQ(Removed({.sigmas = 1}), 0u);
 }
 
-// A wall seen from near, and a smaller one from ten times as far, whose points are ten times as far
-// apart. Within 6 deviations: corners of walls as regular as these have neighbours beyond 3.
 TEST_F(Outliers, AreNotWhatWasSeenFromAfar) {
-  for (int i = 0; i < 10'000; ++i) Add({0.01 * (i % 100), 0, 0.01 * (i / 100)}, 0.01f);
-  for (int i = 0; i < 100; ++i) Add({50 + 0.1 * (i % 10), 0, 0.1 * (i / 10)}, 0.1f);
-  Add({0.5, 2, 0.5}, 0.01f);
-  const std::vector<bool> inliers = Find({.sigmas = 6});
+  AddNearAndFarWallAndStray(0.1f);
+  const std::vector<bool> inliers = Find({.sigmas = 3});
   EXPECT_EQ(std::ranges::count(inliers, false), 1);
   EXPECT_FALSE(inliers.back());
+}
+
+TEST_F(Outliers, AreWhatLiesFartherApartThanItsPixels) {
+  AddNearAndFarWallAndStray(0.01f);
+  EXPECT_EQ(Removed({.sigmas = 3}), 101u);
 }
 
 TEST_F(Outliers, LeaveNoFilesBehind) {

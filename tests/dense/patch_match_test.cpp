@@ -102,8 +102,7 @@ TEST(MatchDepths, SecondPassDoesNotHurt) {
   const DepthMap second = MatchDepths(input, Options());
   const Quality before = Measure(first[0], pyramids[0]->cameras[0], planes);
   const Quality after = Measure(second, pyramids[0]->cameras[0], planes);
-  EXPECT_GT(before.within, 0.9);  // one round at full size
-  EXPECT_GT(after.within, 0.93);
+  EXPECT_GT(before.within, 0.93);
   EXPECT_GE(after.within, before.within - 0.002);
   EXPECT_GE(after.found, before.found - 0.01);
 }
