@@ -21,15 +21,22 @@ constexpr double kLeastGain = 0.002;
 // Photo pixels per raster texel at a texel's centre, or nothing where the photo does not show it.
 std::optional<Eigen::Matrix2d> PixelsPerTexel(const SurveyPhoto& photo, const TexelGrid& raster,
                                               double x, double y) {
-  const auto right = ProjectIntoPhoto(photo, raster.At(x + 0.25, y));
-  const auto left = ProjectIntoPhoto(photo, raster.At(x - 0.25, y));
-  const auto below = ProjectIntoPhoto(photo, raster.At(x, y + 0.25));
-  const auto above = ProjectIntoPhoto(photo, raster.At(x, y - 0.25));
+  const double height = raster.HeightAt(x, y);
+  const auto right = ProjectIntoPhoto(photo, raster.AtHeight(x + 0.25, y, height));
+  const auto left = ProjectIntoPhoto(photo, raster.AtHeight(x - 0.25, y, height));
+  const auto below = ProjectIntoPhoto(photo, raster.AtHeight(x, y + 0.25, height));
+  const auto above = ProjectIntoPhoto(photo, raster.AtHeight(x, y - 0.25, height));
   if (!right || !left || !below || !above) return std::nullopt;
   Eigen::Matrix2d jacobian;
   jacobian.col(0) = 2 * (*right - *left);
   jacobian.col(1) = 2 * (*below - *above);
   return jacobian;
+}
+
+// A point along the grid's axes from its origin, world units.
+Eigen::Vector3d InGrid(const TexelGrid& grid, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d offset = point - grid.origin;
+  return {offset.dot(grid.u_axis), offset.dot(grid.v_axis), offset.dot(grid.normal)};
 }
 
 double SmallerSingularValue(const Eigen::Matrix2d& m) {
@@ -137,7 +144,14 @@ RasterView MeasureView(const SightScene& scene, int photo_index, const Facet& fa
       if (!jacobian) continue;
       const double area = std::abs(jacobian->determinant());
       if (!(area > 0)) continue;
-      if (scene.occlusion->Blocked(point + limits.tolerance * facet.normal, camera)) continue;
+      const double height = grid.HeightAt(column + 0.5, row + 0.5);
+      // Behind its plane a point is seen through it.
+      const double lift = limits.tolerance + std::max(0.0, -height);
+      const Eigen::Vector3d before_plane =
+          height < 0 ? Eigen::Vector3d(point + lift / cos_angle * to_camera)
+                     : Eigen::Vector3d(point + lift * facet.normal);
+      if (scene.occlusion->Blocked(before_plane, camera)) continue;
+      if (grid.relief && grid.relief->Hides(InGrid(grid, point), InGrid(grid, camera))) continue;
       TexelView& view = out.texels[index];
       view.sight = Sight::kFree;
       view.resolution = static_cast<float>(SmallerSingularValue(*jacobian));
@@ -145,7 +159,8 @@ RasterView MeasureView(const SightScene& scene, int photo_index, const Facet& fa
       view.cos_angle = static_cast<float>(cos_angle);
       view.border = BorderNearness(photo.camera, *pixel);
       if (scene.nearest.empty()) continue;
-      const CloudView cloud = AskCloud(scene, photo_index, *pixel, facet, limits.clearance);
+      const CloudView cloud = AskCloud(scene, photo_index, *pixel, facet,
+                                       {height - limits.clearance, height + limits.clearance});
       view.no_points = cloud == CloudView::kNoPoints;
       if (cloud == CloudView::kBeyond) view.sight = Sight::kBeyond;
       if (cloud == CloudView::kInFront) view.sight = Sight::kBehind;

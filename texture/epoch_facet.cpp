@@ -147,7 +147,10 @@ FacetFiles FilesOf(FacetPicture picture, const EpochFacetInput& input, Canvas ca
   painted.picture = std::move(picture.picture);
   painted.labels = std::move(picture.labels);
   const PhotosOfBoth both = JoinPhotosOfBoth(input, style);
-  return MakeFacetFiles(input.facet, painted, both.photos, both.gains, style.options.orthophotos);
+  FacetFiles files =
+      MakeFacetFiles(input.facet, painted, both.photos, both.gains, style.options.orthophotos);
+  files.relief = input.painted.relief;
+  return files;
 }
 
 // From where each label of a picture was taken; nothing for those that no photo is known for.

@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 // Raise when the meaning of a unit or the method behind it changes.
-constexpr char kVersion[] = "6";
+constexpr char kVersion[] = "7";
 
 json FromVector(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
@@ -215,6 +215,7 @@ FacetFiles MakeFacetFiles(const Facet& facet, const PaintedFacet& painted,
   files.misregistration_before_px = painted.misregistration_before_px;
   files.texture_png = EncodeTexture(painted);
   files.label_png = EncodeLabels(painted);
+  if (painted.grid.relief) files.relief = EncodeRelief(*painted.grid.relief);
   if (orthophoto) files.orthophoto_png = EncodeOrthophoto(painted);
   return files;
 }
@@ -224,7 +225,9 @@ std::string PackFiles(const FacetFiles& files) {
                   {"misregistration_before_px", files.misregistration_before_px},
                   {"texture", FromBinary(files.texture_png)},
                   {"labels", FromBinary(files.label_png)},
-                  {"orthophoto", FromBinary(files.orthophoto_png)}});
+                  {"orthophoto", FromBinary(files.orthophoto_png)},
+                  {"relief", FromBinary(files.relief.png)},
+                  {"relief_json", files.relief.json}});
 }
 
 FacetFiles UnpackFiles(const std::string& bytes) {
@@ -236,6 +239,7 @@ FacetFiles UnpackFiles(const std::string& bytes) {
     files.texture_png = ToBinary(j.at("texture"));
     files.label_png = ToBinary(j.at("labels"));
     files.orthophoto_png = ToBinary(j.at("orthophoto"));
+    files.relief = {ToBinary(j.at("relief")), j.at("relief_json")};
   } catch (const json::exception& problem) {
     throw Error(ErrorKind::kBadInput, fmt::format("not a painted facet: {}", problem.what()));
   }

@@ -10,6 +10,7 @@
 #include "texture/input.h"
 #include "texture/options.h"
 #include "texture/paint.h"
+#include "texture/relief_file.h"
 
 namespace stucco {
 
@@ -27,6 +28,7 @@ struct FacetFiles {
   std::string texture_png;  // empty: nothing painted
   std::string label_png;
   std::string orthophoto_png;  // with transparent surroundings
+  ReliefFiles relief;
 };
 
 FacetFiles MakeFacetFiles(const Facet& facet, const PaintedFacet& painted,

@@ -66,9 +66,9 @@ TexelGrid MakeGrid(const Facet& facet, const Eigen::Vector3d& up, double texel, 
 
 TexelGrid GridOf(const TexturedFacet& textured, const Facet& facet) {
   assert(textured.width_px > 0 && textured.height_px > 0);
-  return {textured.origin,           textured.u_axis,           textured.v_axis,
-          facet.normal.normalized(), textured.metres_per_texel, textured.width_px,
-          textured.height_px};
+  return {
+      textured.origin,           textured.u_axis,   textured.v_axis,    facet.normal.normalized(),
+      textured.metres_per_texel, textured.width_px, textured.height_px, {}};
 }
 
 TexelGrid Coarsened(const TexelGrid& grid, int step) {

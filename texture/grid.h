@@ -4,10 +4,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "survey/proxy.h"
 #include "survey/texture_set.h"
+#include "texture/relief.h"
 
 namespace stucco {
 
@@ -21,11 +23,17 @@ struct TexelGrid {
   double texel = 1;                                   // side of a texel, world units
   int width = 0;
   int height = 0;
+  std::shared_ptr<const Relief> relief;  // none: all is on the plane
 
   size_t size() const { return static_cast<size_t>(width) * height; }
-  Eigen::Vector3d At(double x, double y) const {
-    return origin + texel * (x * u_axis + y * v_axis);
+  // What the facet shows there lies this far before its plane, world units.
+  double HeightAt(double x, double y) const {
+    return relief ? relief->HeightAt(x * texel, y * texel) : 0;
   }
+  Eigen::Vector3d AtHeight(double x, double y, double height_in_world) const {
+    return origin + texel * (x * u_axis + y * v_axis) + height_in_world * normal;
+  }
+  Eigen::Vector3d At(double x, double y) const { return AtHeight(x, y, HeightAt(x, y)); }
   Eigen::Vector3d Center(int column, int row) const { return At(column + 0.5, row + 0.5); }
   Eigen::Vector2d From(const Eigen::Vector3d& point_in_world) const {
     const Eigen::Vector3d offset = (point_in_world - origin) / texel;

@@ -22,6 +22,7 @@ struct PaintScene {
   SightScene sights;
   PhotoCache* cache = nullptr;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  bool metric = false;  // world units are metres
 };
 
 // A first look at a facet over a coarse raster: who sees it, how fine its picture can be, and how
@@ -31,7 +32,7 @@ struct FacetLook {
   double texel = 0;                   // world units; 0 without candidates
   std::vector<ColourRatio> ratios;    // between candidates; indices are photos
   ViewLimits limits;                  // follow from where all photos of the survey are
-  // The grid to paint on where one is given; else it follows from `texel`.
+  // The grid to paint on, with its relief, where one is given; else it follows from `texel`.
   std::optional<TexelGrid> grid;
 };
 

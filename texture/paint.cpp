@@ -10,6 +10,7 @@
 #include "texture/background.h"
 #include "texture/composite.h"
 #include "texture/fill.h"
+#include "texture/find_relief.h"
 #include "texture/patch_fill.h"
 #include "texture/plan_prior.h"
 #include "texture/select.h"
@@ -292,7 +293,8 @@ uint64_t PaintingBytes(const Facet& facet, const FacetLook& look, const PaintSce
     photo_px = std::max(photo_px, static_cast<double>(camera.width_px) * camera.height_px);
   }
   const double aligned = std::min(texels, static_cast<double>(kAlignSide) * kAlignSide);
-  return static_cast<uint64_t>(kBytesPerTexel * texels + kBytesPerRasterView * raster * count +
+  return (options.relief ? ReliefBytes(grid) : 0) +
+         static_cast<uint64_t>(kBytesPerTexel * texels + kBytesPerRasterView * raster * count +
                                kBytesPerSeam * 2 * cells * count * count +
                                aligned * (kBytesPerAligned * shown + kBytesPerSample) +
                                kBytesPerPhotoPixel * photo_px);
@@ -307,16 +309,21 @@ PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
   painted.wanted_texel = look.texel;
   painted.mask = RasterizeFacet(facet, painted.grid);
 
-  // 1. Which photo paints what.
+  // 1. What stands out of it, or lies back in it.
+  if (options.relief && !look.grid && scene.metric && facet.facet_class == FacetClass::kWall) {
+    painted.grid.relief = FindRelief(facet, painted.grid, look.candidates, look.limits, scene);
+  }
+
+  // 2. Which photo paints what.
   const Selected selected = SelectPhotos({facet, look, gains, scene, options}, painted);
   if (selected.views.empty()) return painted;
   for (const RasterView& view : selected.views) painted.photos.push_back(view.photo);
 
-  // 2. Bring the chosen photos together on the facet's plane.
+  // 3. Bring the chosen photos together on the facet's plane.
   std::vector<PhotoLayer> chosen = OpenChosen(selected, gains, scene);
   AlignChosen(selected, options, chosen, painted);
 
-  // 3. Paint, and fill what nobody shows.
+  // 4. Paint, and fill what nobody shows.
   Composite composite =
       ComposePicture(painted.grid, painted.mask, chosen, selected.ownership, options.blend);
   painted.picture = std::move(composite.picture);
@@ -329,7 +336,7 @@ PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
   painted.in_front = FindInFront(selected, painted);
   FillAndCount(options, painted);
 
-  // 4. Measure.
+  // 5. Measure.
   painted.quality = MeasureQuality(selected.views, scene.sights.photos, selected.raster,
                                    selected.ownership.owner, look.texel);
   return painted;

@@ -65,7 +65,9 @@ void LookAtFacets(Work& work) {
   work.looks = LookAtAll(work.facets, work.input, work.scene, work.options, work.context);
   for (size_t i = 0; i < work.facets.size(); ++i) {
     const TexturedFacet& old = work.old.facets[i];
-    if (!old.image.empty()) work.looks[i].grid = GridOf(old, *work.facets[i]);
+    if (old.image.empty()) continue;
+    work.looks[i].grid = GridOf(old, *work.facets[i]);
+    work.looks[i].grid->relief = ReadRelief(work.OldFolder(), fs::path(old.image).stem().string());
   }
   if (std::ranges::all_of(work.looks, [](const FacetLook& l) { return l.candidates.empty(); })) {
     throw Error(ErrorKind::kStageFailed, "the new photos show no facet of the model",
@@ -88,6 +90,7 @@ FacetFiles PaintNew(const Work& work, size_t i) {
     const Eigen::Vector3d& origin = look.grid->origin;
     key.push_back(fmt::format("{} {} {} {} {} {}", origin.x(), origin.y(), origin.z(),
                               look.grid->texel, look.grid->width, look.grid->height));
+    if (look.grid->relief) key.push_back(EncodeRelief(*look.grid->relief).png);
   }
   return UnpackFiles(ComputeUnit(work.context, "facet", HashParts(key), [&] {
     PaintedFacet painted = PaintFacet(facet, look, work.gains, work.scene, work.options);
@@ -129,6 +132,11 @@ void CopyFiles(const TexturedFacet& facet, const fs::path& from, const fs::path&
     for (const char* extension : {".pgw", ".json"}) {
       files.push_back(fs::path(facet.orthophoto).replace_extension(extension).generic_string());
     }
+  }
+  for (const char* extension : {".png", ".json"}) {
+    const fs::path relief =
+        kReliefFolder / fs::path(facet.image).filename().replace_extension(extension);
+    if (fs::exists(from / relief)) files.push_back(relief.generic_string());
   }
   for (const std::string& file : files) {
     if (!file.empty()) WriteFile(out / file, ReadFile(from / file));
@@ -178,7 +186,7 @@ std::vector<EpochFacet> RepaintSurvey(const TextureOptions& options, const Repai
   const TextureSet old = ReadTextureSet(context.survey / kTexturesFile);
   TextureInput input = ReadSurfaces(context, options);
   input.photos = request.photos;
-  for (const char* folder : {"textures", "labels", "orthophotos"}) {
+  for (const char* folder : {"textures", "labels", "orthophotos", kReliefFolder}) {
     fs::create_directories(context.out / folder);
   }
   const OcclusionScene occlusion(input.proxy);
@@ -186,7 +194,8 @@ std::vector<EpochFacet> RepaintSurvey(const TextureOptions& options, const Repai
   PhotoCache cache(context.photos, context.memory_limit_bytes / 3);
   const PaintScene scene{{input.photos, &occlusion, nearest, input.cloud.positions},
                          &cache,
-                         input.proxy.up.normalized()};
+                         input.proxy.up.normalized(),
+                         input.proxy.metric};
   Work work{options, request, input, scene, context, old};
   work.facets = FacetsOf(old, input.proxy);
   LookAtFacets(work);

@@ -30,20 +30,27 @@ class Projector {
   Projector(const SurveyPhoto& photo, const TexelGrid& grid, const GridShift& shift)
       : photo_(photo), grid_(grid), shift_(shift), shifted_(!shift.IsZero()) {}
 
-  std::optional<Eigen::Vector2d> At(double x, double y) const {
+  double HeightAt(double x, double y) const { return grid_.HeightAt(x, y); }
+
+  std::optional<Eigen::Vector2d> At(double x, double y, double height) const {
     Eigen::Vector2d place(x, y);
     if (shifted_) place += shift_.At(place);
-    return ProjectIntoPhoto(photo_, grid_.At(place.x(), place.y()));
+    return ProjectIntoPhoto(photo_, grid_.AtHeight(place.x(), place.y(), height));
   }
 
   Block MakeBlock(double x, double y, double width, double height) const {
     Block block;
+    if (grid_.relief &&
+        !grid_.relief->IsLevel(grid_.texel * Eigen::Vector2d(x, y),
+                               grid_.texel * Eigen::Vector2d(x + width, y + height)))
+      return block;
+    const double raised = HeightAt(x, y);
     for (int i = 0; i < 4; ++i) {
-      const auto pixel = At(x + (i % 2) * width, y + (i / 2) * height);
+      const auto pixel = At(x + (i % 2) * width, y + (i / 2) * height, raised);
       if (!pixel) return block;
       block.corner[i] = *pixel;
     }
-    const auto middle = At(x + width / 2, y + height / 2);
+    const auto middle = At(x + width / 2, y + height / 2, raised);
     block.smooth = middle && (*middle - block.At(0.5, 0.5)).norm() < kInterpolation_px;
     return block;
   }
@@ -147,11 +154,12 @@ void SampleExactly(const Projector& projector, const PhotoPyramid& pyramid, cons
     for (int column = 0; column < block.width; ++column) {
       const double x = tile.x + block.x + column + 0.5;
       const double y = tile.y + block.y + row + 0.5;
-      const auto pixel = projector.At(x, y);
-      const auto right = projector.At(x + 0.5, y);
-      const auto left = projector.At(x - 0.5, y);
-      const auto below = projector.At(x, y + 0.5);
-      const auto above = projector.At(x, y - 0.5);
+      const double height = projector.HeightAt(x, y);
+      const auto pixel = projector.At(x, y, height);
+      const auto right = projector.At(x + 0.5, y, height);
+      const auto left = projector.At(x - 0.5, y, height);
+      const auto below = projector.At(x, y + 0.5, height);
+      const auto above = projector.At(x, y - 0.5, height);
       if (!pixel || !right || !left || !below || !above) continue;
       const size_t index = static_cast<size_t>(block.y + row) * tile.width + block.x + column;
       SampleTexel(MakeFootprint(pyramid, *right - *left, *below - *above), *pixel,

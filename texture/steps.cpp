@@ -92,6 +92,11 @@ TexturedFacet StoreFacet(FacetFiles files, const Facet& facet, const std::string
   textured.label_image = fmt::format("labels/{}.png", name);
   WriteFile(out / textured.image, files.texture_png);
   WriteFile(out / textured.label_image, files.label_png);
+  if (!files.relief.json.empty()) {
+    std::filesystem::create_directories(out / kReliefFolder);
+    WriteFile(out / kReliefFolder / (name + ".png"), files.relief.png);
+    WriteFile(out / kReliefFolder / (name + ".json"), files.relief.json);
+  }
   if (!files.orthophoto_png.empty()) {
     textured.orthophoto = fmt::format("orthophotos/{}.png", name);
     WriteFile(out / textured.orthophoto, files.orthophoto_png);

@@ -126,7 +126,8 @@ void RunTexture(const TextureOptions& options, StageContext& context) {
   PhotoCache cache(context.photos, context.memory_limit_bytes / 3);
   const PaintScene scene{{input.photos, &occlusion, nearest, input.cloud.positions},
                          &cache,
-                         input.proxy.up.normalized()};
+                         input.proxy.up.normalized(),
+                         input.proxy.metric};
 
   // 3. Who sees each facet, how finely and how brightly.
   painting.looks = LookAtAll(painting.facets, input, scene, options, context);

@@ -92,7 +92,7 @@ NearestPoints SplatNearest(const SurveyPhoto& photo, const SightedPoints& points
 }
 
 CloudView AskCloud(const SightScene& scene, int photo_index, const Eigen::Vector2d& pixel,
-                   const Facet& facet, double clearance) {
+                   const Facet& facet, const HeightBand& band) {
   const SurveyPhoto& photo = scene.photos[photo_index];
   const NearestPoints& nearest = scene.nearest[photo_index];
   const double camera_height = facet.normal.dot(photo.cam_from_world.Center()) - facet.offset;
@@ -112,8 +112,8 @@ CloudView AskCloud(const SightScene& scene, int photo_index, const Eigen::Vector
       const double height = facet.normal.dot(scene.points[i]) - facet.offset;
       const bool close = std::abs(row - y) <= 1 && std::abs(column - x) <= 1;
       near += close;
-      in_front += close && height > clearance && height < camera_height;
-      if (!(height < -clearance)) continue;
+      in_front += close && height > band.high && height < camera_height;
+      if (!(height < band.low)) continue;
       ++beyond;
       beyond_and_seen += nearest.seen[cell];
     }

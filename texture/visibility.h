@@ -65,13 +65,18 @@ enum class CloudView {
   kBeyond,    // the photo looks past the facet at things behind its plane
 };
 
-// Looks at the photo's splats around `pixel`, where it sees the facet's plane. Points more than
-// `clearance` (world units) on the outer side of the plane, nearer to it than the photo, are in
-// front; it takes two of the nine nearest splats, as one may be noise. Beyond means that all points
-// in the twenty-five nearest are farther than `clearance` behind the plane, and that the photo
-// itself sees three of them: through a wall that has few points (plain plaster, panes) those behind
-// it shine, but it hides them from the photo.
+// Heights before a facet's plane between which points are the facet's, world units.
+struct HeightBand {
+  double low = 0;
+  double high = 0;
+};
+
+// Looks at the photo's splats around `pixel`, where it sees the facet. Points above `band`, nearer
+// to the facet than the photo, are in front; it takes two of the nine nearest splats, as one may be
+// noise. Beyond means that all points in the twenty-five nearest are below the band, and that the
+// photo itself sees three of them: through a wall that has few points (plain plaster, panes) those
+// behind it shine, but it hides them from the photo.
 CloudView AskCloud(const SightScene& scene, int photo, const Eigen::Vector2d& pixel,
-                   const Facet& facet, double clearance);
+                   const Facet& facet, const HeightBand& band);
 
 }  // namespace stucco

@@ -95,6 +95,25 @@ Scene DiscScene(const Eigen::Vector3d& center, double radius, const Scene& behin
   };
 }
 
+Colour BalconyColour(double x, double z) {
+  return WallColour(x + 1.1, z + 1.7);
+}
+
+Scene BalconyScene(const Balcony& balcony, const Scene& behind) {
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(balcony.low.x(), -balcony.depth, balcony.low.y()),
+                                Eigen::Vector3d(balcony.high.x(), 0, balcony.high.y()));
+  return [=](const Eigen::Vector3d& from, const Eigen::Vector3d& way) -> std::optional<Colour> {
+    const Eigen::Array3d to_low = (box.min() - from).array() / way.array();
+    const Eigen::Array3d to_high = (box.max() - from).array() / way.array();
+    int side = 0;
+    const double enter = to_low.min(to_high).maxCoeff(&side);
+    const double leave = to_low.max(to_high).minCoeff();
+    if (!(enter > 0 && enter < leave)) return behind(from, way);
+    const Eigen::Vector3d point = from + enter * way;
+    return side == 1 ? BalconyColour(point.x(), point.z()) : Colour::Constant(110);
+  };
+}
+
 Image Render(const SurveyPhoto& photo, const Scene& scene, double exposure) {
   Image image;
   image.width_px = photo.camera.width_px;
@@ -122,7 +141,12 @@ Image Render(const SurveyPhoto& photo, const Scene& scene, double exposure) {
   return image;
 }
 
-Image WallPicture(const TexelGrid& grid) {
+Image WallPicture(const TexelGrid& grid, const std::optional<Balcony>& balcony) {
+  const auto colour_at = [&](double x, double z) {
+    const bool before = balcony && x > balcony->low.x() && x < balcony->high.x() &&
+                        z > balcony->low.y() && z < balcony->high.y();
+    return before ? BalconyColour(x, z) : WallColour(x, z);
+  };
   Image image;
   image.width_px = grid.width;
   image.height_px = grid.height;
@@ -133,7 +157,7 @@ Image WallPicture(const TexelGrid& grid) {
       for (int part = 0; part < kRays * kRays; ++part) {
         const Eigen::Vector3d point =
             grid.At(x + (part % kRays + 0.5) / kRays, y + (part / kRays + 0.5) / kRays);
-        sum += WallColour(point.x(), point.z()) / (kRays * kRays);
+        sum += colour_at(point.x(), point.z()) / (kRays * kRays);
       }
       for (int k = 0; k < 3; ++k) {
         image.Pixel(x, y)[k] = static_cast<uint8_t>(std::clamp(sum[k] + 0.5, 0.0, 255.0));

@@ -44,11 +44,21 @@ Scene WallScene(double width, double height);
 // The same behind a red disc that faces south.
 Scene DiscScene(const Eigen::Vector3d& center, double radius, const Scene& behind);
 
+// A box on the wall of MakeWall, from the plane to `depth` before it. Its front shows
+// BalconyColour, its other sides are grey.
+struct Balcony {
+  Eigen::Vector2d low;  // x and z
+  Eigen::Vector2d high;
+  double depth = 0;
+};
+Colour BalconyColour(double x, double z);
+Scene BalconyScene(const Balcony& balcony, const Scene& behind);
+
 // Renders with 2 x 2 rays a pixel, times `exposure`; background 128.
 Image Render(const SurveyPhoto& photo, const Scene& scene, double exposure = 1);
 
-// WallColour as a perfect facade picture on a grid of MakeWall's plane.
-Image WallPicture(const TexelGrid& grid);
+// WallColour as a perfect facade picture on a grid of MakeWall's plane; with a balcony before it.
+Image WallPicture(const TexelGrid& grid, const std::optional<Balcony>& balcony = std::nullopt);
 
 // Peak signal-to-noise ratio in decibels over texels whose `mask` is not zero (all without one).
 double Psnr(const Image& a, const Image& b, const std::vector<uint8_t>& mask = {});

@@ -46,7 +46,7 @@ class Foreground : public ::testing::Test {
   CloudView Ask(const Eigen::Vector3d& on_wall, double clearance) const {
     const NearestPoints nearest = SplatNearest(photo_, points_, 100);
     const SightScene scene{{&photo_, 1}, nullptr, {&nearest, 1}, points_.positions};
-    return AskCloud(scene, 0, *ProjectIntoPhoto(photo_, on_wall), wall_, clearance);
+    return AskCloud(scene, 0, *ProjectIntoPhoto(photo_, on_wall), wall_, {-clearance, clearance});
   }
   // A patch of points of 40 cm around a place.
   void AddPatch(double x, double y, double z) {
