@@ -329,24 +329,29 @@ struct Evidence {
   }
 };
 
+Evidence EvidenceAround(const Sweep& sweep, const Sweep::Agreement& agreement,
+                        const std::vector<int>& labels, size_t cell) {
+  const TexelGrid& raster = sweep.raster();
+  const int x = static_cast<int>(cell) % raster.width;
+  const int y = static_cast<int>(cell) / raster.width;
+  Evidence around;
+  for (int j = std::max(0, y - kAround); j <= std::min(raster.height - 1, y + kAround); ++j) {
+    for (int i = std::max(0, x - kAround); i <= std::min(raster.width - 1, x + kAround); ++i) {
+      const size_t other = static_cast<size_t>(j) * raster.width + i;
+      if (std::abs(labels[other] - labels[cell]) > 1) continue;
+      around.Add(sweep, agreement, other, labels[other]);
+    }
+  }
+  return around;
+}
+
 // Puts cells onto the plane where those around them gain too little off it.
 void DropDoubtful(const Sweep& sweep, const Sweep::Agreement& agreement, std::vector<int>& labels) {
   const std::vector<int> found = labels;
-  const TexelGrid& raster = sweep.raster();
-  for (int y = 0; y < raster.height; ++y) {
-    for (int x = 0; x < raster.width; ++x) {
-      const size_t cell = static_cast<size_t>(y) * raster.width + x;
-      if (found[cell] == sweep.plane()) continue;
-      Evidence around;
-      for (int j = std::max(0, y - kAround); j <= std::min(raster.height - 1, y + kAround); ++j) {
-        for (int i = std::max(0, x - kAround); i <= std::min(raster.width - 1, x + kAround); ++i) {
-          const size_t other = static_cast<size_t>(j) * raster.width + i;
-          if (std::abs(found[other] - found[cell]) > 1) continue;
-          around.Add(sweep, agreement, other, found[other]);
-        }
-      }
-      if (around.gain < kLeastGain * around.cells) labels[cell] = sweep.plane();
-    }
+  for (size_t cell = 0; cell < found.size(); ++cell) {
+    if (found[cell] == sweep.plane()) continue;
+    const Evidence around = EvidenceAround(sweep, agreement, found, cell);
+    if (around.gain < kLeastGain * around.cells) labels[cell] = sweep.plane();
   }
 }
 

@@ -19,13 +19,14 @@
 #include "survey/texture_set.h"
 #include "tests/survey/stage_support.h"
 #include "tests/texture/synthetic.h"
-#include "texture/relief_file.h"
+#include "tests/texture/wall_survey.h"
 
 namespace stucco {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::DiscScene;
+using testing::GridOf;
 using testing::LookFrom;
 using testing::MakeProxy;
 using testing::MakeWall;
@@ -34,117 +35,7 @@ using testing::Render;
 using testing::TemporaryFolder;
 using testing::WallPicture;
 using testing::WallScene;
-
-constexpr int kPhotoWidth = 640;
-constexpr int kPhotoHeight = 480;
-constexpr double kFocal = 600;
-
-// A survey folder with a wall of 4 x 3 m, rendered photos and their poses.
-class Survey {
- public:
-  Survey() {
-    fs::create_directories(Photos());
-    fs::create_directories(Folder() / "proxy");
-    SetProxy(MakeProxy({MakeWall(4, 3)}));
-  }
-
-  fs::path Folder() const { return folder_.path() / "survey"; }
-  fs::path Photos() const { return folder_.path() / "photos"; }
-  fs::path Out(const std::string& name = "out") const { return folder_.path() / name; }
-
-  void SetProxy(const Proxy& proxy) { WriteProxy(proxy, Folder() / kFacetsFile); }
-
-  SurveyPhoto Add(const std::string& name, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                  double exposure = 1, const testing::Scene& scene = WallScene(4, 3)) {
-    const SurveyPhoto photo = LookFrom(name, from, to, {kPhotoWidth, kPhotoHeight, kFocal});
-    WriteImage(Render(photo, scene, exposure), Photos() / name, 97);
-    Pose(photo);
-    return photo;
-  }
-
-  // Poses a photo without writing a file.
-  void Pose(const SurveyPhoto& photo) {
-    model_.cameras[photo.camera.id] = photo.camera;
-    const PhotoId id{static_cast<uint32_t>(model_.photos.size() + 1)};
-    model_.photos[id] = {id, photo.camera.id, photo.path(), photo.cam_from_world, {}};
-  }
-
-  // The pose that the program is told is wrong by this rotation about the camera's y axis.
-  void Disturb(const std::string& name, double yaw_rad) {
-    for (auto& [id, photo] : model_.photos) {
-      if (photo.name != name) continue;
-      stucco::Pose turn;
-      turn.rotation = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitY());
-      photo.cam_from_world = turn * photo.cam_from_world;
-    }
-  }
-
-  // A plan whose only facade is the wall, with one view for the photo of this name, if any.
-  void Plan(const std::string& planned_photo) {
-    Proxy proxy = MakeProxy({MakeWall(4, 3)});
-    proxy.buildings[0].facets[0].planned_facades = {"B0012/F03"};
-    SetProxy(proxy);
-    PlannedFacade facade;
-    facade.id = "B0012/F03";
-    facade.b_m = {4, 0};
-    facade.z_m = {0, 3};
-    facade.views = {"h0v0"};
-    PlannedView view;
-    view.id = "h0v0";
-    view.targets = {{facade.id, {0, 4}, {0, 3}}};
-    stucco::Plan plan;
-    plan.crs = "+proj=tmerc";
-    plan.facades = {facade};
-    plan.views = {view};
-    fs::create_directories(Folder() / "plan");
-    WritePlan(plan, Folder() / kPlanFile);
-    Captures captures;
-    captures.cameras.resize(1);
-    captures.cameras[0].intrinsics = model_.cameras.begin()->second;
-    captures.photos.resize(1);
-    captures.photos[0].camera = 0;
-    captures.photos[0].path = planned_photo;
-    captures.photos[0].usable = true;
-    captures.photos[0].view = "h0v0";
-    fs::create_directories(Folder() / "ingest");
-    WriteCaptures(captures, Folder() / kCapturesFile);
-  }
-
-  TextureSet Run(TextureOptions options = {}, const std::string& out = "out", int threads = 1,
-                 UnitStore* units = nullptr) const {
-    fs::create_directories(Out(out));
-    WriteColmapText(model_, Folder() / kSparseFolder);
-    StageContext context;
-    context.survey = Folder();
-    context.photos = Photos();
-    context.out = Out(out);
-    context.threads = threads;
-    context.progress = &SilentProgress();
-    context.units = units ? units : &NoUnits();
-    RunTexture(options, context);
-    return ReadTextureSet(Out(out) / "textures.json");
-  }
-
-  Image Picture(const TexturedFacet& facet, const std::string& out = "out") const {
-    return ReadImage(Out(out) / facet.image);
-  }
-  Image Labels(const TexturedFacet& facet) const { return ReadImage(Out() / facet.label_image); }
-
- private:
-  TemporaryFolder folder_;
-  Reconstruction model_;
-};
-
-TexelGrid GridOf(const TexturedFacet& facet) {
-  TexelGrid grid;
-  grid.origin = facet.origin;
-  grid.u_axis = facet.u_axis;
-  grid.v_axis = facet.v_axis;
-  grid.texel = facet.metres_per_texel;
-  grid.width = facet.width_px;
-  grid.height = facet.height_px;
-  return grid;
-}
+using Survey = testing::WallSurvey;
 
 double TruthPsnr(const Survey& survey, const TexturedFacet& facet) {
   return Psnr(survey.Picture(facet), WallPicture(GridOf(facet)));
@@ -304,51 +195,6 @@ TEST(RunTexture, AvoidsWhatTheCloudHasInFront) {
   fs::create_directories(survey.Folder() / "dense");
   WritePly(cloud, survey.Folder() / kCloudFile);
   EXPECT_LT(RedShare(survey.Picture(survey.Run().facets.at(0))), 0.001);
-}
-
-const testing::Balcony kBalcony = {{1.3, 1.2}, {2.7, 2.0}, 0.6};
-
-// Five photos, none of them straight before the balcony.
-void AddPhotosOfBalcony(Survey& survey) {
-  const auto scene = testing::BalconyScene(kBalcony, WallScene(4, 3));
-  survey.Add("a.jpg", {4.6, -4.0, 1.7}, {2, 0, 1.5}, 1, scene);
-  survey.Add("b.jpg", {-0.6, -4.0, 1.6}, {2, 0, 1.5}, 1, scene);
-  survey.Add("c.jpg", {2.8, -4.0, 3.9}, {2, 0, 1.5}, 1, scene);
-  survey.Add("d.jpg", {1.2, -4.0, 3.2}, {2, 0, 1.5}, 1, scene);
-  survey.Add("e.jpg", {3.4, -4.2, 0.4}, {2, 0, 1.5}, 1, scene);
-}
-
-TEST(RunTexture, PaintsABalconyWhereItIs) {
-  Survey survey;
-  AddPhotosOfBalcony(survey);
-  TextureOptions options;
-  options.texel_size = 0.01;
-  const auto psnr = [&](const std::string& out) {
-    const TexturedFacet facet = survey.Run(options, out).facets.at(0);
-    const Image labels = ReadImage(survey.Out(out) / facet.label_image);
-    std::vector<uint8_t> seen;
-    for (const uint8_t label : labels.data) seen.push_back(label != 0 && label != 255);
-    return Psnr(survey.Picture(facet, out), WallPicture(GridOf(facet), kBalcony), seen);
-  };
-  const double with = psnr("with");
-  const auto relief = ReadRelief(survey.Out("with"), "B0001_W01");
-  ASSERT_NE(relief, nullptr);
-  EXPECT_NEAR(relief->HeightAt(2.0, 3 - 1.6), kBalcony.depth, 0.08);  // v points down
-  EXPECT_NEAR(relief->HeightAt(0.5, 3 - 1.6), 0, 0.05);
-  options.relief = false;
-  const double without = psnr("without");
-  EXPECT_EQ(ReadRelief(survey.Out("without"), "B0001_W01"), nullptr);
-  EXPECT_GT(with, 22);
-  EXPECT_GT(with, without + 4);
-}
-
-TEST(RunTexture, FindsNoReliefOnAFlatWall) {
-  Survey survey;
-  survey.Add("a.jpg", {4.6, -4.0, 1.7}, {2, 0, 1.5});
-  survey.Add("b.jpg", {-0.6, -4.0, 1.6}, {2, 0, 1.5});
-  survey.Add("c.jpg", {2.8, -4.0, 3.9}, {2, 0, 1.5});
-  survey.Run();
-  EXPECT_EQ(ReadRelief(survey.Out(), "B0001_W01"), nullptr);
 }
 
 TEST(RunTexture, KeepsAWhiteRoofWithoutPoints) {
