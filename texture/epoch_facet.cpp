@@ -190,6 +190,21 @@ std::vector<uint8_t> SeenAlike(const EpochFacetInput& input, const FacetPicture&
   return alike;
 }
 
+// Of the mask, what is not at an edge of relief: photos from elsewhere show other things there.
+std::vector<uint8_t> AwayFromEdges(const Canvas& canvas, const Relief* relief) {
+  std::vector<uint8_t> out = canvas.mask;
+  if (relief == nullptr) return out;
+  constexpr double kCells = 2;  // to which edges are known
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kCells * relief->cell);
+  for (size_t i = 0; i < out.size(); ++i) {
+    if (!out[i]) continue;
+    const Eigen::Vector2d at = canvas.grid.texel * Eigen::Vector2d(i % canvas.grid.width + 0.5,
+                                                                   i / canvas.grid.width + 0.5);
+    out[i] = relief->IsLevel(at - margin, at + margin);
+  }
+  return out;
+}
+
 // Fills in what is found, before anything is decided.
 FacetEvidence Compare(const EpochFacetInput& input, const FacetPicture& after, const Canvas& canvas,
                       const EpochStyle& style, EpochFacet& found) {
@@ -203,7 +218,8 @@ FacetEvidence Compare(const EpochFacetInput& input, const FacetPicture& after, c
   if (!input.before) return evidence;
   const std::vector<uint8_t> painted_before = PaintedTexels(*input.before);
   const FacetChanges changes =
-      FindChanges(*input.before, after, mask, SeenAlike(input, after, canvas.grid, style));
+      FindChanges(*input.before, after, AwayFromEdges(canvas, input.relief.get()),
+                  SeenAlike(input, after, canvas.grid, style));
   found.compared = changes.compared;
   found.repainted = changes.repainted;
   found.other = changes.other;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,6 +40,7 @@ struct EpochFacetInput {
   std::optional<FacetPicture> before;
   const FacetFiles& painted;                        // from new photos alone, on the same grid
   Eigen::Vector3d level = Eigen::Vector3d::Ones();  // brings new colours to the old ones
+  std::shared_ptr<const Relief> relief;             // that both pictures were painted on
 };
 
 // What the facet's picture is chosen by and made of, the same for all facets.

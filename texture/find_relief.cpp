@@ -345,13 +345,34 @@ Evidence EvidenceAround(const Sweep& sweep, const Sweep::Agreement& agreement,
   return around;
 }
 
-// Puts cells onto the plane where those around them gain too little off it.
+// Whether heights fall through the cell, steadily and steeper than walls ever do. Such slopes are
+// fitted where a balcony hides the wall behind it from some photos.
+bool IsOnSlope(const TexelGrid& raster, const std::vector<int>& labels, size_t cell) {
+  constexpr int kReach = 2;
+  constexpr int kFewest = 4;
+  const int x = static_cast<int>(cell) % raster.width;
+  const int y = static_cast<int>(cell) / raster.width;
+  int higher = 0;
+  int lower = 0;
+  for (int j = std::max(0, y - kReach); j <= std::min(raster.height - 1, y + kReach); ++j) {
+    for (int i = std::max(0, x - kReach); i <= std::min(raster.width - 1, x + kReach); ++i) {
+      const int rise = labels[static_cast<size_t>(j) * raster.width + i] - labels[cell];
+      higher += rise >= kReach && rise <= 2 * kReach;
+      lower += rise <= -kReach && rise >= -2 * kReach;
+    }
+  }
+  return std::min(higher, lower) >= kFewest;
+}
+
+// Puts cells onto the plane where those around them gain too little off it, and slopes.
 void DropDoubtful(const Sweep& sweep, const Sweep::Agreement& agreement, std::vector<int>& labels) {
   const std::vector<int> found = labels;
   for (size_t cell = 0; cell < found.size(); ++cell) {
     if (found[cell] == sweep.plane()) continue;
     const Evidence around = EvidenceAround(sweep, agreement, found, cell);
-    if (around.gain < kLeastGain * around.cells) labels[cell] = sweep.plane();
+    if (around.gain < kLeastGain * around.cells || IsOnSlope(sweep.raster(), found, cell)) {
+      labels[cell] = sweep.plane();
+    }
   }
 }
 

@@ -164,8 +164,10 @@ std::vector<EpochFacet> WritePictures(const Work& work, TextureSet& textures) {
     work.context.ThrowIfCancelled();
     const TexturedFacet& old = work.old.facets[i];
     const FacetFiles painted = PaintNew(work, i);
-    EpochPicture made = MakeEpochPicture(
-        {*work.facets[i], old, ReadPicture(old, work.OldFolder()), painted, work.level}, style);
+    const auto& grid = work.looks[i].grid;
+    EpochPicture made = MakeEpochPicture({*work.facets[i], old, ReadPicture(old, work.OldFolder()),
+                                          painted, work.level, grid ? grid->relief : nullptr},
+                                         style);
     found[i] = made.found;
     if (made.files) {
       textures.facets[i] = StoreFacet(std::move(*made.files), *work.facets[i], names[i], work.input,
