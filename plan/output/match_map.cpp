@@ -111,22 +111,22 @@ void DrawGraph(const Plan& plan, const MapScale& scale, Svg& svg) {
   std::map<int, PathData> dots;
   for (const auto& [hover, stop] : stops) dots[stop.level].Dot(scale.Page(stop.at_m));
   for (auto level = lines.rbegin(); level != lines.rend(); ++level) {
-    svg.Path(level->second, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\"",
-                                        kLevels[level->first].color,
-                                        kLevels[level->first].line_px));
+    svg.Path(level->second,
+             fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\"",
+                         kLevels[level->first].color, kLevels[level->first].line_px));
   }
   const double width = std::clamp(0.8 * scale.px_per_m, 3.0, 7.0);
   for (auto level = dots.rbegin(); level != dots.rend(); ++level) {
-    svg.Path(level->second,
-             fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\" "
-                         "stroke-linecap=\"round\"",
-                         kLevels[level->first].color, width));
+    svg.Path(level->second, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\" "
+                                        "stroke-linecap=\"round\"",
+                                        kLevels[level->first].color, width));
   }
 }
 
 void DrawKey(Svg& svg) {
   svg.Text({kMargin, kKeyRow}, "class=\"entry\"",
-           "Lines: stops with photos that should match, by the best pair. Dots: stops, by the third-best "
+           "Lines: stops with photos that should match, by the best pair. Dots: stops, by the "
+           "third-best "
            "partner of their worst photo.");
   Eigen::Vector2d at(kMargin, kKeyRow + 27);
   for (const Level& level : kLevels) {
