@@ -31,9 +31,9 @@ struct PlanResult {
 // where nothing can be planned, kInterrupted).
 PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, Progress& progress);
 
-// Writes plan.json, stats.json, preview.svg, coverage.svg, checklist.html, plan.geojson and the
-// mission files into a folder that exists. Returns what the user has to know to fly them, a line
-// each.
+// Writes plan.json, stats.json, preview.svg, coverage.svg, matches.svg, checklist.html,
+// plan.geojson and the mission files into a folder that exists. Returns what the user has to know
+// to fly them, a line each.
 std::vector<std::string> WritePlanFolder(const PlanResult& result, const PlanOptions& options,
                                          const std::filesystem::path& folder);
 

@@ -4,6 +4,7 @@
 #include "plan/make_plan.h"
 #include "plan/mission/mission.h"
 #include "plan/output/coverage_map.h"
+#include "plan/output/match_map.h"
 #include "plan/output/preview.h"
 #include "survey/files.h"
 #include "survey/plan_io.h"
@@ -20,6 +21,7 @@ std::vector<std::string> WritePlanFolder(const PlanResult& result, const PlanOpt
   WriteStats(result.stats, folder / "stats.json");
   WriteFile(folder / "preview.svg", PreviewSvg(result.plan, result.stats));
   WriteFile(folder / "coverage.svg", CoverageSvg(result.plan, result.coverage));
+  WriteFile(folder / "matches.svg", MatchSvg(result.plan));
   const FieldFacts facts = {result.flights, WriteMissionFiles(result.plan, mission, folder),
                             result.days, ProposeGroundPoints(result.plan, result.coverage)};
   WriteFile(folder / "checklist.html", ChecklistHtml(result.plan, result.stats, facts));

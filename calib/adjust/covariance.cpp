@@ -29,8 +29,7 @@ PoseSigma SigmaOf(const Scene& scene, int photo, const Eigen::MatrixXd& covarian
   const double focal = scene.CameraOf(photo).FocalX();
   const Eigen::Index num_intrinsics = covariance.rows() - 6;
   const std::vector<int> tracks = TracksSeenBy(scene, photo);
-  double squares = 0;
-  int count = 0;
+  std::vector<double> squares;
   for (size_t i = 0; i < tracks.size(); i += tracks.size() / kPoints + 1) {
     const SceneTrack& track = scene.tracks[tracks[i]];
     const auto element = std::ranges::find(track.elements, photo, &SceneElement::photo);
@@ -47,13 +46,12 @@ PoseSigma SigmaOf(const Scene& scene, int photo, const Eigen::MatrixXd& covarian
     of_pixel.middleCols<3>(3) = -by_point * cross;
     of_pixel.rightCols(num_intrinsics) =
         scene.photos[photo].keypoint_sigma_px * linear.intrinsics.leftCols(num_intrinsics);
-    squares += (of_pixel * covariance * of_pixel.transpose()).trace();
-    ++count;
+    squares.push_back((of_pixel * covariance * of_pixel.transpose()).trace());
   }
   PoseSigma sigma;
   sigma.position = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
   sigma.rotation_rad = std::sqrt(covariance.block<3, 3>(3, 3).trace());
-  if (count > 0) sigma.picture_px = std::sqrt(squares / count);
+  if (!squares.empty()) sigma.picture_px = std::sqrt(*Median(std::move(squares)));
   return sigma;
 }
 

@@ -12,9 +12,10 @@ namespace stucco {
 struct PoseSigma {
   double position = -1;      // unit of the scene, root of the sum over the axes; -1: not computed
   double rotation_rad = -1;  // likewise
-  // How far it moves the photo's own points in its picture, pixels in full size, root mean square
-  // of the distance: where a turn, a shift and the lens make up for each other they do no harm
-  // there.
+  // How far it moves the photo's own points in its picture, pixels in full size: the middle one of
+  // the points' root mean squares. Where a turn, a shift and the lens make up for each other they
+  // do no harm there; and points that a photo shares with one from the same place alone may end up
+  // right before the lens, where any shift is without limit, but hold nothing and harm nothing.
   double picture_px = -1;
 };
 

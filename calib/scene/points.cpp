@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <utility>
 #include <vector>
 
+#include "survey/median.h"
 #include "survey/parallel.h"
 
 namespace stucco {
@@ -28,6 +30,32 @@ int ForEachTrack(int threads, Scene& scene, const std::function<int(SceneTrack&)
 bool Fits(const Scene& scene, const SceneTrack& track, const SceneElement& element,
           double max_error_sigmas) {
   return ReprojectionErrorInSigmas(scene, element, *track.position) < max_error_sigmas;
+}
+
+// Nothing is in focus that is so much nearer than the middle one of a photo's points.
+constexpr double kRightBeforeLens = 0.01;
+
+// By photo, the distance that its points keep at least.
+std::vector<double> LeastDistances(const Scene& scene, int threads) {
+  std::vector<double> least(scene.photos.size(), 0);
+  ParallelFor(least.size(), threads, [&](size_t photo) {
+    if (!scene.photos[photo].pose) return;
+    const Eigen::Vector3d centre = scene.photos[photo].pose->Center();
+    std::vector<double> distances;
+    for (const int track : TracksSeenBy(scene, static_cast<int>(photo))) {
+      distances.push_back((*scene.tracks[track].position - centre).norm());
+    }
+    least[photo] = kRightBeforeLens * Median(std::move(distances)).value_or(0);
+  });
+  return least;
+}
+
+bool IsRightBeforeALens(const Scene& scene, const std::vector<double>& least,
+                        const SceneTrack& track) {
+  return std::ranges::any_of(track.elements, [&](const SceneElement& element) {
+    return element.used && (*track.position - scene.photos[element.photo].pose->Center()).norm() <
+                               least[element.photo];
+  });
 }
 
 }  // namespace
@@ -55,6 +83,7 @@ void CompleteTracks(double max_error_sigmas, int threads, Scene& scene) {
 }
 
 int FilterPoints(const TriangulateOptions& options, int threads, Scene& scene) {
+  const std::vector<double> least = LeastDistances(scene, threads);
   return ForEachTrack(threads, scene, [&](SceneTrack& track) {
     if (!track.position) return 0;
     int used = 0;
@@ -64,7 +93,10 @@ int FilterPoints(const TriangulateOptions& options, int threads, Scene& scene) {
       element.used = Fits(scene, track, element, options.max_error_sigmas);
       ++(element.used ? used : dropped);
     }
-    if (used >= 2 && LargestRayAngle(scene, track) >= options.min_angle_rad) return dropped;
+    if (used >= 2 && LargestRayAngle(scene, track) >= options.min_angle_rad &&
+        !IsRightBeforeALens(scene, least, track)) {
+      return dropped;
+    }
     ClearPoint(track);
     return dropped + used;
   });

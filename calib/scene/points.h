@@ -19,8 +19,10 @@ int TriangulateAll(const TriangulateOptions& options, int threads, Scene& scene)
 // Observations of points take part where they fit by now, and not where they do not.
 void CompleteTracks(double max_error_sigmas, int threads, Scene& scene);
 
-// Takes observations beyond the error out, and points that are left with fewer than two or are seen
-// under a smaller angle. Returns the number of observations taken out.
+// Takes observations beyond the error out, and points that are left with fewer than two, are seen
+// under a smaller angle, or lie right before a lens: what photos from nearly one place share alone
+// has no depth, and an adjustment may pull these photos and it into one place, where it fits
+// whatever they show. Returns the number of observations taken out.
 int FilterPoints(const TriangulateOptions& options, int threads, Scene& scene);
 
 }  // namespace stucco

@@ -242,6 +242,19 @@ TEST(PoseSigmas, APhotoThatNothingHoldsLeavesThoseOfTheOthers) {
   EXPECT_TRUE(after[5].position < 0 || after[5].position > 20 * before[5].position);
 }
 
+// What two photos from nearly one place share alone has no depth, and may end up right before both
+// lenses, where any shift moves it without limit.
+TEST(PoseSigmas, PointsRightBeforeTheLensDoNotMoveThePicture) {
+  Scene scene = MakeScene({.num_photos = 6, .num_points = 200, .num_planes = 3, .noise_px = 0.5});
+  const auto before = EstimateSigmas({}, scene).poses;
+  SceneTrack& track = scene.tracks[TracksSeenBy(scene, 3)[0]];
+  const Eigen::Vector3d centre = scene.photos[3].pose->Center();
+  track.position = centre + 1e-7 * (*track.position - centre);
+  const auto after = EstimateSigmas({}, scene).poses;
+  EXPECT_GT(after[3].picture_px, 0.5 * before[3].picture_px);
+  EXPECT_LT(after[3].picture_px, 2 * before[3].picture_px);
+}
+
 TEST(PoseSigmas, NoneWithoutAPose) {
   Scene scene = MakeScene({.num_photos = 5, .num_points = 120, .noise_px = 0.5});
   scene.photos[2].pose.reset();

@@ -238,6 +238,30 @@ TEST(FilterScene, DropsPosesThatLittleHolds) {
   ExpectConsistent(scene);
 }
 
+// Two photos and a point in one place fit whatever they show.
+TEST(FilterScene, DropsPointsRightBeforeALens) {
+  Scene scene = MakeScene(
+      {.num_photos = 4, .num_points = 60, .seen_share = 1, .model = CameraModel::kPinhole});
+  const auto shared = std::ranges::find_if(
+      scene.tracks, [](const SceneTrack& track) { return track.elements.size() == 4; });
+  ASSERT_NE(shared, scene.tracks.end());
+  const Eigen::Vector3d centre = scene.photos[1].pose->Center();
+  for (const double share : {0.1, 1e-6}) {
+    SceneTrack& track = *shared;
+    track.position = centre + share * (*track.position - centre);
+    for (SceneElement& element : track.elements) {
+      element.used = element.photo == 1 || element.photo == 2;
+      if (element.photo != 2) continue;
+      const auto pixel = scene.CameraOf(2).Project(*scene.photos[2].pose * *track.position);
+      ASSERT_TRUE(pixel);
+      scene.photos[2].keypoints[element.keypoint] = *pixel;
+    }
+    const bool stays = share > 0.01;
+    EXPECT_EQ(FilterScene({}, scene), stays ? 0 : 2);
+    EXPECT_EQ(track.position.has_value(), stays);
+  }
+}
+
 TEST(FilterScene, DropsPointsUnderSmallAngles) {
   Scene scene = MakeScene({.num_photos = 4, .num_points = 60});
   FilterScene({.min_angle_rad = 3}, scene);

@@ -58,7 +58,7 @@ class GoodMaps(Plan):
         self.assertEqual(done.returncode, 0, done.stderr)
         folder = self.root / "survey/plan"
         for name in ("plan.json", "stats.json", "preview.svg", "coverage.svg",
-                     "checklist.html", "mission.kml", "plan.geojson"):
+                     "matches.svg", "checklist.html", "mission.kml", "plan.geojson"):
             self.assertGreater((folder / name).stat().st_size, 500, name)
         checked = subprocess.run(
             [sys.executable, stucco.ROOT / "bench/plan_check.py", folder / "plan.json",
