@@ -5,7 +5,7 @@
 #include "calib/calibrate.h"
 #include "capture_ingest/ingest.h"
 #include "dense/densify.h"
-#include "proxy/abstract.h"
+#include "proxy/run_proxy.h"
 #include "report/report.h"
 #include "survey/survey_folder.h"
 #include "texture/texture.h"
