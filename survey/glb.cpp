@@ -49,9 +49,8 @@ Json JsonOf(const GlbMaterial& material) {
       {"metallicFactor", 0},
       {"roughnessFactor", material.roughness}};
   if (material.texture >= 0) pbr["baseColorTexture"] = {{"index", material.texture}};
-  Json json = {{"name", material.name},
-               {"pbrMetallicRoughness", pbr},
-               {"doubleSided", material.two_sided}};
+  Json json = {
+      {"name", material.name}, {"pbrMetallicRoughness", pbr}, {"doubleSided", material.two_sided}};
   if (material.cut_out) {
     json["alphaMode"] = "MASK";
     json["alphaCutoff"] = 0.5;
@@ -126,8 +125,8 @@ class GlbBuilder {
                                          {{"componentType", kFloat}, {"type", "VEC3"}});
     }
     if (!primitive.uv.empty()) {
-      attributes["TEXCOORD_0"] = AddAccessor(primitive.uv, kArrayBuffer,
-                                             {{"componentType", kFloat}, {"type", "VEC2"}});
+      attributes["TEXCOORD_0"] =
+          AddAccessor(primitive.uv, kArrayBuffer, {{"componentType", kFloat}, {"type", "VEC2"}});
     }
     const size_t indices = AddAccessor(primitive.indices, kElementArrayBuffer,
                                        {{"componentType", kUnsignedInt}, {"type", "SCALAR"}});

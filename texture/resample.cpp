@@ -39,7 +39,9 @@ class Projector {
   Block MakeBlock(double x, double y, double width, double height) const {
     Block block;
     for (int i = 0; i < 4; ++i) {
-      const auto pixel = At(x + (i % 2) * width, y + (i / 2) * height);
+      const int column = i % 2;
+      const int row = i / 2;
+      const auto pixel = At(x + column * width, y + row * height);
       if (!pixel) return block;
       block.corner[i] = *pixel;
     }

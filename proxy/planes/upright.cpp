@@ -138,6 +138,7 @@ UpEstimate EstimateUp(const std::vector<Plane>& planes, std::span<const SurveyPh
   std::vector<Candidate> candidates;
   for (const auto& up : UpFromPhotos(photos)) candidates.push_back({up, true});
   std::vector<const Plane*> largest;
+  largest.reserve(planes.size());
   for (const Plane& plane : planes) largest.push_back(&plane);
   std::stable_sort(largest.begin(), largest.end(),
                    [](const Plane* a, const Plane* b) { return a->area > b->area; });

@@ -43,7 +43,8 @@ TEST(GlbBytes, HoldsChunksThatFillTheFileAndViewsThatAreAligned) {
   const size_t text = Word(glb, 12);
   EXPECT_EQ(28 + text + Word(glb, 20 + text), glb.size());
   const json gltf = JsonOf(glb);
-  for (const json& view : gltf.at("bufferViews")) EXPECT_EQ(view.at("byteOffset").get<int>() % 4, 0);
+  for (const json& view : gltf.at("bufferViews"))
+    EXPECT_EQ(view.at("byteOffset").get<int>() % 4, 0);
   const json& attributes = gltf["meshes"][0]["primitives"][0].at("attributes");
   const json& positions = gltf["accessors"][attributes.at("POSITION").get<int>()];
   EXPECT_EQ(positions.at("min"), json({0.0, -1.0, 0.0}));
