@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -44,7 +45,7 @@
 namespace stucco {
 namespace {
 
-constexpr double kRadians = M_PI / 180;
+constexpr double kRadians = std::numbers::pi / 180;
 constexpr char kAmbiguous[] =
     "ambiguous: the walls that it shows repeat themselves, and its recorded position does not tell "
     "one bay from the next; record positions by RTK, or show a corner, the ground or a roof too";

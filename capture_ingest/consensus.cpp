@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "survey/median.h"
 
@@ -53,7 +54,7 @@ void QuarantinePositions(std::vector<PhotoRecord>& records) {
   const double longitude = *Median(longitudes);
   const auto distance_deg = [&](const PhotoRecord& record) {
     const GeoPosition& at = *record.photo.position;
-    const double shrink = std::cos(latitude * 3.14159265358979323846 / 180);
+    const double shrink = std::cos(latitude * std::numbers::pi / 180);
     return std::hypot(at.latitude_deg - latitude,
                       LongitudeDifference(at.longitude_deg, longitude) * shrink);
   };

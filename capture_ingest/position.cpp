@@ -6,12 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace stucco {
 namespace {
 
 constexpr double kMetresPerDegree = 111320;  // of latitude, to the accuracy that is needed here
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 
 // EXIF heights below the Dead Sea or above any aircraft with a camera are no heights.
 constexpr double kLowestHeight_m = -500;

@@ -17,7 +17,7 @@
 namespace stucco {
 namespace {
 
-void PrintSummary(const PlanSummary& summary, const CommonOptions& common) {
+void PrintSummary(const plan::PlanSummary& summary, const CommonOptions& common) {
   const std::string next = "stucco run " + ShellWord(common.survey);
   const auto in_plan = [&](const char* name) {
     return (std::filesystem::path(common.survey) / "plan" / name).string();

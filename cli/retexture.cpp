@@ -31,7 +31,7 @@ void PrintFacet(const EpochFacet& facet) {
 
 void PrintReport(const RetextureReport& report, const CommonOptions& common) {
   const Epoch& epoch = report.epoch;
-  const auto placed = std::ranges::count(epoch.photos, true, &EpochPhoto::placed);
+  const auto placed = std::ranges::count(epoch.photos, true, &EpochPhoto::is_placed);
   const auto kept = std::ranges::count(epoch.facets, FacetChoice::kKept, &EpochFacet::choice);
   if (common.json) {
     Json facets = Json::array();

@@ -18,8 +18,8 @@
 #include "pipeline/engine/engine.h"
 #include "pipeline/verbs/init.h"
 #include "pipeline/verbs/simulate.h"
+#include "simulate/flight/flight_folder.h"
 #include "simulate/flight/fly.h"
-#include "simulate/flight/photo_store.h"
 
 namespace stucco {
 namespace {

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace stucco {
 namespace {
 
-constexpr double kDegrees = 180 / M_PI;
+constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kDepthMargin = 1.4;
 constexpr size_t kLeastShared = 10;
 

@@ -5,7 +5,7 @@
 #include "calib/calibrate.h"
 #include "capture_ingest/ingest.h"
 #include "dense/densify.h"
-#include "proxy/abstract.h"
+#include "proxy/run_proxy.h"
 #include "report/report.h"
 #include "survey/survey_folder.h"
 #include "texture/texture.h"
@@ -81,7 +81,7 @@ Stage TextureStage() {
   Stage stage;
   stage.name = "texture";
   stage.title = "facade textures and the textured model";
-  stage.version = 5;
+  stage.version = 6;
   stage.needs = {"ingest", "calib", "dense", "proxy"};
   stage.inputs = {kFacetsFile, kSparseFolder, kGeorefFile, kCloudFile, kCapturesFile, kPlanFile};
   stage.opens_photos = true;

@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
-
 #include "proxy/cloud/input.h"
 #include "proxy/options/findings.h"
 #include "proxy/options/proxy_options.h"
 #include "survey/proxy.h"
-#include "survey/stage.h"
 
 namespace stucco {
 
@@ -17,12 +14,5 @@ namespace stucco {
 // (kStageFailed) when the cloud shows no plane.
 Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
                     ProxyFindings& findings);
-
-// `max_points`, or what half of the memory holds, but never under 100000.
-int PointsWithin(uint64_t memory_limit_bytes, int max_points);
-
-// dense/cloud.ply, calib/sparse/0, calib/georef.json and, where there is one, plan/plan.json ->
-// facets.json, proxy.obj, proxy.city.json.
-void RunProxy(const ProxyOptions& options, StageContext& context);
 
 }  // namespace stucco

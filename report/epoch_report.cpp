@@ -81,7 +81,8 @@ int CountOf(const Epoch& epoch, FacetChoice choice) {
 
 std::string SummarySection(const Page& page) {
   const Epoch& epoch = page.epoch;
-  const int placed = static_cast<int>(std::ranges::count(epoch.photos, true, &EpochPhoto::placed));
+  const int placed =
+      static_cast<int>(std::ranges::count(epoch.photos, true, &EpochPhoto::is_placed));
   const int changed = static_cast<int>(std::ranges::count_if(epoch.facets, HasChanged));
   const auto count = [&](FacetChoice choice) { return fmt::format("{}", CountOf(epoch, choice)); };
   return fmt::format(
@@ -196,7 +197,7 @@ std::string PhotosSection(const Page& page) {
     lines += fmt::format(
         "<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"num\">{}</td>"
         "<td class=\"num\">{}</td><td>{}</td></tr>",
-        IsolatedHtml(photo.path), photo.placed ? "placed" : "not used", photo.inliers,
+        IsolatedHtml(photo.path), photo.is_placed() ? "placed" : "not used", photo.inliers,
         photo.picture_sigma_px >= 0 ? Decimal(photo.picture_sigma_px, 2) + " px" : "-",
         EscapeHtml(photo.why));
   }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "survey/geometry2d.h"
@@ -113,7 +114,8 @@ class Sweeper {
     const auto add = [&](const Vector2d& at, size_t wall, bool begins) {
       const Vector2d d = at - p_;
       // -pi only for directions below -x; -x itself is +pi, as in ComesBefore.
-      const double angle = d.y() == 0 ? (d.x() > 0 ? 0 : M_PI) : std::atan2(d.y(), d.x());
+      const double angle =
+          d.y() == 0 ? (d.x() > 0 ? 0 : std::numbers::pi) : std::atan2(d.y(), d.x());
       events.push_back({at, static_cast<int>(wall), begins, angle});
     };
     for (size_t i = 0; i < walls_.size(); ++i) {

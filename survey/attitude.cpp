@@ -3,11 +3,12 @@
 #include "survey/attitude.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace stucco {
 
 Eigen::Quaterniond CamFromEnu(const GimbalAngles& angles) {
-  constexpr double kRadians = M_PI / 180;
+  constexpr double kRadians = std::numbers::pi / 180;
   const double yaw = angles.yaw_deg * kRadians;
   const double pitch = angles.pitch_deg * kRadians;
   const double roll = angles.roll_deg * kRadians;
@@ -28,7 +29,8 @@ Eigen::Quaterniond AboutUp(double angle_rad) {
 
 Eigen::Vector3d RotationVector(const Eigen::Quaterniond& rotation) {
   const Eigen::AngleAxisd turn(rotation);
-  const double angle = turn.angle() > M_PI ? turn.angle() - 2 * M_PI : turn.angle();
+  const double angle =
+      turn.angle() > std::numbers::pi ? turn.angle() - 2 * std::numbers::pi : turn.angle();
   return angle * turn.axis();
 }
 

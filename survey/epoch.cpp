@@ -33,7 +33,7 @@ Json Known(bool known, double value) {
 Json ToJson(const EpochPhoto& photo) {
   Json json = {{"path", photo.path},
                {"hash", photo.hash},
-               {"placed", photo.placed},
+               {"placed", photo.is_placed()},
                {"why", photo.why},
                {"matched_photos", photo.matched_photos},
                {"points", photo.points},
@@ -42,9 +42,9 @@ Json ToJson(const EpochPhoto& photo) {
                {"picture_sigma_px", Known(photo.picture_sigma_px >= 0, photo.picture_sigma_px)},
                {"pose", nullptr},
                {"camera", nullptr}};
-  if (!photo.placed) return json;
-  const Eigen::Quaterniond& q = photo.cam_from_world.rotation;
-  const Eigen::Vector3d& t = photo.cam_from_world.translation;
+  if (!photo.is_placed()) return json;
+  const Eigen::Quaterniond& q = photo.cam_from_world->rotation;
+  const Eigen::Vector3d& t = photo.cam_from_world->translation;
   json["pose"] = {{"rotation", {q.w(), q.x(), q.y(), q.z()}},
                   {"translation", {t.x(), t.y(), t.z()}}};
   json["camera"] = {{"model", Name(photo.camera.model)},

@@ -47,18 +47,22 @@ struct EpochFacet {
   double shift_px = -1;  // median distance of details then and now, texels; -1: not measured
 };
 
+// A new photo, and where it is in the survey.
 struct EpochPhoto {
   std::string path;  // relative to the photo folder
   std::string hash;
-  bool placed = false;
-  std::string why;             // not placed: the reason
-  int matched_photos = 0;      // of the survey
-  int points = 0;              // of the survey that it seems to show
-  int inliers = 0;             // of these, in agreement with its pose
-  double position_sigma = -1;  // of its pose: world units, -1: not known
+  std::optional<Pose> cam_from_world;  // nothing: not placed
+  std::string why;                     // not placed, for people
+  int matched_photos = 0;              // of the survey
+  int points = 0;                      // of the survey that it seems to show
+  int inliers = 0;                     // of these, in agreement with its pose
+  // One standard deviation of the pose, the survey taken as it is: unit of the world, root of the
+  // sum over the axes; in its picture, full-size pixels. -1: not known.
+  double position_sigma = -1;
   double picture_sigma_px = -1;
-  Pose cam_from_world;  // where placed
   Camera camera;
+
+  bool is_placed() const { return cam_from_world.has_value(); }
 };
 
 struct Epoch {

@@ -45,6 +45,7 @@ std::string TextAsToml(std::string_view text) {
 
 std::string ListAsToml(const std::vector<double>& values) {
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const double value : values) texts.push_back(DoubleAsToml(value));
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }

@@ -147,17 +147,17 @@ Eigen::Matrix<double, 8, 1> PriorSigma(double limit_px) {
 std::vector<GridShift> SolveShifts(std::span<const GridMatch> matches,
                                    std::vector<GridShift> shifts, std::span<const int> terms_of,
                                    double limit_px) {
-  constexpr int terms = 8;
+  constexpr int kTerms = 8;
   const auto count = static_cast<Eigen::Index>(shifts.size());
   const Eigen::Matrix<double, 8, 1> sigma = PriorSigma(limit_px);
   for (int round = 0; round < kRounds; ++round) {
     // The kernel's width falls from the largest shift to a texel: far starts still converge.
     const double width = std::max(1.0, limit_px * std::pow(0.6, round));
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count * terms, count * terms);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(count * terms);
-    for (Eigen::Index i = 0; i < count * terms; ++i) {
-      const bool is_free = i % terms < terms_of[i / terms];
-      normal(i, i) = is_free ? 1 / (sigma[i % terms] * sigma[i % terms]) : kHeld;
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count * kTerms, count * kTerms);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(count * kTerms);
+    for (Eigen::Index i = 0; i < count * kTerms; ++i) {
+      const bool is_free = i % kTerms < terms_of[i / kTerms];
+      normal(i, i) = is_free ? 1 / (sigma[i % kTerms] * sigma[i % kTerms]) : kHeld;
     }
     for (const GridMatch& match : matches) {
       const double length = Residual(match, shifts).norm() / width;
@@ -168,19 +168,19 @@ std::vector<GridShift> SolveShifts(std::span<const GridMatch> matches,
       const Eigen::Vector2d wanted = match.in_a - match.in_b;
       const Eigen::Matrix<double, 8, 8> block = weight * basis.transpose() * basis;
       const Eigen::Matrix<double, 8, 1> pull = weight * basis.transpose() * wanted;
-      const Eigen::Index a = match.a * terms;
-      const Eigen::Index b = match.b * terms;
-      normal.block(a, a, terms, terms) += block;
-      normal.block(b, b, terms, terms) += block;
-      normal.block(a, b, terms, terms) -= block;
-      normal.block(b, a, terms, terms) -= block;
-      right.segment(a, terms) += pull;
-      right.segment(b, terms) -= pull;
+      const Eigen::Index a = match.a * kTerms;
+      const Eigen::Index b = match.b * kTerms;
+      normal.block(a, a, kTerms, kTerms) += block;
+      normal.block(b, b, kTerms, kTerms) += block;
+      normal.block(a, b, kTerms, kTerms) -= block;
+      normal.block(b, a, kTerms, kTerms) -= block;
+      right.segment(a, kTerms) += pull;
+      right.segment(b, kTerms) -= pull;
     }
     const Eigen::VectorXd solution = normal.ldlt().solve(right);
     for (Eigen::Index i = 0; i < count; ++i) {
       shifts[i].terms.setZero();
-      shifts[i].terms.head(terms_of[i]) = solution.segment(i * terms, terms_of[i]);
+      shifts[i].terms.head(terms_of[i]) = solution.segment(i * kTerms, terms_of[i]);
     }
   }
   return shifts;

@@ -56,21 +56,52 @@ float BorderNearness(const Camera& camera, const Eigen::Vector2d& pixel) {
   return static_cast<float>(std::clamp(1 - share, 0.0, 1.0));
 }
 
+// A texel in a photo, as if nothing stood in between.
+struct ShownTexel {
+  TexelView view;
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+};
+
+// Nothing where the photo does not show it well enough to be of use.
+std::optional<ShownTexel> ShowTexel(const SurveyPhoto& photo, const TexelGrid& grid, int column,
+                                    int row) {
+  const auto pixel = ProjectIntoPhoto(photo, grid.Center(column, row));
+  if (!pixel) return std::nullopt;
+  if (BorderDistance(photo.camera, *pixel) < kUnusedShare * photo.camera.width_px) {
+    return std::nullopt;
+  }
+  const auto jacobian = PixelsPerTexel(photo, grid, column + 0.5, row + 0.5);
+  if (!jacobian) return std::nullopt;
+  const double area = std::abs(jacobian->determinant());
+  if (!(area > 0)) return std::nullopt;
+  ShownTexel shown{{}, *pixel};
+  shown.view.sight = Sight::kFree;
+  shown.view.resolution = static_cast<float>(SmallerSingularValue(*jacobian));
+  shown.view.footprint = static_cast<float>(grid.texel / std::sqrt(area));
+  shown.view.border = BorderNearness(photo.camera, *pixel);
+  return shown;
+}
+
+// Whether a third of the texel and its neighbours that can be seen at all are hidden.
+bool IsAmongHidden(const TexelGrid& raster, const std::vector<TexelView>& texels, int x, int y) {
+  int hidden = 0;
+  int known = 0;
+  for (int j = std::max(0, y - 1); j <= std::min(raster.height - 1, y + 1); ++j) {
+    for (int i = std::max(0, x - 1); i <= std::min(raster.width - 1, x + 1); ++i) {
+      const Sight sight = texels[static_cast<size_t>(j) * raster.width + i].sight;
+      hidden += sight == Sight::kBehind;
+      known += sight != Sight::kNot;
+    }
+  }
+  return 3 * hidden >= known && hidden > 0;
+}
+
 // Texels with a third of their neighbourhood hidden become hidden too.
 void GrowHidden(const TexelGrid& raster, std::vector<TexelView>& texels) {
   std::vector<uint8_t> grown(texels.size(), 0);
   for (int y = 0; y < raster.height; ++y) {
     for (int x = 0; x < raster.width; ++x) {
-      int hidden = 0;
-      int known = 0;
-      for (int j = std::max(0, y - 1); j <= std::min(raster.height - 1, y + 1); ++j) {
-        for (int i = std::max(0, x - 1); i <= std::min(raster.width - 1, x + 1); ++i) {
-          const Sight sight = texels[static_cast<size_t>(j) * raster.width + i].sight;
-          hidden += sight == Sight::kBehind;
-          known += sight != Sight::kNot;
-        }
-      }
-      grown[static_cast<size_t>(y) * raster.width + x] = 3 * hidden >= known && hidden > 0;
+      grown[static_cast<size_t>(y) * raster.width + x] = IsAmongHidden(raster, texels, x, y);
     }
   }
   for (size_t i = 0; i < texels.size(); ++i) {
@@ -137,13 +168,8 @@ RasterView MeasureView(const SightScene& scene, int photo_index, const Facet& fa
       const Eigen::Vector3d to_camera = (camera - point).normalized();
       const double cos_angle = facet.normal.dot(to_camera);
       if (!(cos_angle >= least_cos)) continue;
-      const auto pixel = ProjectIntoPhoto(photo, point);
-      if (!pixel) continue;
-      if (BorderDistance(photo.camera, *pixel) < kUnusedShare * photo.camera.width_px) continue;
-      const auto jacobian = PixelsPerTexel(photo, grid, column + 0.5, row + 0.5);
-      if (!jacobian) continue;
-      const double area = std::abs(jacobian->determinant());
-      if (!(area > 0)) continue;
+      const auto shown = ShowTexel(photo, grid, column, row);
+      if (!shown) continue;
       const double height = grid.HeightAt(column + 0.5, row + 0.5);
       // Behind its plane a point is seen through it.
       const double lift = limits.tolerance + std::max(0.0, -height);
@@ -153,13 +179,10 @@ RasterView MeasureView(const SightScene& scene, int photo_index, const Facet& fa
       if (scene.occlusion->Blocked(before_plane, camera)) continue;
       if (grid.relief && grid.relief->Hides(InGrid(grid, point), InGrid(grid, camera))) continue;
       TexelView& view = out.texels[index];
-      view.sight = Sight::kFree;
-      view.resolution = static_cast<float>(SmallerSingularValue(*jacobian));
-      view.footprint = static_cast<float>(grid.texel / std::sqrt(area));
+      view = shown->view;
       view.cos_angle = static_cast<float>(cos_angle);
-      view.border = BorderNearness(photo.camera, *pixel);
       if (scene.nearest.empty()) continue;
-      const CloudView cloud = AskCloud(scene, photo_index, *pixel, facet,
+      const CloudView cloud = AskCloud(scene, photo_index, shown->pixel, facet,
                                        {height - limits.clearance, height + limits.clearance});
       view.no_points = cloud == CloudView::kNoPoints;
       if (cloud == CloudView::kBeyond) view.sight = Sight::kBeyond;

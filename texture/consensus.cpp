@@ -21,13 +21,6 @@ constexpr double kFewestCompared = 50;
 constexpr float kOther = 0.5f;        // a disagreement that shows something else, not haze
 constexpr double kLeastContrast = 5;  // standard deviation in grey levels
 
-float Difference(const float* a, const float* b) {
-  const float r = a[0] - b[0];
-  const float g = a[1] - b[1];
-  const float bl = a[2] - b[2];
-  return std::sqrt((r * r + g * g + bl * bl) / 3);
-}
-
 float Median(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -59,13 +52,13 @@ int MedianColour(std::span<const RasterPicture> pictures, size_t i, float* rgb) 
 float Contrast(const std::vector<float>& rgb, const TexelGrid& raster, int x, int y) {
   float contrast = 0;
   const size_t i = static_cast<size_t>(y) * raster.width + x;
-  if (x + 1 < raster.width) contrast = Difference(&rgb[3 * i], &rgb[3 * (i + 1)]);
-  if (x > 0) contrast = std::max(contrast, Difference(&rgb[3 * i], &rgb[3 * (i - 1)]));
+  if (x + 1 < raster.width) contrast = ColourDifference(&rgb[3 * i], &rgb[3 * (i + 1)]);
+  if (x > 0) contrast = std::max(contrast, ColourDifference(&rgb[3 * i], &rgb[3 * (i - 1)]));
   const size_t stride = raster.width;
   if (y + 1 < raster.height) {
-    contrast = std::max(contrast, Difference(&rgb[3 * i], &rgb[3 * (i + stride)]));
+    contrast = std::max(contrast, ColourDifference(&rgb[3 * i], &rgb[3 * (i + stride)]));
   }
-  if (y > 0) contrast = std::max(contrast, Difference(&rgb[3 * i], &rgb[3 * (i - stride)]));
+  if (y > 0) contrast = std::max(contrast, ColourDifference(&rgb[3 * i], &rgb[3 * (i - stride)]));
   return contrast;
 }
 
@@ -99,7 +92,7 @@ float DistanceAtHeight(std::span<const RasterPicture> pictures, size_t asked,
     if (x < 0 || y < 0 || x >= raster.width || y >= raster.height) continue;
     const size_t i = static_cast<size_t>(y) * raster.width + x;
     if (pictures[q].sight[i] != Sight::kFree) continue;
-    distances[count++] = Difference(&pictures[q].rgb[3 * i], rgb);
+    distances[count++] = ColourDifference(&pictures[q].rgb[3 * i], rgb);
   }
   if (count + 1 < kFewestVoices) return std::numeric_limits<float>::infinity();
   const auto middle = distances.begin() + count / 2;
@@ -126,6 +119,13 @@ float Brightness(const float* rgb) {
 
 }  // namespace
 
+float ColourDifference(const float* a, const float* b) {
+  const float r = a[0] - b[0];
+  const float g = a[1] - b[1];
+  const float bl = a[2] - b[2];
+  return std::sqrt((r * r + g * g + bl * bl) / 3);
+}
+
 Consensus FindConsensus(std::span<const RasterPicture> pictures, const TexelGrid& raster) {
   Consensus consensus;
   consensus.rgb.assign(3 * raster.size(), 0);
@@ -146,8 +146,8 @@ std::vector<std::vector<float>> Disagreement(std::span<const RasterPicture> pict
       const float forgiven = 0.5f * Contrast(consensus.rgb, raster, x, y);
       for (size_t p = 0; p < pictures.size(); ++p) {
         if (pictures[p].sight[i] == Sight::kNot) continue;
-        const float distance =
-            std::max(0.0f, Difference(&pictures[p].rgb[3 * i], &consensus.rgb[3 * i]) - forgiven);
+        const float distance = std::max(
+            0.0f, ColourDifference(&pictures[p].rgb[3 * i], &consensus.rgb[3 * i]) - forgiven);
         out[p][i] = DisagreementAt(distance);
       }
     }

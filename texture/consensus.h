@@ -21,6 +21,9 @@ struct RasterPicture {
   Eigen::Vector3d camera = Eigen::Vector3d::Zero();
 };
 
+// Root mean square over the channels of two colours.
+float ColourDifference(const float* a, const float* b);
+
 // What most pictures show: per texel the median colour of those that see it freely (of all that see
 // it when fewer than three do) and their number.
 struct Consensus {

@@ -95,8 +95,10 @@ void FillSmoothly(std::vector<float>& rgb, const std::vector<uint8_t>& known, in
   rgb.swap(levels[0].rgb);
 }
 
-void FillPictureSmoothly(Image& picture, const std::vector<uint8_t>& known) {
-  if (std::all_of(known.begin(), known.end(), [](uint8_t k) { return k != 0; })) return;
+namespace {
+
+// A picture of half the size, each texel the mean of those known among its four, without gaps.
+Weighted HalvedAndFilled(const Image& picture, const std::vector<uint8_t>& known) {
   Weighted half;
   half.width = (picture.width_px + 1) / 2;
   half.height = (picture.height_px + 1) / 2;
@@ -118,6 +120,14 @@ void FillPictureSmoothly(Image& picture, const std::vector<uint8_t>& known) {
     for (int k = 0; k < 3; ++k) half.rgb[3 * i + k] /= half.weight[i];
   }
   FillSmoothly(half.rgb, half_known, half.width, half.height);
+  return half;
+}
+
+}  // namespace
+
+void FillPictureSmoothly(Image& picture, const std::vector<uint8_t>& known) {
+  if (std::all_of(known.begin(), known.end(), [](uint8_t k) { return k != 0; })) return;
+  const Weighted half = HalvedAndFilled(picture, known);
   for (int y = 0; y < picture.height_px; ++y) {
     for (int x = 0; x < picture.width_px; ++x) {
       if (known[static_cast<size_t>(y) * picture.width_px + x]) continue;

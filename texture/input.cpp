@@ -12,7 +12,7 @@
 #include "survey/plan_of_survey.h"
 #include "survey/ply.h"
 #include "survey/survey_folder.h"
-#include "survey/views_by_pose.h"
+#include "texture/views_by_pose.h"
 
 namespace stucco {
 namespace {

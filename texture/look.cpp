@@ -164,6 +164,7 @@ FacetLook LookAtFacet(const Facet& facet, const PaintScene& scene, const Texture
   look.texel = options.texel_size > 0 ? options.texel_size : FinestTexel(views, grid.texel);
   if (views.empty()) return look;
   std::vector<int> photos;
+  photos.reserve(views.size());
   for (const RasterView& view : views) photos.push_back(view.photo);
   const std::vector<float> prior = PriorCosts(facet, scene.sights.photos, photos);
   std::vector<std::vector<float>> costs;

@@ -71,7 +71,7 @@ class Matcher {
       match_[i] = RandomSource();
       if (coarse_match.empty()) continue;
       const cv::Point parent(targets_[i].x / 2, targets_[i].y / 2);
-      const auto from = coarse_match.at<cv::Vec2i>(parent);
+      const auto& from = coarse_match.at<cv::Vec2i>(parent);
       const cv::Point place(2 * from[0] + targets_[i].x % 2, 2 * from[1] + targets_[i].y % 2);
       if (from[0] >= 0 && IsSource(place)) match_[i] = place;
     }
@@ -241,7 +241,7 @@ void WriteBack(const Level& filled, const cv::Mat& field, const cv::Mat& hole, c
       cv::Vec3i value = smooth.at<cv::Vec3b>(y, x);
       const cv::Point small(std::min(filled.rgb.cols - 1, static_cast<int>(x * sx)),
                             std::min(filled.rgb.rows - 1, static_cast<int>(y * sy)));
-      const auto from = field.at<cv::Vec2i>(small);
+      const auto& from = field.at<cv::Vec2i>(small);
       const int fx = x + static_cast<int>(std::lround((from[0] - small.x) / sx));
       const int fy = y + static_cast<int>(std::lround((from[1] - small.y) / sy));
       if (from[0] >= 0 && fx >= 0 && fy >= 0 && fx < full.cols && fy < full.rows &&

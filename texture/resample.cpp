@@ -46,7 +46,9 @@ class Projector {
       return block;
     const double raised = HeightAt(x, y);
     for (int i = 0; i < 4; ++i) {
-      const auto pixel = At(x + (i % 2) * width, y + (i / 2) * height, raised);
+      const int column = i % 2;
+      const int row = i / 2;
+      const auto pixel = At(x + column * width, y + row * height, raised);
       if (!pixel) return block;
       block.corner[i] = *pixel;
     }

@@ -26,13 +26,6 @@ constexpr float kSeamUnseen = 0.5f;
 // Something stands out of the plane here: photos show it in different places.
 constexpr float kSeamRelief = 0.8f;
 
-float Difference(const float* a, const float* b) {
-  const float r = a[0] - b[0];
-  const float g = a[1] - b[1];
-  const float bl = a[2] - b[2];
-  return std::sqrt((r * r + g * g + bl * bl) / 3);
-}
-
 // Of the cell in this column and row with its right (direction 0) or lower neighbour (1).
 struct CellBorder {
   int x = 0;
@@ -61,8 +54,9 @@ float SeamAt(const RasterPicture& a, const RasterPicture& b, size_t i, size_t j)
       b.sight[j] == Sight::kNot) {
     return kSeamUnseen;
   }
-  const float colour =
-      (Difference(&a.rgb[3 * i], &b.rgb[3 * i]) + Difference(&a.rgb[3 * j], &b.rgb[3 * j])) / 2;
+  const float colour = (ColourDifference(&a.rgb[3 * i], &b.rgb[3 * i]) +
+                        ColourDifference(&a.rgb[3 * j], &b.rgb[3 * j])) /
+                       2;
   float step_a[3];
   float step_b[3];
   for (int k = 0; k < 3; ++k) {
@@ -70,7 +64,7 @@ float SeamAt(const RasterPicture& a, const RasterPicture& b, size_t i, size_t j)
     step_b[k] = b.rgb[3 * j + k] - b.rgb[3 * i + k];
   }
   const bool flat = a.sight[i] == Sight::kFree && b.sight[i] == Sight::kFree;
-  return (kSeamColour * colour + kSeamGradient * Difference(step_a, step_b)) / 255 +
+  return (kSeamColour * colour + kSeamGradient * ColourDifference(step_a, step_b)) / 255 +
          (flat ? 0 : kSeamRelief);
 }
 
@@ -266,6 +260,37 @@ std::vector<int> RefineToTexels(const CostedPictures& costed, const FacetRaster&
   return out;
 }
 
+// What a seam between two texels costs, for every pair of pictures on its two sides.
+void AddSeams(std::span<const RasterPicture> pictures, size_t i, size_t j, float scale,
+              float* costs) {
+  const size_t labels = pictures.size();
+  for (size_t a = 0; a < labels; ++a) {
+    for (size_t b = a + 1; b < labels; ++b) {
+      const float seam = scale * (kSeamFloor + SeamAt(pictures[a], pictures[b], i, j));
+      costs[a * labels + b] += seam;
+      costs[b * labels + a] += seam;
+    }
+  }
+}
+
+void FillSeams(std::span<const RasterPicture> pictures, const FacetRaster& raster,
+               const SelectOptions& options, LabelProblem& problem) {
+  problem.seams.assign(problem.cells() * 2 * problem.labels * problem.labels, 0);
+  const auto scale = static_cast<float>(options.seam_cost / options.cell);
+  for (int y = 0; y < problem.height; ++y) {
+    for (int x = 0; x < problem.width; ++x) {
+      const size_t c = static_cast<size_t>(y) * problem.width + x;
+      for (int direction = 0; direction < 2; ++direction) {
+        float* costs = &problem.seams[(c * 2 + direction) * problem.labels * problem.labels];
+        ForEachBorderPair(raster.grid, options.cell, {x, y, direction}, [&](size_t i, size_t j) {
+          if (raster.inside[i] == 0 || raster.inside[j] == 0) return;
+          AddSeams(pictures, i, j, scale, costs);
+        });
+      }
+    }
+  }
+}
+
 // The labelling problem on cells of options.cell raster texels. Data term: view cost, disagreement,
 // points of the cloud in front; seams: difference of colour and gradient on both sides of the cell
 // border (Kwatra et al., "Graphcut Textures", 2003).
@@ -279,26 +304,7 @@ LabelProblem MakeLabelProblem(const CostedPictures& costed, const FacetRaster& r
   problem.labels = static_cast<int>(pictures.size());
   FillData(costed, raster, cell, problem);
 
-  problem.seams.assign(problem.cells() * 2 * problem.labels * problem.labels, 0);
-  const auto scale = static_cast<float>(options.seam_cost / cell);
-  for (int y = 0; y < problem.height; ++y) {
-    for (int x = 0; x < problem.width; ++x) {
-      const size_t c = static_cast<size_t>(y) * problem.width + x;
-      for (int direction = 0; direction < 2; ++direction) {
-        float* to = &problem.seams[(c * 2 + direction) * problem.labels * problem.labels];
-        ForEachBorderPair(raster.grid, cell, {x, y, direction}, [&](size_t i, size_t j) {
-          if (raster.inside[i] == 0 || raster.inside[j] == 0) return;
-          for (int a = 0; a < problem.labels; ++a) {
-            for (int b = a + 1; b < problem.labels; ++b) {
-              const float seam = scale * (kSeamFloor + SeamAt(pictures[a], pictures[b], i, j));
-              to[a * problem.labels + b] += seam;
-              to[b * problem.labels + a] += seam;
-            }
-          }
-        });
-      }
-    }
-  }
+  FillSeams(pictures, raster, options, problem);
   double area = 0;
   const double full_cell = FullCell(raster, cell);
   for (uint16_t count : raster.inside) area += count / full_cell;

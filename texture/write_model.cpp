@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "texture/write_model.h"
 
-#include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -11,18 +10,18 @@
 #include <algorithm>
 #include <assimp/Exporter.hpp>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/glb.h"
 #include "survey/image.h"
 #include "survey/parallel.h"
 #include "survey/triangulate.h"
@@ -45,8 +44,7 @@ aiMaterial* MakeMaterial(const std::string& name, const std::string* texture) {
   const float shade = texture ? 1.0f : kGrey;
   const aiColor4D color(shade, shade, shade, 1);
   material->AddProperty(&color, 1, AI_MATKEY_COLOR_DIFFUSE);
-  material->AddProperty(&color, 1, AI_MATKEY_BASE_COLOR);
-  const aiShadingMode shading = aiShadingMode_Unlit;  // as an int the glTF exporter misses it
+  const aiShadingMode shading = aiShadingMode_Unlit;
   material->AddProperty(&shading, 1, AI_MATKEY_SHADING_MODEL);
   if (texture) {
     const aiString path(*texture);
@@ -178,8 +176,7 @@ std::vector<ImageSize> EmbeddedSizes(const std::vector<TexturedFacet>& facets,
   return sizes;
 }
 
-std::vector<uint8_t> EncodeJpeg(const std::filesystem::path& path, const ImageSize& size,
-                                int quality) {
+std::string EncodeJpeg(const std::filesystem::path& path, const ImageSize& size, int quality) {
   const Image image = ReadImage(path);
   cv::Mat picture(image.height_px, image.width_px, CV_8UC3,
                   const_cast<uint8_t*>(image.data.data()));
@@ -188,19 +185,7 @@ std::vector<uint8_t> EncodeJpeg(const std::filesystem::path& path, const ImageSi
   cv::cvtColor(scaled, scaled, cv::COLOR_RGB2BGR);
   std::vector<uint8_t> bytes;
   cv::imencode(".jpg", scaled, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
-  return bytes;
-}
-
-aiTexture* MakeEmbedded(const std::string& name, const std::vector<uint8_t>& bytes) {
-  auto* texture = new aiTexture();
-  texture->mFilename = aiString(name);
-  texture->mWidth = static_cast<unsigned>(bytes.size());
-  texture->mHeight = 0;  // compressed, mWidth bytes
-  const size_t texels = (bytes.size() + sizeof(aiTexel) - 1) / sizeof(aiTexel);
-  texture->pcData = new aiTexel[texels];
-  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<uint8_t*>(texture->pcData));
-  std::copy_n("jpg", 4, texture->achFormatHint);
-  return texture;
+  return {bytes.begin(), bytes.end()};
 }
 
 Eigen::Isometry3d TurnToYUp(const Eigen::Vector3d& up) {
@@ -217,31 +202,39 @@ Eigen::Isometry3d WithoutOffset(const TextureSet& textures) {
   return Eigen::Isometry3d(Eigen::Translation3d(-textures.model_offset));
 }
 
-uint32_t NumberAt(const std::string& bytes, size_t at) {
-  uint32_t number = 0;
-  std::memcpy(&number, bytes.data() + at, sizeof(number));
-  return number;
+Eigen::Vector2f GlbCoordinates(const TexturedFacet& texture, const Eigen::Vector3d& vertex) {
+  const Eigen::Vector3d offset = (vertex - texture.origin) / texture.metres_per_texel;
+  return Eigen::Vector2d(offset.dot(texture.u_axis) / texture.width_px,
+                         offset.dot(texture.v_axis) / texture.height_px)
+      .cast<float>();
 }
 
-void PutNumber(uint32_t number, size_t at, std::string& bytes) {
-  bytes.replace(at, sizeof(number), reinterpret_cast<const char*>(&number), sizeof(number));
+// A mesh without triangles where the facet has none.
+GlbMesh GlbMeshOf(const Facet& facet, const TexturedFacet* texture,
+                  const Eigen::Isometry3d& model_from_world, int material) {
+  GlbMesh mesh{facet.id, {}};
+  const FacetTriangles shape = TriangulateFacet(facet);
+  if (shape.triangles.empty()) return mesh;
+  GlbPrimitive& primitive = mesh.primitives.emplace_back();
+  primitive.material = material;
+  const Eigen::Vector3f normal = (model_from_world.linear() * facet.normal).cast<float>();
+  for (const Eigen::Vector3d& vertex : shape.vertices) {
+    primitive.positions.emplace_back((model_from_world * vertex).cast<float>());
+    primitive.normals.push_back(normal);
+    if (texture) primitive.uv.push_back(GlbCoordinates(*texture, vertex));
+  }
+  for (const auto& triangle : shape.triangles) {
+    primitive.indices.insert(primitive.indices.end(), triangle.begin(), triangle.end());
+  }
+  return mesh;
 }
 
-// Writes the offset into the extras of a GLB file's asset, which assimp 5.2 cannot do. The file is
-// a header of 12 bytes (the last four its length), then the length and type of the JSON chunk, the
-// JSON padded with blanks to four bytes, and the binary chunk.
-void AddOffset(const Eigen::Vector3d& offset, const std::filesystem::path& path) {
-  constexpr size_t kJson = 20;
-  std::string glb = ReadFile(path);
-  const size_t length = NumberAt(glb, 12);
-  nlohmann::ordered_json gltf = nlohmann::ordered_json::parse(glb.substr(kJson, length));
-  gltf["asset"]["extras"]["offset"] = {offset.x(), offset.y(), offset.z()};
-  std::string text = gltf.dump();
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  glb.replace(kJson, length, text);
-  PutNumber(static_cast<uint32_t>(text.size()), 12, glb);
-  PutNumber(static_cast<uint32_t>(glb.size()), 8, glb);
-  WriteFile(path, glb);
+GlbMaterial GlbMaterialOf(const std::string& name, int texture) {
+  return {.name = name,
+          .colour = Eigen::Vector3f::Constant(texture < 0 ? kGrey : 1.0f),
+          .texture = texture,
+          .unlit = true,
+          .two_sided = false};
 }
 
 }  // namespace
@@ -280,25 +273,33 @@ void WriteGlb(const Proxy& proxy, const TextureSet& textures, const std::filesys
               const GlbOptions& options) {
   const std::vector<TexturedFacet>& facets = textures.facets;
   const std::vector<ImageSize> sizes = EmbeddedSizes(facets, options);
-  std::vector<std::vector<uint8_t>> jpegs(facets.size());
+  std::vector<std::string> jpegs(facets.size());
   ParallelFor(facets.size(), options.threads, [&](size_t i) {
     if (facets[i].image.empty()) return;
     jpegs[i] = EncodeJpeg(folder / facets[i].image, sizes[i], options.jpeg_quality);
   });
-  TexturePath paths;
-  std::vector<aiTexture*> embedded;
+  GlbModel model;
+  model.repeat_textures = false;
+  model.offset = textures.model_offset;
+  model.materials.push_back(GlbMaterialOf("untextured", -1));
+  std::map<std::string, std::pair<const TexturedFacet*, int>> painted;  // by id, with the material
   for (size_t i = 0; i < facets.size(); ++i) {
     if (jpegs[i].empty()) continue;
-    paths[facets[i].id] = fmt::format("*{}", embedded.size());
-    const std::string name = std::filesystem::path(facets[i].image).stem().string();
-    embedded.push_back(MakeEmbedded(name, jpegs[i]));
+    painted[facets[i].id] = {&facets[i], static_cast<int>(model.materials.size())};
+    model.materials.push_back(GlbMaterialOf(facets[i].id, static_cast<int>(model.textures.size())));
+    model.textures.push_back({std::move(jpegs[i]), "image/jpeg"});
   }
   const Eigen::Isometry3d model_from_world = TurnToYUp(proxy.up) * WithoutOffset(textures);
-  const auto scene = MakeScene(proxy, textures, paths, model_from_world);
-  scene->mNumTextures = static_cast<unsigned>(embedded.size());
-  scene->mTextures = MoveIntoArray(embedded);
-  Export(*scene, "glb2", folder / "model.glb");
-  if (!textures.model_offset.isZero(0)) AddOffset(textures.model_offset, folder / "model.glb");
+  for (const Building& building : proxy.buildings) {
+    for (const Facet& facet : building.facets) {
+      const auto own = painted.find(facet.id);
+      const auto [texture, material] =
+          own != painted.end() ? own->second : std::pair<const TexturedFacet*, int>(nullptr, 0);
+      GlbMesh mesh = GlbMeshOf(facet, texture, model_from_world, material);
+      if (!mesh.primitives.empty()) model.meshes.push_back(std::move(mesh));
+    }
+  }
+  WriteFile(folder / "model.glb", GlbBytes(model));
 }
 
 }  // namespace stucco

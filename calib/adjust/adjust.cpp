@@ -405,6 +405,7 @@ double PriorSigma(const SceneCamera& camera, int i) {
 }
 
 AdjustReport Adjust(const AdjustOptions& options, Scene& scene) {
+  assert(IsConsistent(scene));
   return Adjustment(options, scene).Solve();
 }
 

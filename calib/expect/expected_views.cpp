@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "calib/expect/project_inside.h"
+#include "site/incidence.h"
 #include "site/sightings.h"
 #include "site/site_model.h"
 #include "site/site_of_plan.h"
@@ -17,7 +19,7 @@
 namespace stucco {
 namespace {
 
-constexpr double kRadians = M_PI / 180;
+constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kSpacing_m = 2;
 constexpr double kGroundReach_m = 30;
 constexpr double kOffSurface_m = 0.05;  // a line of sight to a photo begins at the point
@@ -26,8 +28,7 @@ constexpr double kOffSurface_m = 0.05;  // a line of sight to a photo begins at 
 constexpr double kReach = 4;
 constexpr double kLeastReach_m = 100;
 constexpr double kMostReach_m = 1000;
-// A surface seen at a flatter angle shows nothing that matches.
-const double kLeastFacing = std::cos(80 * kRadians);
+const double kLeastFacing = std::cos(kMaxShownIncidence_rad);
 // SIFT matches about these changes of direction and scale (Mikolajczyk et al. 2005).
 const double kAlikeDirection = std::cos(50 * kRadians);
 constexpr double kAlikeScale = 3;

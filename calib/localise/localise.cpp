@@ -21,6 +21,7 @@
 #include "calib/two_view/verify.h"
 #include "survey/error.h"
 #include "survey/parallel.h"
+#include "survey/survey_photo.h"
 
 namespace stucco {
 namespace {
@@ -31,12 +32,6 @@ constexpr size_t kMatchAll = 30;
 constexpr size_t kMostAlike = 15;
 constexpr size_t kNearest = 10;
 constexpr double kGuessedFocal = 0.5;  // relative standard deviation of one
-
-// A photo of the model with features.
-struct ModelPhoto {
-  const RegisteredImage* image = nullptr;
-  const CapturedPhoto* captured = nullptr;
-};
 
 // Photos with their features, ready to be matched.
 struct FeatureSet {
@@ -61,25 +56,15 @@ FeatureSet Detect(const CalibOptions& options, std::vector<const CapturedPhoto*>
 }
 
 // Those whose features are in a checkpoint or can be found again, by id.
-std::vector<ModelPhoto> PhotosWithFeatures(const CalibOptions& options, const FinishedModel& model,
-                                           const StageContext& context) {
-  std::map<std::string, const CapturedPhoto*> by_path;
-  for (const CapturedPhoto& photo : model.captures.photos) {
-    if (photo.usable) by_path[photo.path] = &photo;
-  }
-  std::vector<ModelPhoto> photos;
-  size_t gone = 0;
-  for (const auto& [id, image] : model.reconstruction.photos) {
-    const auto captured = by_path.find(image.name);
-    if (captured == by_path.end()) continue;
+std::vector<SurveyPhoto> PhotosWithFeatures(const CalibOptions& options, const FinishedModel& model,
+                                            const StageContext& context) {
+  std::vector<SurveyPhoto> photos = JoinPhotos(model.reconstruction, model.captures);
+  std::erase_if(photos, [](const SurveyPhoto& photo) { return !photo.captured.usable; });
+  const size_t gone = std::erase_if(photos, [&](const SurveyPhoto& photo) {
     std::error_code error;
-    if (std::filesystem::exists(model.photos / image.name, error) ||
-        context.units->Load("features", FeaturesKey(options, *captured->second))) {
-      photos.push_back({&image, captured->second});
-    } else {
-      ++gone;
-    }
-  }
+    return !std::filesystem::exists(model.photos / photo.path(), error) &&
+           !context.units->Load("features", FeaturesKey(options, photo.captured));
+  });
   if (photos.empty()) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: the photos of the survey are not there, nor what calibration "
@@ -98,12 +83,11 @@ std::vector<ModelPhoto> PhotosWithFeatures(const CalibOptions& options, const Fi
 
 // By camera of the new photos: as the model knows it, else as its metadata say.
 std::vector<SceneCamera> CamerasFor(const CalibOptions& options, const FinishedModel& model,
-                                    const std::vector<ModelPhoto>& photos,
+                                    const std::vector<SurveyPhoto>& photos,
                                     const Captures& captures) {
   std::map<std::string, const Camera*> known;
-  for (const ModelPhoto& photo : photos) {
-    known.try_emplace(model.captures.cameras[photo.captured->camera].key,
-                      &model.reconstruction.cameras.at(photo.image->camera));
+  for (const SurveyPhoto& photo : photos) {
+    known.try_emplace(model.captures.cameras[photo.captured.camera].key, &photo.camera);
   }
   const CameraModel wished =
       CameraModelFromName(options.camera_model).value_or(CameraModel::kOpenCv);
@@ -195,7 +179,7 @@ std::vector<Eigen::Vector2d> PixelsOf(const Features& features) {
 struct Work {
   const CalibOptions& options;
   const FinishedModel& model;
-  const std::vector<ModelPhoto>& model_photos;
+  const std::vector<SurveyPhoto>& model_photos;
   const FeatureSet& old;
   const FeatureSet& added;
   const std::vector<SceneCamera>& cameras;  // of the new photos
@@ -205,21 +189,20 @@ PairMatches MatchPair(const Work& work, int added, int old) {
   const Features first = FeaturesOf(work.options, work.added, added);
   const Features second = FeaturesOf(work.options, work.old, old);
   const CapturedPhoto& photo = *work.added.photos[added];
-  const RegisteredImage& image = *work.model_photos[old].image;
+  const SurveyPhoto& of_model = work.model_photos[old];
   const double old_scale = DetectionScale(work.options, *work.old.photos[old]);
   VerifyOptions verify;
   verify.max_error_px = 4 * std::max(DetectionScale(work.options, photo), old_scale);
   const SceneCamera& camera = work.cameras[photo.camera];
   if (camera.focal_sigma_ratio < kGuessedFocal) {
-    verify.cameras =
-        PairCameras{camera.intrinsics, work.model.reconstruction.cameras.at(image.camera),
-                    camera.focal_sigma_ratio};
+    verify.cameras = PairCameras{camera.intrinsics, of_model.camera, camera.focal_sigma_ratio};
   }
   const std::vector<Match> matches =
       MatchDescriptors(UnitDescriptors(first), UnitDescriptors(second), work.options.match_ratio);
   const auto pair = VerifyPair(PixelsOf(first), PixelsOf(second), matches, verify);
   if (!pair) return {};
-  const std::vector<PointId> points = PointsOfKeypoints(second.keypoints, image, old_scale);
+  const std::vector<PointId> points = PointsOfKeypoints(
+      second.keypoints, work.model.reconstruction.photos.at(of_model.id), old_scale);
   PairMatches result{true, {}};
   for (const Match& match : pair->inliers) {
     if (points[match.second].IsValid()) {
@@ -261,14 +244,34 @@ std::vector<const CapturedPhoto*> UsableOf(const Captures& captures) {
   return usable;
 }
 
+// What is known before any is placed.
+std::vector<EpochPhoto> DescribePhotos(const Captures& captures) {
+  std::vector<EpochPhoto> photos;
+  for (const CapturedPhoto& captured : captures.photos) {
+    EpochPhoto& photo = photos.emplace_back();
+    photo.path = captured.path;
+    photo.hash = captured.hash;
+    photo.why = captured.why;
+  }
+  return photos;
+}
+
+void WriteOutcome(const PlacedPhoto& placed, EpochPhoto& photo) {
+  photo.why = placed.why;
+  photo.points = placed.num_points;
+  photo.inliers = placed.num_inliers;
+  photo.position_sigma = placed.sigma.position;
+  photo.picture_sigma_px = placed.sigma.picture_px;
+}
+
 }  // namespace
 
-std::vector<LocalisedPhoto> LocalisePhotos(const CalibOptions& options, const FinishedModel& model,
-                                           const Captures& captures, const StageContext& context) {
-  const std::vector<ModelPhoto> model_photos = PhotosWithFeatures(options, model, context);
+std::vector<EpochPhoto> LocalisePhotos(const CalibOptions& options, const FinishedModel& model,
+                                       const Captures& captures, const StageContext& context) {
+  const std::vector<SurveyPhoto> model_photos = PhotosWithFeatures(options, model, context);
   std::vector<const CapturedPhoto*> captured;
   captured.reserve(model_photos.size());
-  for (const ModelPhoto& photo : model_photos) captured.push_back(photo.captured);
+  for (const SurveyPhoto& photo : model_photos) captured.push_back(&photo.captured);
   StageContext of_model = context;
   of_model.photos = model.photos;
   const FeatureSet old = Detect(options, std::move(captured), model.captures, of_model);
@@ -299,12 +302,13 @@ std::vector<LocalisedPhoto> LocalisePhotos(const CalibOptions& options, const Fi
 
   Scene scene = MakeSceneOf(work, votes);
   const std::vector<PlacedPhoto> placed = PlaceInModel(scene);
-  std::vector<LocalisedPhoto> localised;
+  std::vector<EpochPhoto> localised = DescribePhotos(captures);
   for (size_t i = 0; i < placed.size(); ++i) {
-    const auto capture = static_cast<int>(added.photos[i] - captures.photos.data());
-    localised.push_back({capture, scene.CameraOf(static_cast<int>(i)), scene.photos[i].pose,
-                         placed[i].why, matched[i], placed[i].num_points, placed[i].num_inliers,
-                         placed[i].sigma.position, placed[i].sigma.picture_px});
+    EpochPhoto& photo = localised[added.photos[i] - captures.photos.data()];
+    photo.matched_photos = matched[i];
+    photo.cam_from_world = scene.photos[i].pose;
+    photo.camera = scene.CameraOf(static_cast<int>(i));
+    WriteOutcome(placed[i], photo);
   }
   return localised;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
@@ -24,7 +25,7 @@ constexpr size_t kLeastPhotos = 3;
 constexpr double kCommonShare = 0.5;  // of the variance of neighbours' records
 // What poses may be off by where records are better.
 constexpr double kPoseSigma_m = 0.05;
-constexpr double kPoseSigma_rad = 0.05 * M_PI / 180;
+constexpr double kPoseSigma_rad = 0.05 * std::numbers::pi / 180;
 
 // What a record of one kind is off by, in its standard deviations.
 using Difference = std::optional<Eigen::Vector3d>;

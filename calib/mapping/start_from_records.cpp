@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "calib/adjust/adjust.h"
@@ -22,7 +23,7 @@
 namespace stucco {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 // Of the photos; the others are attached to these afterwards.
 constexpr double kLeastRecorded = 0.5;
 constexpr int kLeastPhotos = 6;
@@ -122,7 +123,7 @@ struct Vote {
 
 struct Winner {
   double angle_rad = 0;
-  double sigma_rad = M_PI;
+  double sigma_rad = std::numbers::pi;
   int num_votes = 0;
 };
 
@@ -130,12 +131,12 @@ Winner Count(const std::vector<Vote>& votes) {
   constexpr int kBins = 72;
   constexpr double kHalf = 20 * kDegree;
   const auto offset = [](double angle, double middle) {
-    return std::remainder(angle - middle, 2 * M_PI);
+    return std::remainder(angle - middle, 2 * std::numbers::pi);
   };
   double best = -1;
   double middle = 0;
   for (int bin = 0; bin < kBins; ++bin) {
-    const double angle = 2 * M_PI * bin / kBins;
+    const double angle = 2 * std::numbers::pi * bin / kBins;
     double weight = 0;
     for (const Vote& vote : votes) {
       if (std::abs(offset(vote.angle_rad, angle)) < kHalf) weight += vote.weight;
@@ -154,7 +155,7 @@ Winner Count(const std::vector<Vote>& votes) {
   if (near.empty()) return winner;
   const double median = *Median(near);
   for (double& d : near) d = std::abs(d - median);
-  winner.angle_rad = std::remainder(middle + median, 2 * M_PI);
+  winner.angle_rad = std::remainder(middle + median, 2 * std::numbers::pi);
   winner.sigma_rad =
       1.25 * *Median(near) / kMedianOfNormal / std::sqrt(static_cast<double>(near.size()));
   return winner;

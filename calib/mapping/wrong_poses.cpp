@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <random>
 
 #include "calib/adjust/adjust.h"
@@ -21,7 +22,7 @@ namespace {
 constexpr double kUnlikely = 21.1;
 // What single records may be off by that are usually better, and the adjustment itself.
 constexpr double kPoseSigma_m = 0.1;
-constexpr double kPoseSigma_rad = 0.3 * M_PI / 180;
+constexpr double kPoseSigma_rad = 0.3 * std::numbers::pi / 180;
 constexpr int kPlaneRounds = 100;
 constexpr double kOnPlane = 0.02;        // of the distance
 constexpr double kLeastOffPlane = 0.15;  // of the points

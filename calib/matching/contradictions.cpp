@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -21,7 +22,7 @@ namespace {
 constexpr size_t kSampled = 200;  // matches of a pair
 constexpr int kLeastTold = 8;     // matches that the plan says something of
 // Gimbal angles and positions of one flight, and the map, are at least this good.
-constexpr double kAngle = 5 * M_PI / 180;
+constexpr double kAngle = 5 * std::numbers::pi / 180;
 constexpr double kPosition_m = 3;
 // What the plan does not know (trees, cars, eaves) stands in front of what it knows, and its
 // heights are bounds: a match is looked for at these shares of the distance too.

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "calib/scene/resect.h"
 #include "calib/scene/tracks.h"
@@ -14,9 +15,9 @@ namespace {
 
 constexpr int kLeastSightings = 12;
 // The points are as wrong as the record of the photo that they come from, and as the map.
-constexpr double kPointsOff = 4 * M_PI / 180;
+constexpr double kPointsOff = 4 * std::numbers::pi / 180;
 // Two corrections carry the errors of two records.
-constexpr double kAgreeAngle = 12 * M_PI / 180;
+constexpr double kAgreeAngle = 12 * std::numbers::pi / 180;
 constexpr double kAgree_m = 7;
 
 // A scene of this photo and these points.

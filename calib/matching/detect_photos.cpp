@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/matching/detect_photos.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
 
 #include "calib/features/same_place.h"
+#include "calib/scene/camera_key.h"
 #include "survey/files.h"
 #include "survey/image.h"
 #include "survey/parallel.h"
@@ -61,6 +65,17 @@ class LazyPhoto {
   std::optional<Image> image_;
 };
 
+// All that features on a rectified wall depend on beside the photo and the options.
+std::string KeyOf(const WallView& view, const Camera& camera) {
+  const Eigen::Vector4d q = view.cam_from_plan.rotation.coeffs();
+  const Eigen::Vector3d& t = view.cam_from_plan.translation;
+  return fmt::format("{} {} {} {} | {} {} {} {} | {} | {} {} {} | {}", view.wall.a_m.x(),
+                     view.wall.a_m.y(), view.wall.b_m.x(), view.wall.b_m.y(), view.along_m.from_m,
+                     view.along_m.to_m, view.z_m.from_m, view.z_m.to_m,
+                     fmt::join(std::array{q[0], q[1], q[2], q[3]}, " "), t.x(), t.y(), t.z(),
+                     KeyOf(camera));
+}
+
 std::string PlainUnit(const DetectInput& input, int photo, LazyPhoto& pixels) {
   return ComputeUnit(input.context, "features",
                      FeaturesKey(input.options, *input.set.photos[photo]),
@@ -69,7 +84,7 @@ std::string PlainUnit(const DetectInput& input, int photo, LazyPhoto& pixels) {
 
 std::string WallUnit(const DetectInput& input, int photo, int wall, LazyPhoto& pixels) {
   const Camera& camera = input.set.captures.cameras[input.set.photos[photo]->camera].intrinsics;
-  const WallView& view = input.set.guidance.walls.at({photo, wall}).view;
+  const WallView& view = input.set.guidance.walls.at({photo, wall});
   return ComputeUnit(
       input.context, "features", WallKey(input.options, input.set, photo, wall), [&] {
         return Serialize(
@@ -99,7 +114,7 @@ void DetectOnWalls(const DetectInput& input, int photo, LazyPhoto& pixels, Budge
   for (auto run = detected.walls.lower_bound({photo, 0});
        run != detected.walls.end() && run->first.first == photo; ++run) {
     Features features = DeserializeFeatures(WallUnit(input, photo, run->first.second, pixels));
-    const WallView& view = input.set.guidance.walls.at(run->first).view;
+    const WallView& view = input.set.guidance.walls.at(run->first);
     std::vector<OnWall> places = PlacesOnWall(features, camera, view);
     budget.Keep(features);
     run->second = {begin, std::move(features), std::move(places)};
@@ -120,9 +135,10 @@ std::string FeaturesKey(const CalibOptions& options, const CapturedPhoto& photo)
 }
 
 std::string WallKey(const CalibOptions& options, const PhotoSet& set, int photo, int wall) {
+  const Camera& camera = set.captures.cameras[set.photos[photo]->camera].intrinsics;
   return HashParts(std::array<std::string, 3>{kWallVersion,
                                               FeaturesKey(options, *set.photos[photo]),
-                                              set.guidance.walls.at({photo, wall}).key});
+                                              KeyOf(set.guidance.walls.at({photo, wall}), camera)});
 }
 
 double DetectionScale(const CalibOptions& options, const CapturedPhoto& photo) {

@@ -2,15 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/matching/guidance.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "calib/expect/expected_poses.h"
-#include "calib/scene/camera_key.h"
 #include "survey/files.h"
 #include "survey/plan_of_survey.h"
 
@@ -41,16 +36,6 @@ WallView ViewOfWall(const Plan& plan, const ExpectedViews& views, int photo, int
   return view;
 }
 
-std::string KeyOfView(const WallView& view, const Camera& camera) {
-  const Eigen::Vector4d q = view.cam_from_plan.rotation.coeffs();
-  const Eigen::Vector3d& t = view.cam_from_plan.translation;
-  return fmt::format("{} {} {} {} | {} {} {} {} | {} | {} {} {} | {}", view.wall.a_m.x(),
-                     view.wall.a_m.y(), view.wall.b_m.x(), view.wall.b_m.y(), view.along_m.from_m,
-                     view.along_m.to_m, view.z_m.from_m, view.z_m.to_m,
-                     fmt::join(std::array{q[0], q[1], q[2], q[3]}, " "), t.x(), t.y(), t.z(),
-                     KeyOf(camera));
-}
-
 }  // namespace
 
 Guidance GuideByPlan(const CalibOptions& options, const Captures& captures,
@@ -69,10 +54,7 @@ Guidance GuideByPlan(const CalibOptions& options, const Captures& captures,
   for (const WallPair& pair : guidance.wall_pairs) {
     for (const int photo : {pair.first, pair.second}) {
       auto [place, is_new] = guidance.walls.try_emplace({photo, pair.wall});
-      if (!is_new) continue;
-      place->second.view = ViewOfWall(*plan, views, photo, pair.wall);
-      place->second.key =
-          KeyOfView(place->second.view, captures.cameras[photos[photo]->camera].intrinsics);
+      if (is_new) place->second = ViewOfWall(*plan, views, photo, pair.wall);
     }
   }
   return guidance;

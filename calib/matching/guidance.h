@@ -17,19 +17,13 @@
 
 namespace stucco {
 
-// The part of a wall that a photo should show, for rectifying it.
-struct ExpectedWall {
-  WallView view;
-  std::string key;  // hashes everything that `view` depends on
-};
-
 // What the plan lets the search for matches expect.
 struct Guidance {
-  std::optional<ExpectedViews> views;                 // nothing without a plan
-  std::vector<PlannedFacade> facades;                 // its walls
-  std::vector<std::pair<int, int>> pairs;             // that should overlap
-  std::vector<WallPair> wall_pairs;                   // to match on a rectified wall
-  std::map<std::pair<int, int>, ExpectedWall> walls;  // of (photo, wall) in wall_pairs
+  std::optional<ExpectedViews> views;             // nothing without a plan
+  std::vector<PlannedFacade> facades;             // its walls
+  std::vector<std::pair<int, int>> pairs;         // that should overlap
+  std::vector<WallPair> wall_pairs;               // to match on a rectified wall
+  std::map<std::pair<int, int>, WallView> walls;  // of (photo, wall) in wall_pairs
 };
 
 // Empty where the survey has no plan.

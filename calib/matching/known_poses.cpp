@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "survey/median.h"
 
@@ -17,7 +18,7 @@ namespace {
 constexpr int kEnoughObservations = 100;
 // Of poses that many observations hold.
 constexpr double kPoseSigma_m = 0.05;
-constexpr double kPoseSigma_rad = 0.1 * M_PI / 180;
+constexpr double kPoseSigma_rad = 0.1 * std::numbers::pi / 180;
 constexpr size_t kMostPoints = 20000;
 constexpr double kMostShift_m = 6;
 constexpr double kStep_m = 0.5;

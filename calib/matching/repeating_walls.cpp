@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
@@ -42,7 +43,7 @@ Eigen::Vector3d PointAt(const PlannedFacade& wall, const OnWall& place) {
 
 // The keypoint's nearest like in the same picture: how far off, upwards or along the wall.
 struct Twin {
-  double angle_rad = M_PI;
+  double angle_rad = std::numbers::pi;
   Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();
 };
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "calib/mapping/wrong_poses.h"
@@ -25,7 +26,7 @@ constexpr double kSure_px = 1;
 constexpr double kLittleShared = 0.1;
 // Loosely tied are photos that are so many times less sure than the middle one.
 constexpr double kLoose = 5;
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 std::vector<int> PosedPhotos(const Scene& scene) {
   std::vector<int> photos;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <set>
 
@@ -230,7 +231,7 @@ void Transform(const Similarity& new_from_old, Scene& scene) {
 std::optional<Eigen::Vector3d> UpFromGimbal(const std::vector<const CapturedPhoto*>& captures,
                                             const Scene& scene) {
   assert(captures.size() == scene.photos.size());
-  constexpr double kRadians = M_PI / 180;
+  constexpr double kRadians = std::numbers::pi / 180;
   std::vector<Eigen::Vector3d> ups;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (size_t i = 0; i < captures.size(); ++i) {

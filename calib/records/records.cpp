@@ -9,6 +9,7 @@
 #include <ctime>
 #include <iomanip>
 #include <map>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -25,11 +26,11 @@ constexpr int kEnoughAtAll = 4;
 constexpr double kSignificant = 3;  // of its own standard deviation
 // Receivers are no better than this among themselves, gimbals no better than they write.
 constexpr double kLeastPosition_m = 0.01;
-constexpr double kLeastAttitude_rad = 0.05 * M_PI / 180;
+constexpr double kLeastAttitude_rad = 0.05 * std::numbers::pi / 180;
 constexpr int kRounds = 10;  // of reweighting
-constexpr double kExpectedMount_rad = 2 * M_PI / 180;
-constexpr double kExpectedTilt_rad = 5 * M_PI / 180;
-constexpr double kExpectedYaw_rad = 10 * M_PI / 180;  // that is left
+constexpr double kExpectedMount_rad = 2 * std::numbers::pi / 180;
+constexpr double kExpectedTilt_rad = 5 * std::numbers::pi / 180;
+constexpr double kExpectedYaw_rad = 10 * std::numbers::pi / 180;  // that is left
 
 std::optional<double> SecondsOf(const std::string& capture_time) {
   std::tm time = {};
@@ -216,7 +217,8 @@ double MedianAngle(const std::vector<double>& angles) {
   const double mean = std::atan2(sine, cosine);
   std::vector<double> about;
   about.reserve(angles.size());
-  for (const double angle : angles) about.push_back(std::remainder(angle - mean, 2 * M_PI));
+  for (const double angle : angles)
+    about.push_back(std::remainder(angle - mean, 2 * std::numbers::pi));
   return mean + MedianOf(std::move(about));
 }
 
@@ -304,12 +306,12 @@ double HeadingSigma(const std::vector<PoseRecord>& records,
     mean += places.back();
     variance += std::pow(flights[records[i].flight].sigma_horizontal_m, 2);
   }
-  if (places.size() < 2) return M_PI;
+  if (places.size() < 2) return std::numbers::pi;
   mean /= static_cast<double>(places.size());
   variance /= static_cast<double>(places.size());
   double squares = 0;
   for (const Eigen::Vector2d& place : places) squares += (place - mean).squaredNorm();
-  return squares > 0 ? std::sqrt(variance / squares) : M_PI;
+  return squares > 0 ? std::sqrt(variance / squares) : std::numbers::pi;
 }
 
 // With the compass's error of each flight taken off.
@@ -347,7 +349,7 @@ void MeasureAttitudes(const std::vector<PoseRecord>& records, const Scene& scene
   for (size_t f = 0; f < flights.size(); ++f) {
     const int index = before.yaw[f] ? before.yaw_index(static_cast<int>(f)) : -1;
     const double yaw = flights[f].yaw_rad + (index < 0 ? 0 : fit.values[index]);
-    const double sigma = index < 0 ? M_PI : std::hypot(heading, fit.sigmas[index]);
+    const double sigma = index < 0 ? std::numbers::pi : std::hypot(heading, fit.sigmas[index]);
     if (std::abs(yaw) >= kSignificant * sigma) continue;
     flights[f].yaw_rad = 0;
     unknowns.yaw[f] = false;

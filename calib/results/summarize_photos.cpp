@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -17,7 +18,7 @@ namespace stucco {
 namespace {
 
 constexpr int kCoverageCells = 10;
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 // What a photo's keypoints share and its pose takes up shows in no residual: in simulated flights
 // poses were this much farther off than their residuals say (docs/benchmarks.md).
 constexpr double kSharedErrors = 1.4;

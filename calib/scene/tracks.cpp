@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cstdint>
 #include <iterator>
+#include <limits>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -98,6 +100,8 @@ class TrackForest {
 
 std::vector<SceneTrack> BuildTracksOf(const std::vector<size_t>& num_keypoints,
                                       std::vector<const PhotoPair*> pairs) {
+  assert(std::accumulate(num_keypoints.begin(), num_keypoints.end(), size_t{0}) <=
+         static_cast<size_t>(std::numeric_limits<int>::max()));
   std::stable_sort(pairs.begin(), pairs.end(), [](const PhotoPair* a, const PhotoPair* b) {
     return a->matches.size() > b->matches.size();
   });

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "calib/two_view/pair_rays.h"
 #include "survey/disjoint_sets.h"
@@ -15,9 +16,9 @@ namespace {
 
 // A pair is a rotation when this share of its epipolar inliers turns with one rotation.
 constexpr double kRotationShare = 0.85;
-constexpr double kGoodAngle = 12 * M_PI / 180;
-constexpr double kLeastAngle = 2 * M_PI / 180;
-constexpr double kClearParallax = 0.5 * M_PI / 180;
+constexpr double kGoodAngle = 12 * std::numbers::pi / 180;
+constexpr double kLeastAngle = 2 * std::numbers::pi / 180;
+constexpr double kClearParallax = 0.5 * std::numbers::pi / 180;
 constexpr int kLeastInliers = 30;
 // Pairs with most matches that are tried first, and pairs tried when these give too few initial
 // ones.

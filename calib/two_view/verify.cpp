@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <numbers>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 #include <random>
@@ -308,7 +309,7 @@ Model HomographyModel(const Eigen::Matrix3d& h, double limit_px, const Extent& e
     return TransferSquared(h, a, b) < limit_px * limit_px;
   };
   model.sample_size = 4;
-  model.chance_anywhere = M_PI * limit_px * limit_px / extent.area_px2;
+  model.chance_anywhere = std::numbers::pi * limit_px * limit_px / extent.area_px2;
   return model;
 }
 

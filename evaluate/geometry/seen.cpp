@@ -4,8 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
+#include "site/incidence.h"
 #include "survey/parallel.h"
 
 namespace stucco::evaluate {
@@ -13,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastCosine = 0.17364817766693033;  // of 80 degrees: beyond, a wall is a line
+const double kLeastCosine = std::cos(kMaxShownIncidence_rad);
 constexpr double kLiftM = 0.01;  // off the surface, so that it does not hide itself
 constexpr size_t kBlock = 256;   // points for one task
 

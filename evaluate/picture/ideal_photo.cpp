@@ -3,6 +3,7 @@
 #include "evaluate/picture/ideal_photo.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -169,6 +170,7 @@ double IdealDistance(const Facet& wall, std::span<const simulate::FlownPhoto> ph
 }
 
 IdealPicture TakeIdealPhotos(const IdealShot& shot, const simulate::PicturePlane& plane) {
+  assert(shot.distance_m > 0 && plane.width_px > 0 && plane.height_px > 0);
   const size_t texels = static_cast<size_t>(plane.width_px) * plane.height_px;
   IdealPicture out{{plane.width_px, plane.height_px, 3, {}}, std::vector<uint8_t>(texels, 0)};
   out.picture.data.assign(3 * texels, 0);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "pipeline/engine/hash_cache.h"
 #include "pipeline/engine/work_folder.h"
 
 namespace stucco {

@@ -10,7 +10,6 @@
 #include "pipeline/engine/platform.h"   // IWYU pragma: export
 #include "pipeline/engine/resources.h"  // IWYU pragma: export
 #include "pipeline/engine/run.h"        // IWYU pragma: export
-#include "pipeline/engine/run_stage.h"  // IWYU pragma: export
 #include "pipeline/engine/settings.h"   // IWYU pragma: export
 #include "pipeline/engine/shell.h"      // IWYU pragma: export
 #include "pipeline/engine/stages.h"     // IWYU pragma: export

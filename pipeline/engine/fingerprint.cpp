@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "pipeline/engine/hash_cache.h"
 #include "pipeline/engine/internal/json.h"
 #include "survey/error.h"
 #include "survey/parallel.h"

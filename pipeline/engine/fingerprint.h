@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/engine/hash_cache.h"
 #include "pipeline/engine/stages.h"
 
 namespace stucco {
+
+class HashCache;
 
 // Everything that a stage's outputs depend on. Two runs with equal fingerprints give equal bytes.
 struct Fingerprint {

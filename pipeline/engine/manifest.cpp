@@ -58,6 +58,10 @@ Manifest ManifestFromJson(const Json& json) {
 
 }  // namespace
 
+std::string ProgramVersion() {
+  return STUCCO_VERSION;
+}
+
 ManifestFile ReadManifest(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {

@@ -30,6 +30,9 @@ struct Manifest {
   std::string imported_from;               // not empty: the outputs came with `stucco import`
 };
 
+// Of this program, as `--version` says it.
+std::string ProgramVersion();
+
 struct ManifestFile {
   std::optional<Manifest> manifest;
   std::string problem;  // why there is none although the file exists: damaged, unreadable

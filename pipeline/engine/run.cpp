@@ -11,7 +11,9 @@
 #include <chrono>
 
 #include "pipeline/engine/assess.h"
+#include "pipeline/engine/events.h"
 #include "pipeline/engine/exit_code.h"
+#include "pipeline/engine/hash_cache.h"
 #include "pipeline/engine/lock.h"
 #include "pipeline/engine/outputs.h"
 #include "pipeline/engine/progress.h"

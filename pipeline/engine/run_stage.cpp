@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/engine/events.h"
 #include "pipeline/engine/exit_code.h"
+#include "pipeline/engine/hash_cache.h"
 #include "pipeline/engine/outputs.h"
 #include "pipeline/engine/progress.h"
 #include "pipeline/engine/units.h"
@@ -78,10 +80,6 @@ std::map<std::string, std::string> HashOutputs(const std::filesystem::path& surv
     outputs[stage + "/" + files[i]] = contents[i];
   }
   return outputs;
-}
-
-std::string ProgramVersion() {
-  return STUCCO_VERSION;
 }
 
 StageRunResult RunStage(const StageJob& job, const Platform& platform, Console& console,

@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "pipeline/engine/console.h"
-#include "pipeline/engine/events.h"
 #include "pipeline/engine/manifest.h"
 #include "pipeline/engine/platform.h"
 #include "pipeline/engine/stages.h"
 
 namespace stucco {
+
+class EventLog;
 
 struct StageJob {
   const Stage& stage;
@@ -39,7 +40,5 @@ StageRunResult RunStage(const StageJob& job, const Platform& platform, Console& 
 std::map<std::string, std::string> HashOutputs(const std::filesystem::path& survey,
                                                const std::string& stage, int threads,
                                                HashCache& hashes);
-
-std::string ProgramVersion();
 
 }  // namespace stucco

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "pipeline/engine/hash_cache.h"
 #include "pipeline/engine/settings.h"
 #include "pipeline/engine/shell.h"
 #include "pipeline/engine/work_folder.h"

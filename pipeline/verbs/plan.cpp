@@ -13,8 +13,8 @@
 #include "pipeline/engine/settings.h"
 #include "pipeline/engine/work_folder.h"
 #include "pipeline/verbs/init.h"
-#include "plan/make_plan.h"
 #include "plan/map/read_site.h"
+#include "plan/plan_site.h"
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/survey_folder.h"
@@ -55,21 +55,6 @@ plan::SiteInputs InputsOf(const PlanRequest& request) {
   return inputs;
 }
 
-PlanSummary Summarise(const plan::PlanResult& result, const Site& site) {
-  PlanSummary summary;
-  summary.method = result.plan.method;
-  summary.photos = result.plan.views.size();
-  summary.hovers = static_cast<size_t>(result.stats.hovers);
-  summary.flights = result.plan.flights.size();
-  summary.length_m = result.stats.length_m;
-  summary.time_min = result.stats.time_min;
-  summary.battery_percent = result.stats.battery_percent;
-  summary.table = plan::StatsTable(result.stats);
-  summary.repairs = site.repairs;
-  summary.warnings = result.stats.warnings;
-  return summary;
-}
-
 }  // namespace
 
 void ForPlanOptions(const std::function<void(const Option&)>& fn) {
@@ -79,8 +64,8 @@ void ForPlanOptions(const std::function<void(const Option&)>& fn) {
   for (const Option& option : table.options()) fn(option);
 }
 
-PlanSummary PlanSurvey(const fs::path& survey, const PlanRequest& request, const StageTable& table,
-                       Console& console, const Platform& platform) {
+plan::PlanSummary PlanSurvey(const fs::path& survey, const PlanRequest& request,
+                             const StageTable& table, Console& console, const Platform& platform) {
   if (survey.empty()) {
     throw Error(ErrorKind::kUsage, "--out: names no folder", "give the folder of the survey");
   }
@@ -93,13 +78,10 @@ PlanSummary PlanSurvey(const fs::path& survey, const PlanRequest& request, const
   CleanScratch(survey);
   ScratchFolder scratch(survey, kPlanFolder);
   EventLog events(WorkFolder(survey).Events());
-  PlanSummary summary;
+  plan::PlanSummary summary;
   {
     StageProgress progress(kPlanFolder, console, events, platform.interrupted);
-    for (const std::string& repair : site.repairs) progress.Note(repair);
-    const plan::PlanResult result = plan::MakePlan(site, options, threads, progress);
-    summary = Summarise(result, site);
-    summary.notes = plan::WritePlanFolder(result, options, scratch.path());
+    summary = plan::PlanSite(site, options, threads, progress, scratch.path());
   }
   if (const auto moved = scratch.Publish(platform)) {
     summary.notes.push_back(fmt::format("a folder {} that stucco did not make is now {}",

@@ -10,6 +10,7 @@
 #include "pipeline/engine/console.h"
 #include "pipeline/engine/platform.h"
 #include "pipeline/engine/stages.h"
+#include "plan/plan_site.h"
 
 namespace stucco {
 
@@ -25,25 +26,11 @@ struct PlanRequest {
   int threads = 0;
 };
 
-struct PlanSummary {
-  std::string method;
-  size_t photos = 0;
-  size_t hovers = 0;
-  size_t flights = 0;
-  double length_m = 0;
-  double time_min = 0;
-  double battery_percent = 0;
-  std::string table;                  // all figures, for people
-  std::vector<std::string> repairs;   // of the map
-  std::vector<std::string> warnings;  // what makes the flight less safe
-  std::vector<std::string> notes;     // what to know before flying
-};
-
 // Plans a survey and puts the result into SURVEY/plan. A folder that is no survey yet becomes one
 // that waits for its photos in SURVEY/photos. A failed or interrupted plan leaves what was there.
 // Throws Error.
-PlanSummary PlanSurvey(const std::filesystem::path& survey, const PlanRequest& request,
-                       const StageTable& table, Console& console, const Platform& platform);
+plan::PlanSummary PlanSurvey(const std::filesystem::path& survey, const PlanRequest& request,
+                             const StageTable& table, Console& console, const Platform& platform);
 
 // Calls fn for each option of planning, at its default: for help texts.
 void ForPlanOptions(const std::function<void(const Option&)>& fn);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/engine/hash_cache.h"
 #include "pipeline/engine/lock.h"
 #include "pipeline/engine/outputs.h"
 #include "pipeline/engine/run_stage.h"

@@ -164,36 +164,12 @@ Captures IngestNew(const Settings& settings, const Captures& of_survey, StageCon
   return captures;
 }
 
-std::vector<EpochPhoto> DescribePhotos(const Captures& captures,
-                                       const std::vector<LocalisedPhoto>& localised) {
-  std::vector<EpochPhoto> photos;
-  for (const CapturedPhoto& captured : captures.photos) {
-    EpochPhoto& photo = photos.emplace_back();
-    photo.path = captured.path;
-    photo.hash = captured.hash;
-    photo.why = captured.why;
-  }
-  for (const LocalisedPhoto& photo : localised) {
-    EpochPhoto& found = photos[photo.capture];
-    found.placed = photo.cam_from_world.has_value();
-    found.why = photo.why;
-    found.matched_photos = photo.matched_photos;
-    found.points = photo.points;
-    found.inliers = photo.inliers;
-    found.position_sigma = photo.position_sigma;
-    found.picture_sigma_px = photo.picture_sigma_px;
-    found.cam_from_world = photo.cam_from_world.value_or(Pose{});
-    found.camera = photo.camera;
-  }
-  return photos;
-}
-
 void RequirePlaced(const std::vector<EpochPhoto>& photos, Progress& progress) {
-  const auto placed = std::ranges::count(photos, true, &EpochPhoto::placed);
+  const auto placed = std::ranges::count(photos, true, &EpochPhoto::is_placed);
   std::string examples;
   size_t shown = 0;
   for (const EpochPhoto& photo : photos) {
-    if (photo.placed) continue;
+    if (photo.is_placed()) continue;
     if (placed > 0) progress.Warn(fmt::format("{} is not used: {}", photo.path, photo.why));
     if (shown++ < kMostExamples) examples += fmt::format("\n  {}: {}", photo.path, photo.why);
   }
@@ -211,13 +187,13 @@ std::vector<SurveyPhoto> PosedPhotos(const std::vector<EpochPhoto>& photos,
                                      const Captures& captures, const StageContext& context) {
   Reconstruction model;
   for (size_t i = 0; i < photos.size(); ++i) {
-    if (!photos[i].placed) continue;
+    if (!photos[i].is_placed()) continue;
     const auto number = static_cast<uint32_t>(i + 1);
     Camera camera = photos[i].camera;
     camera.id = CameraId{number};
     model.cameras[camera.id] = camera;
     model.photos[PhotoId{number}] = {
-        PhotoId{number}, camera.id, photos[i].path, photos[i].cam_from_world, {}};
+        PhotoId{number}, camera.id, photos[i].path, *photos[i].cam_from_world, {}};
   }
   std::vector<SurveyPhoto> posed = JoinPhotos(model, captures);
   std::ranges::sort(posed, {}, &SurveyPhoto::path);
@@ -237,8 +213,8 @@ Epoch MakeEpoch(const RetextureRequest& request, const std::string& name, const 
   epoch.name = name;
   epoch.replace = request.replace;
   epoch.photo_folder = context.photos.string();
-  epoch.photos = DescribePhotos(captures, LocalisePhotos(OptionsOf<CalibOptions>(settings, "calib"),
-                                                         model, captures, context));
+  epoch.photos =
+      LocalisePhotos(OptionsOf<CalibOptions>(settings, "calib"), model, captures, context);
   RequirePlaced(epoch.photos, *context.progress);
   epoch.facets =
       RepaintSurvey(OptionsOf<TextureOptions>(settings, "texture"),

@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/engine/events.h"
 #include "pipeline/engine/layout.h"
+#include "pipeline/engine/lock.h"
+#include "pipeline/engine/progress.h"
 #include "pipeline/engine/settings.h"
 #include "pipeline/engine/work_folder.h"
 #include "pipeline/verbs/init.h"
@@ -29,11 +32,27 @@ const fs::path& Prepared(const fs::path& survey, const StageTable& table) {
 
 }  // namespace
 
+struct SimulatedSurvey::Work {
+  Work(const fs::path& survey, const StageTable& table, const std::string& command,
+       Console& console, const Platform& platform)
+      : lock(Prepared(survey, table), command, platform),
+        events(WorkFolder(survey).Events()),
+        progress("simulate", console, events, platform.interrupted) {}
+
+  SurveyLock lock;
+  EventLog events;
+  StageProgress progress;
+};
+
 SimulatedSurvey::SimulatedSurvey(const fs::path& survey, const StageTable& table,
                                  const std::string& command, Console& console,
                                  const Platform& platform)
-    : lock_(Prepared(survey, table), command, platform),
-      events_(WorkFolder(survey).Events()),
-      progress_("simulate", console, events_, platform.interrupted) {}
+    : work_(std::make_unique<Work>(survey, table, command, console, platform)) {}
+
+SimulatedSurvey::~SimulatedSurvey() = default;
+
+Progress& SimulatedSurvey::progress() {
+  return work_->progress;
+}
 
 }  // namespace stucco

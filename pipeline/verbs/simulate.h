@@ -3,11 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
-#include "pipeline/engine/events.h"
-#include "pipeline/engine/lock.h"
-#include "pipeline/engine/progress.h"
+#include "pipeline/engine/console.h"
+#include "pipeline/engine/platform.h"
 #include "pipeline/engine/stages.h"
 
 namespace stucco {
@@ -21,13 +21,13 @@ class SimulatedSurvey {
   // on it.
   SimulatedSurvey(const std::filesystem::path& survey, const StageTable& table,
                   const std::string& command, Console& console, const Platform& platform);
+  ~SimulatedSurvey();
 
-  Progress& progress() { return progress_; }
+  Progress& progress();
 
  private:
-  SurveyLock lock_;
-  EventLog events_;
-  StageProgress progress_;
+  struct Work;
+  std::unique_ptr<Work> work_;
 };
 
 }  // namespace stucco

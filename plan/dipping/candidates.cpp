@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
@@ -20,7 +21,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kGridM = 6;  // of regular points
-constexpr double kRayStep = 1.5 * M_PI / 180;
+constexpr double kRayStep = 1.5 * std::numbers::pi / 180;
 constexpr double kWallStepM = 1;        // between the rays' starting points on unseen walls
 constexpr double kClearOfLineM = 0.05;  // how far beyond the border of the zone a point is put
 constexpr size_t kBlock = 64;           // points looked at as one piece of work

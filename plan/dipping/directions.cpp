@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "survey/parallel.h"
 
 namespace stucco::plan {
 namespace {
 
-constexpr double kTurnStep = 5 * M_PI / 180;
+constexpr double kTurnStep = 5 * std::numbers::pi / 180;
 constexpr int kTurnSteps = 9;           // to either side
 constexpr int kMostAimedRounds = 4;     // a part wider than the field of view takes several
 constexpr size_t kMostObservers = 300;  // of a facade, for choosing its direction

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "plan/dipping/merge_shots.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double kFootSlackM = 0.2;   // of the wall's foot that may stay unseen: plinth, plants
 constexpr double kFootMargin = 0.03;  // radians below the foot in the tilted photo
-constexpr double kSteepest = 70 * M_PI / 180;
+constexpr double kSteepest = 70 * std::numbers::pi / 180;
 
 struct Stop {
   double z_m = 0;

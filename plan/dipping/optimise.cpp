@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -19,10 +20,10 @@ using Eigen::Vector2d;
 
 constexpr int kMostRounds = 20;  // five are usual
 constexpr int kDirections = 8;
-constexpr std::array<double, 2> kStepsM = {1, 4};  // tau_p
-constexpr double kTurnStep = 2.5 * M_PI / 180;     // tau_s
-constexpr int kTurnSteps = 4;                      // to either side
-constexpr double kLeastGain = 1e-3;                // in the sum of qualities or in hovers
+constexpr std::array<double, 2> kStepsM = {1, 4};           // tau_p
+constexpr double kTurnStep = 2.5 * std::numbers::pi / 180;  // tau_s
+constexpr int kTurnSteps = 4;                               // to either side
+constexpr double kLeastGain = 1e-3;                         // in the sum of qualities or in hovers
 constexpr double kNoLoss = 1e-9;
 
 // One view of a facade: which point it belongs to.
@@ -173,7 +174,7 @@ class Optimiser {
     std::optional<Place> best;
     for (const double step : kStepsM) {
       for (int k = 0; k < kDirections; ++k) {
-        const double angle = 2 * M_PI * k / kDirections;
+        const double angle = 2 * std::numbers::pi * k / kDirections;
         const Vector2d to = point.position + step * Vector2d(std::cos(angle), std::sin(angle));
         std::optional<Place> moved = Moved(point, to);
         if (!moved) continue;

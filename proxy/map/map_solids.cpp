@@ -304,8 +304,9 @@ std::vector<Outcome> CloseAll(const UprightSurvey& survey, const OutlineMap& map
 
 OutlineMap Moved(OutlineMap map, const Eigen::Isometry2d& motion) {
   for (MapBuilding& building : map.buildings) building = Moved(building, motion);
-  for (MapFacade& facade : map.facades) {
-    facade.line = {motion * facade.line.a, motion * facade.line.b};
+  for (Facade& facade : map.facades) {
+    facade.a = motion * facade.a;
+    facade.b = motion * facade.b;
   }
   return map;
 }

@@ -312,15 +312,15 @@ Touching TouchingOf(std::span<const MapBuilding> buildings, size_t b) {
 
 // The facades of the plan that an edge (as the map has it) is a part of, by metres of it.
 std::vector<std::string> FacadesOn(const Segment2d& edge, const std::string& building,
-                                   std::span<const MapFacade> facades) {
+                                   std::span<const Facade> facades) {
   constexpr double kOnLine_m = 0.15;  // straight walls of a map have corners up to 5 cm beside
   constexpr double kLeast_m = 0.05;
-  std::vector<std::pair<double, const MapFacade*>> found;
-  for (const MapFacade& facade : facades) {
+  std::vector<std::pair<double, const Facade*>> found;
+  for (const Facade& facade : facades) {
     const bool own = facade.id.starts_with(building) && facade.id.size() > building.size() &&
                      facade.id[building.size()] == '/';
     if (!own) continue;
-    const double shared = Shared(edge, facade.line, kOnLine_m, /*opposite=*/false);
+    const double shared = Shared(edge, {facade.a, facade.b}, kOnLine_m, /*opposite=*/false);
     if (shared > kLeast_m) found.emplace_back(shared, &facade);
   }
   std::stable_sort(found.begin(), found.end(),
@@ -332,7 +332,7 @@ std::vector<std::string> FacadesOn(const Segment2d& edge, const std::string& bui
 }
 
 std::vector<FittedEdge> EdgesOf(const MapBuilding& mapped, const MapBuilding& fitted,
-                                const Fitting& fitting, std::span<const MapFacade> facades) {
+                                const Fitting& fitting, std::span<const Facade> facades) {
   std::vector<FittedEdge> edges;
   for (const RingPlace& place : fitting.rings) {
     const Ring& before = mapped.parts[place.part].rings[place.ring];
@@ -425,8 +425,7 @@ bool IsSimple(const Polygon& polygon) {
 
 std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
                                         std::span<const MapBuilding> buildings,
-                                        std::span<const MapFacade> facades,
-                                        double plan_to_survey_m) {
+                                        std::span<const Facade> facades, double plan_to_survey_m) {
   auto [fittings, groups] = FittingsOf(survey, buildings, plan_to_survey_m);
   std::vector<MapBuilding> shifted(buildings.begin(), buildings.end());
   double outset = 0;

@@ -38,8 +38,7 @@ struct FittedBuilding {
 // with `plan_to_survey_m` added.
 std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
                                         std::span<const MapBuilding> buildings,
-                                        std::span<const MapFacade> facades,
-                                        double plan_to_survey_m);
+                                        std::span<const Facade> facades, double plan_to_survey_m);
 
 // Whether the rings are simple polygons, one inside the other, none touching.
 bool IsSimple(const Polygon& polygon);

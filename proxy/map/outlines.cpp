@@ -32,7 +32,9 @@ OutlineMap OutlinesOf(const Plan& plan, const Georef& georef, const Eigen::Vecto
   };
   OutlineMap map;
   for (const Facade& facade : site.facades) {
-    map.facades.push_back({facade.id, {to_survey(facade.a), to_survey(facade.b)}});
+    Facade& moved = map.facades.emplace_back(facade);
+    moved.a = to_survey(facade.a);
+    moved.b = to_survey(facade.b);
   }
   std::map<std::string, double> foot;
   for (const Footprint& footprint : site.footprints) {

@@ -6,17 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "site/site.h"
 #include "survey/geometry2d.h"
 #include "survey/georef.h"
 #include "survey/plan.h"
 
 namespace stucco {
-
-// A facade of the plan in the ground plan of the survey, the building on its left.
-struct MapFacade {
-  std::string id;
-  Segment2d line;
-};
 
 // A building of the plan: what of it stands on the ground, in the ground plan of the survey.
 struct MapBuilding {
@@ -31,7 +26,8 @@ struct MapBuilding {
 // plan, z along `up`. Obstacles and parts of buildings that stand on other parts are left out.
 struct OutlineMap {
   std::vector<MapBuilding> buildings;  // in the plan's order, each id once
-  std::vector<MapFacade> facades;      // in the plan's order
+  // In the plan's order; a and b in the ground plan of the survey, all else as the plan has it.
+  std::vector<Facade> facades;
 };
 
 // The same building somewhere else.

@@ -82,13 +82,13 @@ std::vector<Segment2d> FacadesInCloud(const Samples& upright, const OutlineMap& 
     seen.insert({x, y});
   }
   std::vector<Segment2d> facades;
-  for (const MapFacade& facade : map.facades) {
-    const auto [x, y] = cell_of((facade.line.a + facade.line.b) / 2);
+  for (const Facade& facade : map.facades) {
+    const auto [x, y] = cell_of((facade.a + facade.b) / 2);
     bool near = false;
     for (int dx = -1; dx <= 1; ++dx) {
       for (int dy = -1; dy <= 1; ++dy) near = near || seen.contains({x + dx, y + dy});
     }
-    if (near) facades.push_back(facade.line);
+    if (near) facades.push_back({facade.a, facade.b});
   }
   return facades;
 }

@@ -13,32 +13,50 @@
 
 namespace stucco {
 
-std::string ObjText(const Proxy& proxy) {
-  std::string vertices, faces;
-  std::map<std::array<double, 3>, int> numbers;  // shared corners are shared vertices
-  for (const Building& building : proxy.buildings) {
-    for (const Facet& facet : building.facets) {
-      std::string name = facet.id;
-      std::replace(name.begin(), name.end(), '/', '_');
-      fmt::format_to(std::back_inserter(faces), "g {}\n", name);
-      const FacetTriangles triangulation = TriangulateFacet(facet);
-      for (const auto& triangle : triangulation.triangles) {
-        faces += "f";
-        for (const uint32_t corner : triangle) {
-          const Eigen::Vector3d& p = triangulation.vertices[corner];
-          const auto [entry, added] =
-              numbers.try_emplace({p.x(), p.y(), p.z()}, static_cast<int>(numbers.size()) + 1);
-          if (added) {
-            fmt::format_to(std::back_inserter(vertices), "v {:.12g} {:.12g} {:.12g}\n", p.x(),
-                           p.y(), p.z());
-          }
-          fmt::format_to(std::back_inserter(faces), " {}", entry->second);
-        }
-        faces += "\n";
+namespace {
+
+class ObjWriter {
+ public:
+  void Add(const Facet& facet) {
+    std::string name = facet.id;
+    std::replace(name.begin(), name.end(), '/', '_');
+    fmt::format_to(std::back_inserter(faces_), "g {}\n", name);
+    const FacetTriangles triangulation = TriangulateFacet(facet);
+    for (const auto& triangle : triangulation.triangles) {
+      faces_ += "f";
+      for (const uint32_t corner : triangle) {
+        fmt::format_to(std::back_inserter(faces_), " {}", NumberOf(triangulation.vertices[corner]));
       }
+      faces_ += "\n";
     }
   }
-  return "# Stucco proxy: one group per facet\n" + vertices + faces;
+
+  std::string Text() const { return "# Stucco proxy: one group per facet\n" + vertices_ + faces_; }
+
+ private:
+  int NumberOf(const Eigen::Vector3d& p) {
+    const auto [entry, added] =
+        numbers_.try_emplace({p.x(), p.y(), p.z()}, static_cast<int>(numbers_.size()) + 1);
+    if (added) {
+      fmt::format_to(std::back_inserter(vertices_), "v {:.12g} {:.12g} {:.12g}\n", p.x(), p.y(),
+                     p.z());
+    }
+    return entry->second;
+  }
+
+  std::string vertices_;
+  std::string faces_;
+  std::map<std::array<double, 3>, int> numbers_;  // shared corners are shared vertices
+};
+
+}  // namespace
+
+std::string ObjText(const Proxy& proxy) {
+  ObjWriter writer;
+  for (const Building& building : proxy.buildings) {
+    for (const Facet& facet : building.facets) writer.Add(facet);
+  }
+  return writer.Text();
 }
 
 }  // namespace stucco

@@ -37,6 +37,11 @@ void SortBySize(std::vector<Plane>& planes) {
   });
 }
 
+void MovePoints(Plane& from, Plane& to) {
+  to.points.insert(to.points.end(), from.points.begin(), from.points.end());
+  from.points.clear();
+}
+
 }  // namespace
 
 void MergeCoplanar(const Samples& samples, const Tolerances& tolerances, double normal_angle_deg,
@@ -48,13 +53,10 @@ void MergeCoplanar(const Samples& samples, const Tolerances& tolerances, double 
     for (size_t a = 0; a < planes.size(); ++a) {
       const size_t before = planes[a].points.size();
       for (size_t b = a + 1; b < planes.size(); ++b) {
-        if (planes[b].points.empty() ||
-            !LiesOn(samples, planes[b], planes[a], tolerances.epsilon, min_cos)) {
-          continue;
+        if (!planes[b].points.empty() &&
+            LiesOn(samples, planes[b], planes[a], tolerances.epsilon, min_cos)) {
+          MovePoints(planes[b], planes[a]);
         }
-        auto& points = planes[a].points;
-        points.insert(points.end(), planes[b].points.begin(), planes[b].points.end());
-        planes[b].points.clear();
       }
       if (planes[a].points.size() == before) continue;
       std::sort(planes[a].points.begin(), planes[a].points.end());

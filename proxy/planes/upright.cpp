@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -126,6 +127,7 @@ Eigen::Vector3d RefineUp(const std::vector<Plane>& planes, const Eigen::Vector3d
 }
 
 UpEstimate EstimateUp(const std::vector<Plane>& planes, std::span<const SurveyPhoto> photos) {
+  assert(std::ranges::none_of(planes, [](const Plane& plane) { return !(plane.area > 0); }));
   constexpr size_t kLargePlanes = 6;
   constexpr double kTolerance_deg = 20;
   constexpr double kPreferPhotos = 0.05;  // planes must explain this much more than the photos' up
@@ -136,6 +138,7 @@ UpEstimate EstimateUp(const std::vector<Plane>& planes, std::span<const SurveyPh
   std::vector<Candidate> candidates;
   for (const auto& up : UpFromPhotos(photos)) candidates.push_back({up, true});
   std::vector<const Plane*> largest;
+  largest.reserve(planes.size());
   for (const Plane& plane : planes) largest.push_back(&plane);
   std::stable_sort(largest.begin(), largest.end(),
                    [](const Plane* a, const Plane* b) { return a->area > b->area; });

@@ -51,7 +51,7 @@ std::optional<std::string> FindEdgeProblem(const TriangleSoup& soup) {
 std::optional<std::string> FindOpening(const std::vector<Facet>& facets) {
   const TriangleSoup soup = TriangulateFacets(facets);
   if (soup.triangles.size() < 4) return "fewer than four triangles";
-  if (const auto problem = FindEdgeProblem(soup)) return problem;
+  if (auto problem = FindEdgeProblem(soup)) return problem;
   if (!pmp::is_polygon_soup_a_polygon_mesh(soup.triangles)) return "not 2-manifold";
   Mesh mesh;
   pmp::polygon_soup_to_polygon_mesh(PointsOf(soup), soup.triangles, mesh);

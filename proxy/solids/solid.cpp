@@ -177,6 +177,7 @@ Facet ToFacet(const PlanarScene& scene, const Setting& setting, const Partition&
   const Eigen::Isometry3d world_from_local = setting.local_from_world.inverse();
   const auto to_world = [&](const std::vector<int>& ring) {
     std::vector<Eigen::Vector3d> points;
+    points.reserve(ring.size());
     for (const int v : ring) points.push_back(world_from_local * partition.vertices[v]);
     return points;
   };
@@ -269,11 +270,11 @@ Solid CloseBuilding(const PlanarScene& scene, const std::vector<const PlaneView*
   }
   const Setting setting = SettingOf(scene, views, ground);
   const CutPlane base = BaseOf(scene, setting, views, ground);
-  std::vector<CutPlane> cuts;
+  std::vector<CutPlane> cuts = {base};
+  cuts.reserve(views.size() + 1);
   for (const PlaneView* view : views) {
     cuts.push_back(ToLocal(setting, view->plane->normal, view->plane->offset));
   }
-  cuts.insert(cuts.begin(), base);
   const Partition partition = PartitionBox(setting.box, cuts, kMostCells);
   std::vector<const PlaneView*> view_of_cut(views.begin(), views.end());
   view_of_cut.insert(view_of_cut.begin(), nullptr);

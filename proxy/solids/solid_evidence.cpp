@@ -80,10 +80,28 @@ void VoteBehindPoints(const Partition& partition, const Eigen::AlignedBox3d& box
   }
 }
 
+// Faces of a partition by their plane and the cells below and above it.
+using FacesBetween = std::map<std::array<int, 3>, std::vector<int>>;
+
+// Centres of the raster cells with points, in the partition's frame and inside the box.
+std::vector<Eigen::Vector3d> SeenCentres(const PlaneView& view, const Eigen::AlignedBox3d& box,
+                                         const SolidInput& input) {
+  std::vector<Eigen::Vector3d> centres;
+  for (int y = 0; y < view.raster.height; ++y) {
+    for (int x = 0; x < view.raster.width; ++x) {
+      if (view.evidence[view.raster.Index(x, y)] != Evidence::kSeen) continue;
+      const Eigen::Vector3d p =
+          input.local_from_world * view.raster.frame.ToWorld(view.raster.Center(x, y));
+      if (box.contains(p)) centres.push_back(p);
+    }
+  }
+  return centres;
+}
+
 // Raster cells with points, added to the face of the plane that they lie in.
 void CoverFaces(const Partition& partition, const Eigen::AlignedBox3d& box, const SolidInput& input,
                 CellEvidence& evidence) {
-  std::map<std::array<int, 3>, std::vector<int>> faces;  // plane, below, above
+  FacesBetween faces;
   for (size_t f = 0; f < partition.faces.size(); ++f) {
     const auto& face = partition.faces[f];
     faces[{face.plane, face.below, face.above}].push_back(static_cast<int>(f));
@@ -96,21 +114,12 @@ void CoverFaces(const Partition& partition, const Eigen::AlignedBox3d& box, cons
     const Eigen::Vector3d normal = input.local_from_world.linear() * view.plane->normal;
     const double step = 1e-3 * input.scene->tolerances.level_of_detail;
     const double area = view.raster.cell * view.raster.cell;
-    for (int y = 0; y < view.raster.height; ++y) {
-      for (int x = 0; x < view.raster.width; ++x) {
-        const size_t i = view.raster.Index(x, y);
-        if (view.evidence[i] != Evidence::kSeen) continue;
-        const Eigen::Vector3d p =
-            input.local_from_world * view.raster.frame.ToWorld(view.raster.Center(x, y));
-        if (!box.contains(p)) continue;
-        const int below = partition.CellAt(p - step * normal);
-        const int above = partition.CellAt(p + step * normal);
-        const auto found = faces.find({plane, below, above});
-        if (found == faces.end()) continue;
-        for (const int f : found->second) {
-          evidence.covered[f] += area / double(found->second.size());
-        }
-      }
+    for (const Eigen::Vector3d& p : SeenCentres(view, box, input)) {
+      const int below = partition.CellAt(p - step * normal);
+      const int above = partition.CellAt(p + step * normal);
+      const auto found = faces.find({plane, below, above});
+      if (found == faces.end()) continue;
+      for (const int f : found->second) evidence.covered[f] += area / double(found->second.size());
     }
   }
 }

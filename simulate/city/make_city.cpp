@@ -150,9 +150,8 @@ Proxy TruthOf(const Town& town, const FacadeIds& facades, const GroundGrid& grid
 }
 
 // Paints and encodes a picture at a time on each thread: only encoded ones are kept.
-std::vector<internal::EncodedImage> PaintAll(const CityModel& model, int threads,
-                                             const fs::path& folder) {
-  std::vector<internal::EncodedImage> pictures(model.pictures.size());
+std::vector<GlbTexture> PaintAll(const CityModel& model, int threads, const fs::path& folder) {
+  std::vector<GlbTexture> pictures(model.pictures.size());
   ParallelFor(pictures.size(), threads, [&](size_t i) {
     pictures[i] = internal::EncodeForGlb(model.pictures[i].paint());
     const std::string& name = model.pictures[i].truth_file;

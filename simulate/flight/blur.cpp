@@ -44,26 +44,31 @@ std::vector<float> KernelOf(double sigma_px) {
     sum += (i == 0 ? 1 : 2) * weights.back();
   }
   std::vector<float> kernel;
+  kernel.reserve(weights.size());
   for (const double weight : weights) kernel.push_back(static_cast<float>(weight / sum));
   return kernel;
+}
+
+void ConvolveAlongRow(const Radiance& in, const std::vector<float>& kernel, int x, int y,
+                      float* target) {
+  const int radius = static_cast<int>(kernel.size()) - 1;
+  const float* middle = &in.rgb[IndexOf(in, x, y)];
+  for (int c = 0; c < 3; ++c) target[c] = kernel[0] * middle[c];
+  for (int k = 1; k <= radius; ++k) {
+    const float* left = &in.rgb[IndexOf(in, std::max(0, x - k), y)];
+    const float* right = &in.rgb[IndexOf(in, std::min(in.width_px - 1, x + k), y)];
+    for (int c = 0; c < 3; ++c) target[c] += kernel[k] * (left[c] + right[c]);
+  }
 }
 
 // out(i) = sum of kernel[|k|] * in(i + k * stride), for the 3 * count numbers of a row; the
 // picture's edge pixels are repeated beyond it.
 void ConvolveRows(const Radiance& in, const std::vector<float>& kernel, int threads,
                   Radiance& out) {
-  const int radius = static_cast<int>(kernel.size()) - 1;
   ForBands(in.height_px, threads, [&](int first, int end) {
     for (int y = first; y < end; ++y) {
       for (int x = 0; x < in.width_px; ++x) {
-        float* target = &out.rgb[IndexOf(out, x, y)];
-        const float* middle = &in.rgb[IndexOf(in, x, y)];
-        for (int c = 0; c < 3; ++c) target[c] = kernel[0] * middle[c];
-        for (int k = 1; k <= radius; ++k) {
-          const float* left = &in.rgb[IndexOf(in, std::max(0, x - k), y)];
-          const float* right = &in.rgb[IndexOf(in, std::min(in.width_px - 1, x + k), y)];
-          for (int c = 0; c < 3; ++c) target[c] += kernel[k] * (left[c] + right[c]);
-        }
+        ConvolveAlongRow(in, kernel, x, y, &out.rgb[IndexOf(out, x, y)]);
       }
     }
   });
@@ -142,6 +147,19 @@ Eigen::Array3f LongMean(const Radiance& in, int x, int y, const Eigen::Vector2d&
   return (sum / static_cast<float>(samples)).max(0.0f);
 }
 
+// The pixels from the block's least corner up to, not with, its largest, as `way` smears them.
+void BlurBlock(const Radiance& in, const Eigen::AlignedBox2i& block, const Eigen::Vector2d& way,
+               Radiance& picture) {
+  constexpr double kShort_px = 2;
+  const bool is_short = way.norm() < kShort_px;
+  for (int y = block.min().y(); y < block.max().y(); ++y) {
+    for (int x = block.min().x(); x < block.max().x(); ++x) {
+      const Eigen::Array3f mean = is_short ? ShortMean(in, x, y, way) : LongMean(in, x, y, way);
+      Eigen::Map<Eigen::Array3f>(&picture.rgb[IndexOf(picture, x, y)]) = mean;
+    }
+  }
+}
+
 }  // namespace
 
 void BlurByFocus(double sigma_px, int threads, Radiance& picture) {
@@ -169,20 +187,14 @@ void BlurByTurning(const Camera& camera, const Eigen::Vector3d& turn_rad, int th
                    Radiance& picture) {
   if (!(turn_rad.squaredNorm() > 0)) return;
   const Radiance in = picture;
-  constexpr double kShort_px = 2;
   ForBands(in.height_px, threads, [&](int first, int end) {
     for (int left = 0; left < in.width_px; left += kBandRows) {
-      const int right = std::min(in.width_px, left + kBandRows);
+      const Eigen::AlignedBox2i block(
+          Eigen::Vector2i(left, first),
+          Eigen::Vector2i(std::min(in.width_px, left + kBandRows), end));
       // The motion changes slowly: it is that of the block's middle.
-      const Eigen::Vector2d way =
-          ImageMotion(camera, turn_rad, {0.5 * (left + right), 0.5 * (first + end)});
-      const bool is_short = way.norm() < kShort_px;
-      for (int y = first; y < end; ++y) {
-        for (int x = left; x < right; ++x) {
-          const Eigen::Array3f mean = is_short ? ShortMean(in, x, y, way) : LongMean(in, x, y, way);
-          Eigen::Map<Eigen::Array3f>(&picture.rgb[IndexOf(picture, x, y)]) = mean;
-        }
-      }
+      const Eigen::Vector2d middle = 0.5 * (block.min() + block.max()).cast<double>();
+      BlurBlock(in, block, ImageMotion(camera, turn_rad, middle), picture);
     }
   });
 }

@@ -22,6 +22,7 @@ namespace stucco::simulate {
 //   held_out/<photo>     photos that the survey does not have, listed in flight.json
 inline constexpr char kTruthFolder[] = "truth";
 inline constexpr char kFlightFile[] = "truth/flight.json";
+inline constexpr char kPhotoFolder[] = "photos";  // of a survey that was flown here
 
 struct FlownPhoto {
   std::string path;     // a file of the photo folder, or of truth/: "held_out/a.JPG"

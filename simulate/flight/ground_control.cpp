@@ -39,7 +39,7 @@ bool IsWellInside(const Eigen::Vector2d& pixel, const Camera& camera) {
 // Where a photo shows a point; nothing where it does not.
 std::optional<Eigen::Vector2d> PixelOf(const FlownPhoto& photo, const Eigen::Vector3d& point,
                                        const CastRay& cast) {
-  const auto pixel = photo.camera.Project(photo.cam_from_world * point);
+  auto pixel = photo.camera.Project(photo.cam_from_world * point);
   if (!pixel || !IsWellInside(*pixel, photo.camera)) return std::nullopt;
   const Eigen::Vector3d center = photo.cam_from_world.Center();
   const auto hit = cast(center, (point - center).normalized());

@@ -10,8 +10,6 @@
 
 namespace stucco::simulate {
 
-inline constexpr char kPhotoFolder[] = "photos";  // of a survey that was flown here
-
 // Where a photo and its depth map lie.
 std::filesystem::path PathOfPhoto(const std::filesystem::path& survey, const FlownPhoto& photo);
 std::filesystem::path PathOfDepth(const std::filesystem::path& survey, const FlownPhoto& photo);

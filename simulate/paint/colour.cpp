@@ -28,6 +28,7 @@ uint8_t FastSrgbCode(float linear) {
   static const std::array<uint8_t, kSteps + 1> kCodes = CodesOfRoots();
   // Written so that NaN is black.
   const float light = linear > 0 ? std::min(linear, 1.0f) : 0.0f;
+  // Never negative. NOLINTNEXTLINE(bugprone-incorrect-roundings)
   return kCodes[static_cast<int>(std::sqrt(light) * kSteps + 0.5f)];
 }
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -195,6 +196,7 @@ const FacadePicture& PictureOf(std::string_view kind, int choice) {
   const std::vector<FacadePicture>& all = Facades().pictures;
   const auto is_of_kind = [kind](const FacadePicture& picture) { return picture.kind == kind; };
   const int count = static_cast<int>(std::count_if(all.begin(), all.end(), is_of_kind));
+  assert(count > 0);
   int skip = ((choice % count) + count) % count;
   return *std::find_if(all.begin(), all.end(), [&](const FacadePicture& picture) {
     return is_of_kind(picture) && skip-- == 0;

@@ -13,7 +13,6 @@
 namespace stucco::simulate {
 namespace {
 
-using internal::Box;
 using internal::CoveringLook;
 using internal::Tile;
 using internal::WallLook;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <string_view>
 
 #include "simulate/paint/internal/openings.h"
@@ -38,10 +39,12 @@ float Distance(std::string_view strokes, float x, float y) {
   for (size_t i = 0; i + 1 < strokes.size(); i += 2) {
     const int p = strokes[i] - 'a';
     const int q = strokes[i + 1] - 'a';
-    const float px = static_cast<float>(p % 3);
-    const float py = static_cast<float>(p / 3);
-    const float dx = static_cast<float>(q % 3) - px;
-    const float dy = static_cast<float>(q / 3) - py;
+    const std::div_t from = std::div(p, 3);
+    const std::div_t to = std::div(q, 3);
+    const auto px = static_cast<float>(from.rem);
+    const auto py = static_cast<float>(from.quot);
+    const float dx = static_cast<float>(to.rem) - px;
+    const float dy = static_cast<float>(to.quot) - py;
     const float along =
         std::clamp(((x - px) * dx + (y - py) * dy) / (dx * dx + dy * dy), 0.0f, 1.0f);
     const float ex = x - px - along * dx;

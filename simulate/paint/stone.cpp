@@ -37,6 +37,13 @@ Block BlockAt(const Masonry& masonry, float x, float y, uint32_t seed) {
            JointX(masonry, row, column + 1, seed), static_cast<float>(row + 1) * masonry.course_m}};
 }
 
+Colour ColourOf(const Block& block, const WallLook& look) {
+  constexpr float kSpread = 0.6f;  // blocks of one wall come from one quarry
+  const auto draw = [&](int k) { return Normal(block.column, block.row, look.wall + k); };
+  return Pick(look.palette, kSpread * draw(1), kSpread * draw(2), kSpread * draw(3)) *
+         Tone(0.05f * draw(4));
+}
+
 }  // namespace
 
 void PaintStone(Tile& tile, const WallLook& look) {
@@ -59,11 +66,8 @@ void PaintStone(Tile& tile, const WallLook& look) {
       const float x = tile.X(column);
       if (column == 0 || x >= block.box.right) {
         block = BlockAt(masonry, x, y, look.wall);
-        const auto draw = [&](int k) { return Normal(block.column, block.row, look.wall + k); };
-        constexpr float kSpread = 0.6f;  // blocks of one wall come from one quarry
-        colour = Pick(look.palette, kSpread * draw(1), kSpread * draw(2), kSpread * draw(3)) *
-                 Tone(0.05f * draw(4));
-        tilt = 3 * draw(5);  // of the bedding
+        colour = ColourOf(block, look);
+        tilt = 3 * Normal(block.column, block.row, look.wall + 5);  // of the bedding
       }
       const uint32_t own = look.wall + Hash(block.column, block.row, 7);
       const float white = Normal(tile.x0 + column, tile.y0 + row, look.wall + 3);

@@ -207,7 +207,7 @@ Eigen::Array4f MipTexture::Trilinear(float x, float y, float lod) const {
   const auto finer = static_cast<size_t>(at);
   const float share = at - static_cast<float>(finer);
   const float scale = std::bit_cast<float>(static_cast<uint32_t>(127 - finer) << 23);  // 2^-finer
-  const Eigen::Array4f sharp = Bilinear(levels_[finer], x * scale, y * scale);
+  Eigen::Array4f sharp = Bilinear(levels_[finer], x * scale, y * scale);
   if (share < 1 / 64.0f) return sharp;
   const Eigen::Array4f soft = Bilinear(levels_[finer + 1], x * scale / 2, y * scale / 2);
   return sharp + share * (soft - sharp);

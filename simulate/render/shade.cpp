@@ -84,7 +84,7 @@ Lighting LightingOf(const Light& light, const Eigen::Array3f& mean_albedo) {
 Eigen::Array3f Background(const Lighting& lighting, const Eigen::Vector3f& direction) {
   const Light& light = lighting.light;
   if (!light.lit) return Eigen::Array3f::Zero();
-  const Eigen::Array3f sky = SkyRadiance(lighting, direction);
+  Eigen::Array3f sky = SkyRadiance(lighting, direction);
   if (direction.z() >= 0) return sky;
   const float height = std::max(0.0f, static_cast<float>(light.to_sun.z()));
   const Eigen::Array3f land = kGroundAlbedo * Eigen::Array3f(0.9f, 1.0f, 0.75f) *

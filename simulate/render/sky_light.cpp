@@ -111,6 +111,27 @@ float Distance(const Scene& scene, const Eigen::Vector3i& triangle, int a, int b
   return (scene.positions[triangle[a]] - scene.positions[triangle[b]]).norm();
 }
 
+bool IsUnknown(float value) {
+  return value < 0;
+}
+
+// Of what is known of a value of a grid and of those around it; where nothing is, the value.
+float MeanAround(const std::vector<float>& values, int width, int row, int column) {
+  const int height = static_cast<int>(values.size()) / width;
+  float sum = 0;
+  int known = 0;
+  for (int r = std::max(0, row - 1); r <= std::min(height - 1, row + 1); ++r) {
+    for (int c = std::max(0, column - 1); c <= std::min(width - 1, column + 1); ++c) {
+      const float neighbour = values[static_cast<size_t>(r) * width + c];
+      if (IsUnknown(neighbour)) continue;
+      sum += neighbour;
+      ++known;
+    }
+  }
+  return known > 0 ? sum / static_cast<float>(known)
+                   : values[static_cast<size_t>(row) * width + column];
+}
+
 }  // namespace
 
 SkyLight::SkyLight(const RayScene& scene) {
@@ -131,34 +152,37 @@ SkyLight::SkyLight(const RayScene& scene) {
   for (const Grid& grid : grids_) FillUnknown(grid);
 }
 
+SkyLight::Grid SkyLight::GridOf(const Scene& model, size_t triangle, double spacing) {
+  const Eigen::Vector3i& t = model.triangles[triangle];
+  const std::array<float, 3> sides = {Distance(model, t, 1, 2), Distance(model, t, 2, 0),
+                                      Distance(model, t, 0, 1)};
+  Grid grid;
+  grid.apex = static_cast<uint8_t>(std::max_element(sides.begin(), sides.end()) - sides.begin());
+  const double base = sides[grid.apex];
+  const bool leaf = model.materials[model.materials_of[triangle]].cut_out;
+  if (!(base > spacing) || leaf) return grid;
+  const Eigen::Vector3f along =
+      model.positions[t[(grid.apex + 2) % 3]] - model.positions[t[(grid.apex + 1) % 3]];
+  const Eigen::Vector3f aside =
+      model.positions[t[grid.apex]] - model.positions[t[(grid.apex + 1) % 3]];
+  const double height = along.cross(aside).norm() / base;
+  const auto cells = [&](double length) {
+    return static_cast<uint16_t>(std::clamp(std::ceil(length / spacing), 1.0, 60000.0));
+  };
+  grid.columns = cells(base);
+  grid.rows = cells(height);
+  return grid;
+}
+
 void SkyLight::LayOut(const RayScene& scene) {
   const Scene& model = scene.scene();
   grids_.resize(model.triangles.size());
   for (double spacing = kSpacing_m;; spacing *= 1.5) {
     size_t values = 0;
     for (size_t i = 0; i < grids_.size(); ++i) {
-      const Eigen::Vector3i& t = model.triangles[i];
-      Grid& grid = grids_[i];
-      grid = {values, 0, 0, 0};
-      const std::array<float, 3> sides = {Distance(model, t, 1, 2), Distance(model, t, 2, 0),
-                                          Distance(model, t, 0, 1)};
-      grid.apex =
-          static_cast<uint8_t>(std::max_element(sides.begin(), sides.end()) - sides.begin());
-      const double base = sides[grid.apex];
-      const bool leaf = model.materials[model.materials_of[i]].cut_out;
-      if (base > spacing && !leaf) {
-        const Eigen::Vector3f along =
-            model.positions[t[(grid.apex + 2) % 3]] - model.positions[t[(grid.apex + 1) % 3]];
-        const Eigen::Vector3f aside =
-            model.positions[t[grid.apex]] - model.positions[t[(grid.apex + 1) % 3]];
-        const double height = along.cross(aside).norm() / base;
-        const auto cells = [&](double length) {
-          return static_cast<uint16_t>(std::clamp(std::ceil(length / spacing), 1.0, 60000.0));
-        };
-        grid.columns = cells(base);
-        grid.rows = cells(height);
-      }
-      values += static_cast<size_t>(grid.columns + 1) * (grid.rows + 1);
+      grids_[i] = GridOf(model, i, spacing);
+      grids_[i].first = values;
+      values += static_cast<size_t>(grids_[i].columns + 1) * (grids_[i].rows + 1);
     }
     // One value each cannot be undercut.
     if (static_cast<double>(values) <=
@@ -203,27 +227,14 @@ void SkyLight::FillUnknown(const Grid& grid) {
   const int width = grid.columns + 1;
   const int height = grid.rows + 1;
   float* values = &values_[grid.first];
-  const auto unknown = [](float value) { return value < 0; };
   for (int step = 0; step < kSteps; ++step) {
     const std::span<const float> now(values, static_cast<size_t>(width) * height);
-    if (std::ranges::none_of(now, unknown)) return;
+    if (std::ranges::none_of(now, IsUnknown)) return;
     const std::vector<float> before(now.begin(), now.end());
     for (int row = 0; row < height; ++row) {
       for (int column = 0; column < width; ++column) {
-        if (!unknown(before[static_cast<size_t>(row) * width + column])) continue;
-        float sum = 0;
-        int known = 0;
-        for (int r = std::max(0, row - 1); r <= std::min(height - 1, row + 1); ++r) {
-          for (int c = std::max(0, column - 1); c <= std::min(width - 1, column + 1); ++c) {
-            const float neighbour = before[static_cast<size_t>(r) * width + c];
-            if (unknown(neighbour)) continue;
-            sum += neighbour;
-            ++known;
-          }
-        }
-        if (known > 0) {
-          values[static_cast<size_t>(row) * width + column] = sum / static_cast<float>(known);
-        }
+        const size_t i = static_cast<size_t>(row) * width + column;
+        if (IsUnknown(before[i])) values[i] = MeanAround(before, width, row, column);
       }
     }
   }

@@ -26,6 +26,17 @@ float Grey(const uint8_t* pixel, int channels) {
   return channels < 3 ? pixel[0] : (pixel[0] + 2.0f * pixel[1] + pixel[2]) / 4;
 }
 
+// Of the four quarters of 4 x 4 texels.
+std::array<float, 4> MeansAt(const Image& image, int left, int top) {
+  std::array<float, 4> means = {0, 0, 0, 0};
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      means[2 * (y / 2) + x / 2] += Grey(image.Pixel(left + x, top + y), image.channels) / 4;
+    }
+  }
+  return means;
+}
+
 // The standard deviation of the logarithm of light in waves of four to eight texels: of means of
 // 2 x 2 texels about those of 4 x 4 (the second octave of Haar's wavelets). From the lower quartile
 // of the deviations, 0.3186 of the standard deviation of normal ones, since joints and frames,
@@ -36,12 +47,7 @@ float StrengthOf(const Image& image, int left, int top) {
   float sum = 0;
   for (int y = top; y + 4 <= std::min(top + kBlock, image.height_px); y += 4) {
     for (int x = left; x + 4 <= std::min(left + kBlock, image.width_px); x += 4) {
-      std::array<float, 4> means = {0, 0, 0, 0};
-      for (int dy = 0; dy < 4; ++dy) {
-        for (int dx = 0; dx < 4; ++dx) {
-          means[2 * (dy / 2) + dx / 2] += Grey(image.Pixel(x + dx, y + dy), image.channels) / 4;
-        }
-      }
+      const std::array<float, 4> means = MeansAt(image, x, y);
       const float mean = (means[0] + means[1] + means[2] + means[3]) / 4;
       for (const float part : means) deviations[count++] = std::abs(part - mean);
       sum += 4 * mean;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "calib/mapping/wrong_poses.h"
 #include "tests/calib/made_records.h"
@@ -12,7 +13,7 @@
 namespace stucco::test {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 class ContradictingGroupsTest : public testing::Test {
  protected:

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 
 #include "tests/calib/made_scene.h"
 
@@ -248,8 +249,8 @@ TEST(TransformScene, KeepsReprojectionErrors) {
 // Gimbal angles of a pose in a frame where up is z.
 GimbalAngles GimbalOf(const Pose& level_pose, double roll_deg) {
   const Eigen::Vector3d forward = level_pose.rotation.conjugate() * Eigen::Vector3d::UnitZ();
-  return {std::atan2(forward.x(), forward.y()) * 180 / M_PI, std::asin(forward.z()) * 180 / M_PI,
-          roll_deg};
+  return {std::atan2(forward.x(), forward.y()) * 180 / std::numbers::pi,
+          std::asin(forward.z()) * 180 / std::numbers::pi, roll_deg};
 }
 
 struct GimbalCase {
@@ -265,7 +266,8 @@ GimbalCase MakeGimbalCase(double roll_deg) {
     c.captures.push_back(capture);
     // Clockwise as the photographer sees it: x right turns towards y down.
     Pose rolled;
-    rolled.rotation = Eigen::AngleAxisd(-roll_deg * M_PI / 180, Eigen::Vector3d::UnitZ());
+    rolled.rotation =
+        Eigen::AngleAxisd(-roll_deg * std::numbers::pi / 180, Eigen::Vector3d::UnitZ());
     photo.pose = rolled * *photo.pose;
   }
   Transform(MadeSimilarity(), c.scene);
@@ -289,7 +291,8 @@ TEST(UpFromGimbal, WorksLookingStraightDown) {
   const std::vector<CapturedPhoto> captures(3, down);
   for (ScenePhoto& photo : scene.photos) {
     photo.pose =
-        Pose{Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX())), {0, 0, 9}};
+        Pose{Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX())),
+             {0, 0, 9}};
   }
   const auto up = UpFromGimbal(Pointers(captures), scene);
   ASSERT_TRUE(up);

@@ -20,6 +20,8 @@ TEST(LocalisePhotos, SaysWhatIsNeededWhenThePhotosOfTheModelAreGone) {
   photo.path = "a.jpg";
   photo.usable = true;
   photo.camera = 0;
+  model.reconstruction.cameras[CameraId{1}] = {
+      CameraId{1}, CameraModel::kSimplePinhole, 100, 100, {80, 50, 50}};
   model.reconstruction.photos[PhotoId{1}] = {PhotoId{1}, CameraId{1}, "a.jpg", {}, {}};
   StageContext context;
   context.progress = &SilentProgress();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "calib/two_view/verify.h"
 
@@ -65,7 +66,7 @@ int KeypointOfTrack(const SceneTrack& track, int photo) {
 
 double Random::Gauss(double sigma) {
   const double radius = std::sqrt(-2 * std::log(1 - Uniform(0, 1)));
-  return sigma * radius * std::cos(2 * M_PI * Uniform(0, 1));
+  return sigma * radius * std::cos(2 * std::numbers::pi * Uniform(0, 1));
 }
 
 Camera MadeCamera(CameraModel model) {

@@ -72,7 +72,7 @@ class MatchPhotos : public testing::Test {
     WallRun& run = features_.walls[{photo, wall}];
     run.features = See(photo, first, end);
     run.places.assign(run.features.size(), {5, 5, 0.1f});
-    guidance_.walls[{photo, wall}].key = std::to_string(photo) + " on " + std::to_string(wall);
+    guidance_.walls[{photo, wall}].along_m.from_m = wall;  // in its key
     size_t begin = features_.plain[photo].size();
     for (auto& [key, each] : features_.walls) {
       if (key.first != photo) continue;

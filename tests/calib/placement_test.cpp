@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 
 namespace stucco::test {
 namespace {
@@ -51,7 +52,7 @@ struct Survey {
                                    .has_height = true,
                                    .sigma_horizontal_m = 0.5,
                                    .sigma_vertical_m = 0.5};
-    capture.gimbal = GimbalAngles{.yaw_deg = 270 - turn * 180 / M_PI};
+    capture.gimbal = GimbalAngles{.yaw_deg = 270 - turn * 180 / std::numbers::pi};
     captures.photos.push_back(capture);
   }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <numbers>
 
 #include "survey/attitude.h"
 #include "tests/calib/made_records.h"
@@ -12,7 +13,7 @@
 namespace stucco::test {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 // Photos that look all ways, as those of a flight do: what turns with the camera and what stays
 // with the world are told apart by that.

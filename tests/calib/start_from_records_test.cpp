@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/calib/made_records.h"
 
 namespace stucco::test {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 class FromRecords : public testing::Test {
  protected:

@@ -6,13 +6,14 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <numbers>
 
 namespace stucco {
 namespace {
 
 // Rows right, down, forward in east, north, up (docs/formats.md).
 Eigen::Matrix3d CameraFromWorld(const GimbalAngles& angles) {
-  constexpr double kDegree = 3.14159265358979323846 / 180;
+  constexpr double kDegree = std::numbers::pi / 180;
   const double yaw = angles.yaw_deg * kDegree;
   const double pitch = angles.pitch_deg * kDegree;
   const double roll = angles.roll_deg * kDegree;

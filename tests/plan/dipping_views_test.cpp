@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
 #include <set>
 
@@ -125,7 +126,7 @@ TEST(Lift, OnePhotoHoldsALowWall) {
 TEST(Lift, ATurnedPhotoShowsWhatItsSlantDistanceGives) {
   const Scene scene(MadeSite({Rectangle(-6, -5, 6, 5)}, {.heights_m = {40}}));
   const std::vector<Level> levels = SplitIntoLevels(scene.site);
-  const double aside = 10 * std::tan(M_PI / 3);
+  const double aside = 10 * std::tan(std::numbers::pi / 3);
   const Vector2d p(aside, -15);  // looks at the middle of the wall, 6 m from its a
   const Dip straight = MakeDip(levels[0], scene.setting, {0, -15}, {0, 0, false, {{5.5, 6.5}}});
   const Dip turned = MakeDip(levels[0], scene.setting, p,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "plan/field/sun_window.h"
 #include "survey/error.h"
@@ -10,7 +11,7 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 SunDay Day(int year, unsigned month, unsigned day) {
   return SunOn({std::chrono::year(year), std::chrono::month(month), std::chrono::day(day)});

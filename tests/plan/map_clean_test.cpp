@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <numbers>
 #include <random>
 
 #include "plan/map/clean.h"
@@ -102,7 +103,8 @@ TEST(Simplified, KeepsWithinTheTolerance) {
   EXPECT_EQ(internal::Simplified(ring, 0.05), expected);
   Ring circle;
   for (int i = 0; i < 720; ++i) {
-    circle.push_back({10 * std::cos(i * M_PI / 360), 10 * std::sin(i * M_PI / 360)});
+    circle.push_back(
+        {10 * std::cos(i * std::numbers::pi / 360), 10 * std::sin(i * std::numbers::pi / 360)});
   }
   const Ring few = internal::Simplified(circle, 0.05);
   EXPECT_LT(few.size(), 60u);

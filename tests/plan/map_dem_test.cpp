@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 
 #include "plan/map/read_dem.h"
@@ -89,7 +90,7 @@ TEST_P(ReadDemTest, EvenGroundStays) {
   Make([](int column, int row) { return 250 + 0.5 * column - 0.3 * row; });
   EXPECT_GE(Above().from_m, -kRounding);
   EXPECT_LE(Above().to_m, 0.01);
-  const double per_pixel = 2 * M_PI / 40;
+  const double per_pixel = 2 * std::numbers::pi / 40;
   Make([&](int column, int row) {
     return 250 + 2 * std::sin(column * per_pixel) * std::cos(row * per_pixel);
   });

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "plan/map/home.h"
 #include "plan/map/read_dem.h"
@@ -81,7 +82,7 @@ TEST_F(ReadSiteTest, FillsInEverything) {
   EXPECT_TRUE(site.repairs.empty());
   EXPECT_NEAR(In(site, 70, 6).norm(), 0, 1);
   // The hull of the houses, 20 m (H) wider.
-  EXPECT_NEAR(Area(site.area), 140 * 12 + 20 * 2 * 152 + M_PI * 400, 15);
+  EXPECT_NEAR(Area(site.area), 140 * 12 + 20 * 2 * 152 + std::numbers::pi * 400, 15);
   EXPECT_TRUE(Contains(site.area, In(site, 70, 31)));
   EXPECT_FALSE(Contains(site.area, In(site, 70, 33)));
 }
@@ -196,7 +197,7 @@ TEST_F(ReadSiteTest, AreaOfInterestLeavesObstacles) {
   ASSERT_EQ(site.facades.size(), 4u);
   EXPECT_EQ(site.facades[0].id, "B0002/F00");
   // Views stay around the one house that is wanted.
-  EXPECT_NEAR(Area(site.area), 20 * 12 + 20 * 2 * 32 + M_PI * 400, 15);
+  EXPECT_NEAR(Area(site.area), 20 * 12 + 20 * 2 * 32 + std::numbers::pi * 400, 15);
   EXPECT_THAT(site.repairs, testing::ElementsAre("1 buildings far from the area left out"));
 }
 

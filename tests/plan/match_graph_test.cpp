@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -16,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegrees = M_PI / 180;
+constexpr double kDegrees = std::numbers::pi / 180;
 
 // In front of the south wall of a house of 60 x 20 x 20 m, `aside_m` from its middle, turned to it.
 Hover Facing(double aside_m, double distance_m, double yaw_deg = 0, double pitch_deg = 0) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "plan/camera/preset.h"
 #include "plan/match/photo_coverage.h"
@@ -13,7 +14,7 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 // At the south wall of a house of 60 x 20 x 20 m, turned by `yaw_deg`.
 Hover At(double distance_m, double yaw_deg = 0) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "plan/space/safe_space.h"
@@ -256,7 +257,7 @@ double BruteForce(const Site& site, std::vector<Vector2d> points, double radius,
   for (const Footprint& footprint : site.footprints) {
     for (const Vector2d& corner : footprint.outline.rings.front()) {
       for (int k = 0; k < kSides; ++k) {
-        const double angle = 2 * M_PI * k / kSides;
+        const double angle = 2 * std::numbers::pi * k / kSides;
         const Vector2d p = corner + radius * Vector2d(std::cos(angle), std::sin(angle));
         if (KeepsOff(site, p, p + Vector2d(1e-9, 0), distance)) points.push_back(p);
       }
@@ -308,7 +309,7 @@ TEST(SafeSpaceRandom, LengthsAreThoseOfBruteForce) {
     const std::vector<Vector2d> ends{p.head<2>(), q.head<2>()};
     // Points on the true circles that may cut the arcs between them: no path is shorter. Points
     // outside them that see each other past the true circles: a path, if not the shortest.
-    const double cut = std::cos(M_PI / 48);
+    const double cut = std::cos(std::numbers::pi / 48);
     const double shortest = BruteForce(site, ends, 10, 10 * cut - 1e-9);
     const double possible = BruteForce(site, ends, 10.001 / cut + 1e-9, 10.001);
     ASSERT_EQ(route.has_value(), std::isfinite(possible)) << "map " << map;

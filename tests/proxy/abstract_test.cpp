@@ -386,12 +386,5 @@ TEST(AbstractCloud, RefusesABadUp) {
   }
 }
 
-TEST(PointsWithin, HoldToTheMemoryLimit) {
-  EXPECT_EQ(PointsWithin(uint64_t{4} << 30, 2000000), 2000000);
-  EXPECT_EQ(PointsWithin(uint64_t{1} << 30, 2000000), 1342177);
-  EXPECT_EQ(PointsWithin(1, 2000000), 100000);
-  EXPECT_EQ(PointsWithin(uint64_t{1} << 40, 5000), 5000);
-}
-
 }  // namespace
 }  // namespace stucco

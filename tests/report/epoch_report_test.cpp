@@ -32,7 +32,7 @@ class EpochReport : public testing::Test {
     }
     EpochPhoto& photo = epoch_.photos.emplace_back();
     photo.path = "new.jpg";
-    photo.placed = true;
+    photo.cam_from_world = Pose{};
     photo.inliers = 321;
     photo.picture_sigma_px = 0.25;
   }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace stucco::simulate {
 namespace {
@@ -82,7 +83,7 @@ Plan MadePlan(int views) {
     view.id = fmt::format("h{:04d}v{}", i / 2, i % 2);
     view.hover = i / 2;
     view.order = i;
-    const double angle = 2 * 3.14159265358979 * (i / 2) / std::max(1, (views + 1) / 2);
+    const double angle = 2 * std::numbers::pi * (i / 2) / std::max(1, (views + 1) / 2);
     view.position_m = {6 + 26 * std::sin(angle), 4 + 26 * std::cos(angle), 5.0 + i % 6 / 2};
     view.yaw_deg = std::remainder(angle * 57.29577951308232 + 180, 360);
     view.pitch_deg = i % 2 == 0 ? 0 : -20;

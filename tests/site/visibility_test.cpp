@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <vector>
@@ -154,7 +155,8 @@ class RandomTown : public testing::TestWithParam<int> {
     int facade = 0;
     for (int row = 0; row < 6; ++row) {
       for (int column = 0; column < 6; ++column) {
-        const double turn = uniform(random_) * 2 * M_PI, half = 3 + 4 * uniform(random_);
+        const double turn = uniform(random_) * 2 * std::numbers::pi,
+                     half = 3 + 4 * uniform(random_);
         const Vector2d centre(25 * column, 25 * row);
         const Eigen::Rotation2Dd rotation(GetParam() % 2 ? turn : 0);  // half of them in line
         std::vector<Vector2d> corners;

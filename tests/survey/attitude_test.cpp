@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 namespace stucco {
 namespace {
 
@@ -31,11 +33,11 @@ TEST(CamFromEnu, OfANadirPhotoKeepsTheYawAsTheTopOfThePicture) {
 
 TEST(CamFromEnu, TiltsAndRolls) {
   const Eigen::Quaterniond tilted = CamFromEnu({0, -30, 0});
-  ExpectNear(tilted * Vector3d(0, std::cos(M_PI / 6), -0.5), Vector3d::UnitZ());
+  ExpectNear(tilted * Vector3d(0, std::cos(std::numbers::pi / 6), -0.5), Vector3d::UnitZ());
   // Rolled clockwise, the horizon's right end is above the picture's middle.
   const Vector3d right = CamFromEnu({0, 0, 10}) * Vector3d::UnitX();
   EXPECT_LT(right.y(), 0);
-  EXPECT_NEAR(right.x(), std::cos(10 * M_PI / 180), 1e-12);
+  EXPECT_NEAR(right.x(), std::cos(10 * std::numbers::pi / 180), 1e-12);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <numbers>
 
 #include "survey/colmap_io.h"
 #include "survey/survey_folder.h"
@@ -108,7 +109,7 @@ TEST(JoinPlan, PhotosKnowWhatTheyAreFor) {
 SurveyPhoto LookingNorth() {
   SurveyPhoto photo;
   photo.camera = {CameraId{1}, CameraModel::kRadial, 800, 600, {400, 400, 300, -0.3, 0}};
-  photo.cam_from_world.rotation = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX());
+  photo.cam_from_world.rotation = Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX());
   photo.cam_from_world.translation = {0, 0, 4};
   return photo;
 }

@@ -72,7 +72,7 @@ struct FacadeLibrary {
 // Decoded on the first call.
 const FacadeLibrary& Facades();
 
-// The `choice`-th picture (modulo, negative ones too) of a kind.
+// The `choice`-th picture (modulo, negative ones too) of a kind. Requires a kind that there is.
 const FacadePicture& PictureOf(std::string_view kind, int choice);
 
 }  // namespace stucco::simulate::internal

@@ -30,6 +30,8 @@ class SkyLight {
     uint8_t apex = 0;      // the corner opposite to the longest side
   };
 
+  // Of a triangle, with this distance between its values; `first` is left at 0.
+  static Grid GridOf(const Scene& model, size_t triangle, double spacing);
   void LayOut(const RayScene& scene);
   void ComputeRow(const RayScene& scene, int triangle, int row);
   void FillUnknown(const Grid& grid);

@@ -3,25 +3,20 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "simulate/scene/scene.h"
+#include "survey/glb.h"
 #include "survey/image.h"
 
 namespace stucco::simulate::internal {
 
-struct EncodedImage {
-  std::string bytes;
-  std::string mime_type;  // "image/jpeg", "image/png"
-};
-
 // JPEG where the picture has three channels, PNG with alpha.
-EncodedImage EncodeForGlb(const Image& image);
+GlbTexture EncodeForGlb(const Image& image);
 
 // Writes a scene whose textures are given encoded; `scene.textures` is not looked at. An element is
 // a node and a mesh of its name with a primitive per material; gloss is 1 - roughness.
-void WriteGlbFile(const Scene& scene, const std::vector<EncodedImage>& textures,
+void WriteGlbFile(const Scene& scene, std::vector<GlbTexture> textures,
                   const std::filesystem::path& path);
 
 }  // namespace stucco::simulate::internal

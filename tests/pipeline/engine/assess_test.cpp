@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/engine/hash_cache.h"
 #include "pipeline/engine/work_folder.h"
 #include "survey/files.h"
 #include "tests/pipeline/fake_survey.h"

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/engine/events.h"
 #include "pipeline/engine/progress.h"
 
 namespace stucco {

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <thread>
 
+#include "pipeline/engine/hash_cache.h"
 #include "pipeline/engine/work_folder.h"
 #include "survey/error.h"
 #include "survey/files.h"

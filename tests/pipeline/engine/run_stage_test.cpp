@@ -7,6 +7,8 @@
 
 #include <stdexcept>
 
+#include "pipeline/engine/events.h"
+#include "pipeline/engine/hash_cache.h"
 #include "pipeline/engine/work_folder.h"
 #include "survey/error.h"
 #include "survey/files.h"

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 
 #include "survey/coordinate_system.h"
 #include "survey/error.h"
@@ -62,14 +63,14 @@ TEST(MapFrame, CamerasKeepTheirPlacesOnTheEarth) {
 TEST(MapFrame, ConvergenceAndScaleOfTheMapLeaveNothingBehind) {
   Reconstruction model = OnMap("EPSG:32631", 1);
   const Georef georef = MoveFromMap("EPSG:32631", "block.xml", model);
-  const double from_meridian = (kLongitude_deg - 3) * M_PI / 180;
+  const double from_meridian = (kLongitude_deg - 3) * std::numbers::pi / 180;
   const double convergence =
-      std::atan(std::tan(from_meridian) * std::sin(kLatitude_deg * M_PI / 180));
+      std::atan(std::tan(from_meridian) * std::sin(kLatitude_deg * std::numbers::pi / 180));
   const Pose& pose = model.photos.at(PhotoId{1}).cam_from_world;
   const Eigen::Vector3d looks = pose.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   EXPECT_NEAR(std::atan2(looks.x(), looks.y()), convergence, 1e-4);
   const Eigen::Vector3d ahead = pose * model.points.at(PointId{1}).position;
-  const double offset = 6.38e6 * from_meridian * std::cos(kLatitude_deg * M_PI / 180);
+  const double offset = 6.38e6 * from_meridian * std::cos(kLatitude_deg * std::numbers::pi / 180);
   const double scale = 0.9996 * (1 + std::pow(offset / 6.38e6, 2) / 2);
   EXPECT_NEAR(ahead.z(), 100 / scale, 2e-3);
   EXPECT_NEAR(ahead.x(), 0, 2e-3);  // what the camera sees stays where it was
@@ -82,7 +83,8 @@ TEST(MapFrame, DirectionsOfLongitudeAndLatitudeAreEastAndNorth) {
   const Pose& pose = model.photos.at(PhotoId{1}).cam_from_world;
   const Eigen::Vector3d looks = pose.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   // The meridians meet: 0.001 degrees west of the middle, by sin(latitude) of that.
-  EXPECT_NEAR(std::atan2(looks.x(), looks.y()), 0.001 * M_PI / 180 * std::sin(0.9076), 1e-7);
+  EXPECT_NEAR(std::atan2(looks.x(), looks.y()), 0.001 * std::numbers::pi / 180 * std::sin(0.9076),
+              1e-7);
   EXPECT_NEAR((pose * model.points.at(PointId{1}).position).z(), 111.26, 0.01);
 }
 

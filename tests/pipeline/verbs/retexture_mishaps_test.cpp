@@ -41,7 +41,7 @@ TEST_F(RetextureSample, MishapsLeaveTheSurveyAndItsEpochs) {
   WriteFile(Photos("mixed") / "torn.jpg", whole.substr(0, whole.size() / 3));
   const RetextureReport mixed = Run("mixed", "mixed");
   EXPECT_THAT(PhotoOf(mixed, "again.jpg").why, HasSubstr("survey's own photo"));
-  EXPECT_FALSE(PhotoOf(mixed, "torn.jpg").placed);
+  EXPECT_FALSE(PhotoOf(mixed, "torn.jpg").is_placed());
   EXPECT_THAT(PhotoOf(mixed, "torn.jpg").why, testing::Not(IsEmpty()));
   // The others make what they make alone, and an epoch does not begin at the one before.
   EXPECT_EQ(ReadFile(mixed.folder / "model.glb"), ReadFile(first.folder / "model.glb"));

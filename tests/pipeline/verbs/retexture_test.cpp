@@ -46,7 +46,7 @@ bool Shows(const Proxy& proxy, const std::string& id, const EpochPhoto& photo,
            const Eigen::Vector2d& pixel) {
   const auto ray = photo.camera.Unproject(pixel);
   if (!ray) return false;
-  const Pose world_from_cam = photo.cam_from_world.Inverse();
+  const Pose world_from_cam = photo.cam_from_world->Inverse();
   const Eigen::Vector3d way = world_from_cam.rotation * ray->homogeneous();
   std::string nearest_id;
   double nearest = std::numeric_limits<double>::max();
@@ -100,7 +100,7 @@ TEST_F(RetextureSample, NamesAndReplacesTheRepaintedFacadeAndNothingElse) {
   EXPECT_EQ(same.folder, Survey() / "epochs/same");
   EXPECT_THAT(OtherPictures(same.folder), IsEmpty());
   for (const EpochPhoto& photo : same.epoch.photos) {
-    EXPECT_TRUE(photo.placed) << photo.path << ": " << photo.why;
+    EXPECT_TRUE(photo.is_placed()) << photo.path << ": " << photo.why;
   }
   const TextureSet old = ReadTextureSet(Survey() / kTexturesFile);
   ASSERT_EQ(same.epoch.facets.size(), old.facets.size());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "survey/views_by_pose.h"
+#include "texture/views_by_pose.h"
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/run_proxy.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "proxy/abstract.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/proxy.h"
 #include "survey/survey_folder.h"
 #include "tests/proxy/scene.h"
 
@@ -103,6 +105,13 @@ TEST(ProxyOptionsTable, ValuesAreCheckedAndNamesSuggested) {
   EXPECT_FALSE(SetOptionFromText(table, "level_of_detail", "-1").empty());
   EXPECT_FALSE(SetOptionFromText(table, "solid_support", "1.5").empty());
   EXPECT_EQ(table.Suggestion("max_plane"), "max_planes");
+}
+
+TEST(PointsWithin, HoldToTheMemoryLimit) {
+  EXPECT_EQ(PointsWithin(uint64_t{4} << 30, 2000000), 2000000);
+  EXPECT_EQ(PointsWithin(uint64_t{1} << 30, 2000000), 1342177);
+  EXPECT_EQ(PointsWithin(1, 2000000), 100000);
+  EXPECT_EQ(PointsWithin(uint64_t{1} << 40, 5000), 5000);
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "survey/views_by_pose.h"
+#include "texture/views_by_pose.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -41,8 +42,8 @@ Plan Street() {
 
 // Where the view's photo stands in the world, moved by `shift`.
 SurveyPhoto PhotoOf(const PlannedView& view, const Plan& plan, const Eigen::Vector3d& shift) {
-  const double yaw = view.yaw_deg * M_PI / 180;
-  const double pitch = view.pitch_deg * M_PI / 180;
+  const double yaw = view.yaw_deg * std::numbers::pi / 180;
+  const double pitch = view.pitch_deg * std::numbers::pi / 180;
   const Eigen::Vector3d ahead(std::sin(yaw) * std::cos(pitch), std::cos(yaw) * std::cos(pitch),
                               std::sin(pitch));
   const Eigen::Vector3d right(std::cos(yaw), -std::sin(yaw), 0);
