@@ -27,6 +27,7 @@ TEST(RunTexture, PaintsABalconyWhereItIs) {
   AddPhotosOfBalcony(survey);
   TextureOptions options;
   options.texel_size = 0.01;
+  options.relief = true;
   const auto psnr = [&](const std::string& out) {
     const TexturedFacet facet = survey.Run(options, out).facets.at(0);
     std::vector<uint8_t> seen;
@@ -51,7 +52,9 @@ TEST(RunTexture, FindsNoReliefOnAFlatWall) {
   survey.Add("a.jpg", {4.6, -4.0, 1.7}, {2, 0, 1.5});
   survey.Add("b.jpg", {-0.6, -4.0, 1.6}, {2, 0, 1.5});
   survey.Add("c.jpg", {2.8, -4.0, 3.9}, {2, 0, 1.5});
-  survey.Run();
+  TextureOptions options;
+  options.relief = true;
+  survey.Run(options);
   EXPECT_EQ(ReadRelief(survey.Out(), "B0001_W01"), nullptr);
 }
 
