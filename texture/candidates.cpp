@@ -33,12 +33,6 @@ std::optional<Eigen::Matrix2d> PixelsPerTexel(const SurveyPhoto& photo, const Te
   return jacobian;
 }
 
-// A point along the grid's axes from its origin, world units.
-Eigen::Vector3d InGrid(const TexelGrid& grid, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d offset = point - grid.origin;
-  return {offset.dot(grid.u_axis), offset.dot(grid.v_axis), offset.dot(grid.normal)};
-}
-
 double SmallerSingularValue(const Eigen::Matrix2d& m) {
   const double half_trace = m.squaredNorm() / 2;
   const double determinant = m.determinant();
@@ -177,7 +171,7 @@ RasterView MeasureView(const SightScene& scene, int photo_index, const Facet& fa
           height < 0 ? Eigen::Vector3d(point + lift / cos_angle * to_camera)
                      : Eigen::Vector3d(point + lift * facet.normal);
       if (scene.occlusion->Blocked(before_plane, camera)) continue;
-      if (grid.relief && grid.relief->Hides(InGrid(grid, point), InGrid(grid, camera))) continue;
+      if (grid.ReliefHides(point, camera)) continue;
       TexelView& view = out.texels[index];
       view = shown->view;
       view.cos_angle = static_cast<float>(cos_angle);

@@ -198,8 +198,11 @@ std::vector<uint8_t> AwayFromEdges(const Canvas& canvas, const Relief* relief) {
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kCells * relief->cell);
   for (size_t i = 0; i < out.size(); ++i) {
     if (!out[i]) continue;
-    const Eigen::Vector2d at = canvas.grid.texel * Eigen::Vector2d(i % canvas.grid.width + 0.5,
-                                                                   i / canvas.grid.width + 0.5);
+    const size_t column = i % canvas.grid.width;
+    const size_t row = i / canvas.grid.width;
+    const Eigen::Vector2d at =
+        canvas.grid.texel *
+        Eigen::Vector2d(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     out[i] = relief->IsLevel(at - margin, at + margin);
   }
   return out;

@@ -13,13 +13,12 @@
 
 namespace stucco {
 
-// What stands out of a facet (up to 1.6 m) or lies back in it (up to 0.5 m), from the photos alone:
-// all are brought onto planes parallel to the facet's; at each place that plane counts on which
-// photos from different sides show the same (plane sweep, Collins 1996, with normalised
-// cross-correlation), smoothly over the facet (semi-global matching). What no pair of photos can
-// tell stays on the plane, and so do regions that match hardly better before or behind it than on
-// it. `candidates` are the photos, best first. Nothing where all is on the plane. Lengths are
-// metres: for surveys that are.
+// What stands out of a facet (up to 1.6 m) or lies back in it (up to 0.5 m), as rectangles parallel
+// to it, from the photos alone: all are brought onto planes parallel to the facet's (see
+// SweepPlanes), and the rectangle on one of them where photos agree most better than on the facet's
+// own plane is taken off it, again and again. What no pair of photos can tell stays on the plane,
+// and so does what rectangles hide from half of the photos. `candidates` are the photos, best
+// first. Nothing where all is on the plane. Lengths are metres: for surveys that are.
 std::shared_ptr<const Relief> FindRelief(const Facet& facet, const TexelGrid& grid,
                                          std::span<const Candidate> candidates,
                                          const ViewLimits& limits, const PaintScene& scene);

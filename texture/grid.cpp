@@ -39,6 +39,15 @@ std::vector<Eigen::Vector2d> OnGrid(const std::vector<Eigen::Vector3d>& ring,
 
 }  // namespace
 
+bool TexelGrid::ReliefHides(const Eigen::Vector3d& point, const Eigen::Vector3d& camera) const {
+  if (!relief) return false;
+  const auto along_axes = [&](const Eigen::Vector3d& in_world) {
+    const Eigen::Vector3d offset = in_world - origin;
+    return Eigen::Vector3d(offset.dot(u_axis), offset.dot(v_axis), offset.dot(normal));
+  };
+  return relief->Hides(along_axes(point), along_axes(camera));
+}
+
 TexelGrid MakeGrid(const Facet& facet, const Eigen::Vector3d& up, double texel, int max_px) {
   assert(texel > 0 && max_px >= 1 && facet.outer.size() >= 3);
   TexelGrid grid;

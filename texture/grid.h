@@ -39,6 +39,8 @@ struct TexelGrid {
     const Eigen::Vector3d offset = (point_in_world - origin) / texel;
     return {offset.dot(u_axis), offset.dot(v_axis)};
   }
+  // Whether relief stands between a point on it and a camera, both in the world.
+  bool ReliefHides(const Eigen::Vector3d& point, const Eigen::Vector3d& camera) const;
 };
 
 // The smallest grid around the facet with texels of the given size, which grow where the longer

@@ -32,10 +32,9 @@ void Describe(OptionTable& table, TextureOptions& options) {
   table.Add("occluders", options.occluders,
             "Avoid photos where points of the cloud (trees, vehicles) stand in front of the "
             "surface.");
-  table.Add(
-      "relief", options.relief,
-      "Find balconies, eaves and reveals on walls of a metric survey from its photos and "
-      "paint them where they are, seen at right angles. Some walls come out bent: look at them.");
+  table.Add("relief", options.relief,
+            "Find balconies, eaves and reveals on walls of a metric survey from its photos and "
+            "paint them where they are, seen at right angles.");
   table.Add("align", options.align,
             "Align the photos of a facet to each other on its plane before blending.");
   table.Add("align_limit_px", options.align_limit_px, 0, 64,

@@ -18,7 +18,7 @@ struct TextureOptions {
   double seam_cost = 1.0;
   double min_region = 0.01;
   bool occluders = true;
-  bool relief = false;
+  bool relief = true;
   bool align = true;
   double align_limit_px = 8;
   bool colour = true;

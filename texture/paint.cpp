@@ -239,6 +239,28 @@ std::vector<uint8_t> FindInFront(const Selected& selected, const PaintedFacet& p
   return in_front;
 }
 
+// What relief hides from some photos, and shows others only something before it, is nobody's.
+void LetGoBehindRelief(const Selected& selected, const PaintScene& scene, PaintedFacet& painted) {
+  const TexelGrid& grid = painted.grid;
+  if (!grid.relief) return;
+  std::vector<Eigen::Vector3d> cameras;
+  for (const RasterView& view : selected.views) {
+    cameras.push_back(scene.sights.photos[view.photo].cam_from_world.Center());
+  }
+  for (size_t i = 0; i < painted.labels.size(); ++i) {
+    if (!painted.in_front[i]) continue;
+    const Eigen::Vector3d point =
+        grid.Center(static_cast<int>(i % grid.width), static_cast<int>(i / grid.width));
+    if (std::ranges::none_of(cameras, [&](const Eigen::Vector3d& camera) {
+          return grid.ReliefHides(point, camera);
+        })) {
+      continue;
+    }
+    painted.labels[i] = 0;
+    painted.in_front[i] = 0;
+  }
+}
+
 // Continues colours into holes and beyond the facet, copies texture into the holes, and counts.
 void FillAndCount(const TextureOptions& options, PaintedFacet& painted) {
   std::vector<uint8_t> known(painted.labels.size());
@@ -334,6 +356,7 @@ PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
     return nothing;
   }
   painted.in_front = FindInFront(selected, painted);
+  LetGoBehindRelief(selected, scene, painted);
   FillAndCount(options, painted);
 
   // 5. Measure.

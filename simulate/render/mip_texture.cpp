@@ -130,42 +130,45 @@ void MipTexture::FillBase(const Image& image) {
   }
 }
 
+// Of the 2 x 2 finer texels at (x, y), weighed by the parts of the base that they stand for.
+uint32_t MipTexture::MeanOfFiner(const Level& finer, int finer_number, int x, int y) const {
+  const ToneTables& tables = kTables;
+  // Colours count by their alpha, so that what is cut out does not bleed into what is left.
+  std::array<uint64_t, 3> by_alpha = {0, 0, 0};
+  std::array<uint64_t, 3> plain = {0, 0, 0};
+  uint64_t area = 0;
+  uint64_t alphas = 0;
+  for (int k = 0; k < 4; ++k) {
+    const int fx = 2 * x + (k & 1);
+    const int fy = 2 * y + (k >> 1);
+    if (fx >= finer.width || fy >= finer.height) continue;
+    const uint32_t texel = Texel(finer, fx, fy);
+    const uint64_t weight = static_cast<uint64_t>(Covered(levels_[0].width, fx, finer_number)) *
+                            static_cast<uint64_t>(Covered(levels_[0].height, fy, finer_number));
+    const uint64_t alpha = Channel(texel, 3);
+    area += weight;
+    alphas += weight * alpha;
+    for (int c = 0; c < 3; ++c) {
+      const uint64_t linear = tables.linear16[Channel(texel, c)];
+      by_alpha[c] += weight * alpha * linear;
+      plain[c] += weight * linear;
+    }
+  }
+  std::array<uint32_t, 3> out;
+  for (int c = 0; c < 3; ++c) {
+    const uint64_t linear =
+        alphas > 0 ? (by_alpha[c] + alphas / 2) / alphas : (plain[c] + area / 2) / area;
+    out[c] = tables.srgb[linear];
+  }
+  return Pack(out[0], out[1], out[2], static_cast<uint32_t>((alphas + area / 2) / area));
+}
+
 void MipTexture::FillFromFiner(size_t level) {
   const Level& finer = levels_[level - 1];
   const Level& coarser = levels_[level];
-  const ToneTables& tables = kTables;
-  const int finer_number = static_cast<int>(level) - 1;
   for (int y = 0; y < coarser.height; ++y) {
     for (int x = 0; x < coarser.width; ++x) {
-      // Colours count by their alpha, so that what is cut out does not bleed into what is left.
-      std::array<uint64_t, 3> by_alpha = {0, 0, 0};
-      std::array<uint64_t, 3> plain = {0, 0, 0};
-      uint64_t area = 0;
-      uint64_t alphas = 0;
-      for (int k = 0; k < 4; ++k) {
-        const int fx = 2 * x + (k & 1);
-        const int fy = 2 * y + (k >> 1);
-        if (fx >= finer.width || fy >= finer.height) continue;
-        const uint32_t texel = Texel(finer, fx, fy);
-        const uint64_t weight = static_cast<uint64_t>(Covered(levels_[0].width, fx, finer_number)) *
-                                static_cast<uint64_t>(Covered(levels_[0].height, fy, finer_number));
-        const uint64_t alpha = Channel(texel, 3);
-        area += weight;
-        alphas += weight * alpha;
-        for (int c = 0; c < 3; ++c) {
-          const uint64_t linear = tables.linear16[Channel(texel, c)];
-          by_alpha[c] += weight * alpha * linear;
-          plain[c] += weight * linear;
-        }
-      }
-      std::array<uint32_t, 3> out;
-      for (int c = 0; c < 3; ++c) {
-        const uint64_t linear =
-            alphas > 0 ? (by_alpha[c] + alphas / 2) / alphas : (plain[c] + area / 2) / area;
-        out[c] = tables.srgb[linear];
-      }
-      const auto alpha = static_cast<uint32_t>((alphas + area / 2) / area);
-      Texel(coarser, x, y) = Pack(out[0], out[1], out[2], alpha);
+      Texel(coarser, x, y) = MeanOfFiner(finer, static_cast<int>(level) - 1, x, y);
     }
   }
 }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/texture/wall_survey.h"
 #include "texture/relief_file.h"
 
@@ -27,7 +29,6 @@ TEST(RunTexture, PaintsABalconyWhereItIs) {
   AddPhotosOfBalcony(survey);
   TextureOptions options;
   options.texel_size = 0.01;
-  options.relief = true;
   const auto psnr = [&](const std::string& out) {
     const TexturedFacet facet = survey.Run(options, out).facets.at(0);
     std::vector<uint8_t> seen;
@@ -47,14 +48,40 @@ TEST(RunTexture, PaintsABalconyWhereItIs) {
   EXPECT_GT(with, without + 4);
 }
 
+// Photos from above, which the balcony hides the wall below it from, show its lower edge there.
+TEST(RunTexture, KeepsAWallBelowABalconyStraight) {
+  WallSurvey survey;
+  const auto plain_below = [wall = WallScene(4, 3)](const Eigen::Vector3d& from,
+                                                    const Eigen::Vector3d& way) {
+    const auto colour = wall(from, way);
+    const double z = from.z() - from.y() / way.y() * way.z();
+    return colour && z < kBalcony.low.y() ? Colour(Colour::Constant(140 + 20 * std::sin(2 * z)))
+                                          : colour;
+  };
+  const auto scene = BalconyScene(kBalcony, plain_below);
+  survey.Add("a.jpg", {4.4, -2.2, 5.6}, {2, 0, 1.5}, 1, scene);
+  survey.Add("b.jpg", {3.2, -2.2, 5.6}, {2, 0, 1.5}, 1, scene);
+  survey.Add("c.jpg", {2.0, -2.2, 5.6}, {2, 0, 1.5}, 1, scene);
+  survey.Add("d.jpg", {0.8, -2.2, 5.6}, {2, 0, 1.5}, 1, scene);
+  survey.Add("e.jpg", {-0.4, -2.2, 5.6}, {2, 0, 1.5}, 1, scene);
+  survey.Add("f.jpg", {2.0, -4.5, 1.8}, {2, 0, 1.5}, 1, scene);
+  TextureOptions options;
+  options.texel_size = 0.01;
+  survey.Run(options);
+  const auto relief = ReadRelief(survey.Out(), "B0001_W01");
+  ASSERT_NE(relief, nullptr);
+  EXPECT_NEAR(relief->HeightAt(2.0, 3 - 1.6), kBalcony.depth, 0.08);
+  for (double u = 0.1; u < 4; u += 0.1) {
+    for (double v = 3 - 1.1; v < 3; v += 0.1) EXPECT_NEAR(relief->HeightAt(u, v), 0, 0.03);
+  }
+}
+
 TEST(RunTexture, FindsNoReliefOnAFlatWall) {
   WallSurvey survey;
   survey.Add("a.jpg", {4.6, -4.0, 1.7}, {2, 0, 1.5});
   survey.Add("b.jpg", {-0.6, -4.0, 1.6}, {2, 0, 1.5});
   survey.Add("c.jpg", {2.8, -4.0, 3.9}, {2, 0, 1.5});
-  TextureOptions options;
-  options.relief = true;
-  survey.Run(options);
+  survey.Run();
   EXPECT_EQ(ReadRelief(survey.Out(), "B0001_W01"), nullptr);
 }
 

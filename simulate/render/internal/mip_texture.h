@@ -47,6 +47,7 @@ class MipTexture {
 
   void AppendLevel(int width, int height);
   void FillBase(const Image& image);
+  uint32_t MeanOfFiner(const Level& finer, int finer_number, int x, int y) const;
   void FillFromFiner(size_t level);
   uint32_t& Texel(const Level& level, int x, int y);
   uint32_t Texel(const Level& level, int x, int y) const;
