@@ -7,7 +7,7 @@
 
 SURVEY was flown in SCENE and has a model; it is only read. OUT/guided is textured as usual,
 OUT/unguided without the plan (texture.guided=false), OUT/single with the best photo of each facet
-alone, neither aligned, blended nor evened out and with what stands in front, as programs do that
+alone, neither aligned, blended nor evened out, flat and with what stands in front, as programs do that
 choose a photo for each triangle. Printed is a table: walls, photos on them and how many of these
 were planned for them, the painted share, SSIM and its ceiling, PSNR, and SSIM and shift on the
 walls' planes beside their ceilings. The ground is not painted without --ground.
@@ -24,7 +24,8 @@ import surveys
 READ = ("calib", "dense", "ingest", "plan", "proxy", "truth", "survey.toml")
 WAYS = {"guided": [], "unguided": ["texture.guided=false"],
         "single": ["texture.guided=false", "texture.max_candidates=1", "texture.occluders=false",
-                   "texture.align=false", "texture.colour=false", "texture.blend=false"]}
+                   "texture.align=false", "texture.colour=false", "texture.blend=false",
+                   "texture.relief=false"]}
 HEAD = ("way", "walls", "photos on them", "planned", "painted", "SSIM", "ceiling", "PSNR (dB)",
         "SSIM on planes", "ceiling", "shift (m)", "ceiling", "SSIM on relief", "ceiling")
 

@@ -3,6 +3,7 @@
 #include "texture/find_relief.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -79,15 +80,14 @@ std::vector<int> PhotosFromAllSides(const TexelGrid& raster, std::span<const Can
   return out;
 }
 
-// Takes rectangles off the plane, those that gain most first.
+// Puts rectangles onto other planes, those that gain most first; later ones may lie on earlier
+// ones.
 class RectangleFinder {
  public:
   explicit RectangleFinder(const PlaneSweep& sweep)
-      : sweep_(sweep),
-        labels_(sweep.raster.size(), sweep.plane),
-        not_out_(sweep.raster.size(), 0),
-        not_in_(sweep.raster.size(), 0),
-        best_(sweep.planes) {}
+      : sweep_(sweep), labels_(sweep.raster.size(), sweep.plane), best_(sweep.planes) {
+    refused_.fill(std::vector<uint8_t>(sweep.raster.size(), 0));
+  }
 
   // By cell, its plane.
   std::vector<int> Find() {
@@ -105,6 +105,11 @@ class RectangleFinder {
   }
 
  private:
+  enum Side : uint8_t { kBehindIt, kOnIt, kBefore };
+  Side SideOf(int label) const {
+    if (label == sweep_.plane) return kOnIt;
+    return label > sweep_.plane ? kBefore : kBehindIt;
+  }
   double CellArea() const { return sweep_.raster.texel * sweep_.raster.texel; }
   size_t CellAt(int column, int row) const {
     return static_cast<size_t>(row) * sweep_.raster.width + column;
@@ -122,12 +127,12 @@ class RectangleFinder {
     return sweep_.squarest[label * sweep_.raster.size() + cell];
   }
   bool IsFree(size_t cell, int label) const {
-    return labels_[cell] == sweep_.plane && !(label > sweep_.plane ? not_out_ : not_in_)[cell];
+    return labels_[cell] != label && !refused_[SideOf(label)][cell];
   }
   bool Tells(size_t cell, int label) const {
-    return std::max(Best(cell, label), Best(cell, sweep_.plane)) >= kTelling;
+    return std::max(Best(cell, label), Best(cell, labels_[cell])) >= kTelling;
   }
-  float Gain(size_t cell, int label) const { return All(cell, label) - All(cell, sweep_.plane); }
+  float Gain(size_t cell, int label) const { return All(cell, label) - All(cell, labels_[cell]); }
 
   // What a cell is worth to a rectangle.
   float Worth(size_t cell, int label) const {
@@ -136,9 +141,8 @@ class RectangleFinder {
   }
 
   int BestLabel() {
-    int best = sweep_.plane == 0 ? 1 : 0;
+    int best = 0;
     for (int label = 0; label < sweep_.planes; ++label) {
-      if (label == sweep_.plane) continue;
       if (!best_[label]) best_[label] = InBlocks(label);
       if (best_[label]->sum > best_[best]->sum) best = label;
     }
@@ -208,6 +212,7 @@ class RectangleFinder {
     });
     if (!(free * CellArea() >= kLeastArea_m2 && telling >= kLeastTelling * free)) return false;
     if (std::min(cells.right - cells.left, cells.bottom - cells.top) < kLeastSide) return false;
+    if (label == sweep_.plane) return true;
     // What is beyond the last planes may be farther off.
     if (label == 0 || label + 1 == sweep_.planes) return false;
     if (!out) return correlation >= kLeastCorrelationIn * telling;
@@ -218,18 +223,15 @@ class RectangleFinder {
   void Take(const CellRectangle& cells, int label) {
     ForFree(cells, label, [&](size_t cell) { labels_[cell] = label; });
     if (label > sweep_.plane) RefuseHidden(cells, sweep_.HeightOf(label) / sweep_.raster.texel);
-    for (auto& best : best_) best.reset();
+    ForgetOver(cells);
   }
 
   // What is on the same side there is the same thing seen less well.
   void Refuse(const CellRectangle& cells, int label) {
-    const bool out = label > sweep_.plane;
     for (int y = cells.top; y < cells.bottom; ++y) {
-      for (int x = cells.left; x < cells.right; ++x) (out ? not_out_ : not_in_)[CellAt(x, y)] = 1;
+      for (int x = cells.left; x < cells.right; ++x) refused_[SideOf(label)][CellAt(x, y)] = 1;
     }
-    for (auto& best : best_) {
-      if (best && Overlap(best->cells, cells)) best.reset();
-    }
+    ForgetOver(cells);
   }
 
   // Nothing is looked for at cells of the plane that a rectangle, `height` cells before it,
@@ -250,9 +252,16 @@ class RectangleFinder {
           hidden += std::max({u0, v0, 0.0}) < std::min({u1, v1, height});
         }
         if (2 * hidden < sweep_.slants.size()) continue;
-        not_out_[CellAt(x, y)] = 1;
-        not_in_[CellAt(x, y)] = 1;
+        refused_[kBefore][CellAt(x, y)] = 1;
+        refused_[kBehindIt][CellAt(x, y)] = 1;
       }
+    }
+    for (auto& best : best_) best.reset();
+  }
+
+  void ForgetOver(const CellRectangle& cells) {
+    for (auto& best : best_) {
+      if (best && Overlap(best->cells, cells)) best.reset();
     }
   }
 
@@ -262,8 +271,8 @@ class RectangleFinder {
 
   const PlaneSweep& sweep_;
   std::vector<int> labels_;
-  std::vector<uint8_t> not_out_;                   // by cell: no more to be found before it,
-  std::vector<uint8_t> not_in_;                    // behind it
+  // By cell: that it lies on this side of the facet's plane is refused.
+  std::array<std::vector<uint8_t>, 3> refused_;
   std::vector<std::optional<RectangleSum>> best_;  // by label, where known, in blocks
 };
 
