@@ -25,9 +25,11 @@ struct SceneSigmas {
 };
 
 struct SigmaOptions {
-  // With more registered photos intrinsics are not computed, and poses with all points held: each
-  // photo's own part of the error.
-  int max_photos = 800;
+  // With more registered photos the inverse is sampled: deviations are good to some 4 %.
+  int exact_photos = 800;
+  // With more intrinsics are not computed, and poses with all points held: each photo's own part of
+  // the error.
+  int max_photos = 10000;
   bool use_priors = false;  // took part in the adjustment
   // Points were held: intrinsics are not computed, and poses as if these were known.
   bool points_are_given = false;

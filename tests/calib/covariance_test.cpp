@@ -199,6 +199,28 @@ TEST(PoseSigmas, ScaleWithTheModelAndDoNotDependOnTheFrame) {
   }
 }
 
+// As of large surveys. A photo that little holds shows among them, too.
+TEST(PoseSigmas, SampledOnesAreThoseOfTheWholeCovariance) {
+  Scene scene = MakeScene({.num_photos = 8, .num_points = 200, .num_planes = 3, .noise_px = 0.5});
+  int left = 25;
+  for (SceneTrack& track : scene.tracks) {
+    for (SceneElement& element : track.elements) {
+      if (element.photo == 3 && element.used && left-- <= 0) element.used = false;
+    }
+  }
+  const SceneSigmas whole = EstimateSigmas({}, scene);
+  const SceneSigmas sampled = EstimateSigmas({.exact_photos = 7}, scene);
+  const SceneSigmas on_threads = EstimateSigmas({.exact_photos = 7, .threads = 3}, scene);
+  ASSERT_EQ(sampled.intrinsics.size(), 1u);
+  EXPECT_TRUE(sampled.intrinsics[0].isApprox(whole.intrinsics[0], 0.2));
+  for (size_t i = 0; i < scene.photos.size(); ++i) {
+    EXPECT_NEAR(sampled.poses[i].position / whole.poses[i].position, 1, 0.2) << i;
+    EXPECT_NEAR(sampled.poses[i].rotation_rad / whole.poses[i].rotation_rad, 1, 0.2) << i;
+    EXPECT_NEAR(sampled.poses[i].picture_px / whole.poses[i].picture_px, 1, 0.2) << i;
+    EXPECT_EQ(sampled.poses[i].position, on_threads.poses[i].position) << i;
+  }
+}
+
 // Records that are much better than what the photos tell among themselves make poses more certain.
 TEST(PoseSigmas, GetSmallerByRecords) {
   Scene scene = Adjusted(MakeScene({.num_photos = 6, .num_points = 120, .num_planes = 3}), 1);
