@@ -44,8 +44,8 @@ PoseSigma SigmaOf(const Scene& scene, int photo, const Eigen::MatrixXd& covarian
     Eigen::Matrix2Xd of_pixel(2, covariance.rows());
     of_pixel.leftCols<3>() = -by_point * pose.rotation.toRotationMatrix();
     of_pixel.middleCols<3>(3) = -by_point * cross;
-    of_pixel.rightCols(num_intrinsics) =
-        scene.photos[photo].keypoint_sigma_px * linear.intrinsics.leftCols(num_intrinsics);
+    of_pixel.rightCols(num_intrinsics) = scene.photos[photo].KeypointSigma(element->keypoint) *
+                                         linear.intrinsics.leftCols(num_intrinsics);
     squares.push_back((of_pixel * covariance * of_pixel.transpose()).trace());
   }
   PoseSigma sigma;

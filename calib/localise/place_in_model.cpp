@@ -171,7 +171,7 @@ Misfit MisfitOf(int camera, Scene& scene) {
     if (!scene.photos[photo].pose) continue;
     for (const Sighting& sighting : SightingsOf(scene, photo)) {
       const double sigmas = ReprojectionError(scene, *sighting.element, *sighting.point) /
-                            scene.photos[photo].keypoint_sigma_px;
+                            scene.photos[photo].KeypointSigma(sighting.element->keypoint);
       misfit.cost += scale * scale * std::log1p(sigmas * sigmas / (scale * scale));
       ++misfit.points;
     }

@@ -27,8 +27,8 @@ class NormalMatrix {
   std::optional<Eigen::MatrixXd> HalfInverse(int threads) const;
 
   // A matrix H of `rows` rows with H' H the inverse but for the noise of a sample of so many: the
-  // rows are drawn with the inverse as their covariance, from the sparse Cholesky factor (Rue, "Fast
-  // sampling of Gaussian Markov random fields", 2001), of signs instead of normal variables
+  // rows are drawn with the inverse as their covariance, from the sparse Cholesky factor (Rue,
+  // "Fast sampling of Gaussian Markov random fields", 2001), of signs instead of normal variables
   // (Hutchinson 1990). A variance that it shows is off by sqrt(2 / rows) of itself in the root mean
   // square. Time and memory are those of the factor.
   std::optional<Eigen::MatrixXd> SampledHalfInverse(int rows, int threads) const;
