@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "calib/adjust/adjust.h"
 #include "calib/adjust/datum.h"
+#include "calib/adjust/internal/draws.h"
 #include "calib/adjust/internal/linearise.h"
 #include "calib/adjust/internal/normal_matrix.h"
 #include "calib/adjust/internal/scatter.h"
@@ -62,6 +64,7 @@ struct Unknowns {
       of_camera.push_back(size);
       if (camera.focal_sigma_ratio > 0) size += static_cast<int>(camera.intrinsics.params.size());
     }
+    num_intrinsics = size;
     for (size_t i = 0; i < scene.photos.size(); ++i) {
       if (!scene.photos[i].pose) continue;
       of_pose[i] = size;
@@ -70,24 +73,44 @@ struct Unknowns {
   }
 
   int size = 0;
+  int num_intrinsics = 0;
   std::vector<int> of_camera;
   std::vector<int> of_pose;  // by photo; -1 without a pose
 };
 
-// The normal equations of poses and intrinsics, points eliminated.
+// The normal equations of poses and intrinsics, points eliminated, and draws of their right sides.
+// Observations count as the adjustment's loss lets them.
 class ReducedSystem {
  public:
-  explicit ReducedSystem(const Scene& scene)
-      : scene_(scene), unknowns_(scene), normal_(unknowns_.size) {}
+  ReducedSystem(const Scene& scene, int threads)
+      : scene_(scene),
+        threads_(threads),
+        unknowns_(scene),
+        scatter_(ScatterOf(scene, num_points_)),
+        normal_(unknowns_.size),
+        as_alike_(unknowns_.size),
+        as_they_are_(unknowns_.size) {
+    if (scatter_.num_residuals() == 0) return;
+    const double redundancy = scatter_.num_residuals() - 3.0 * num_points_;
+    variance_ = scatter_.Get(3.0 * num_points_ + unknowns_.size) * scatter_.MeanSlope();
+    shrunk_ = std::sqrt(scatter_.OfNeighbouringCells() * std::max(1.0, redundancy) /
+                        std::max(1.0, redundancy - unknowns_.size));
+  }
 
-  void AddTrack(const SceneTrack& track) {
+  void AddTrack(int index) {
+    const SceneTrack& track = scene_.tracks[index];
     if (!track.position) return;
     sights_.clear();
     Eigen::Matrix3d point_block = Eigen::Matrix3d::Zero();
     for (const SceneElement& element : track.elements) {
       Sight sight{&element, {}};
       if (!element.used || !Linearise(scene_, element, *track.position, sight.linear)) continue;
-      point_block += sight.linear.point.transpose() * sight.linear.point;
+      Linearised& l = sight.linear;
+      const double weight = scatter_.Weight(l.residual);
+      l.pose *= weight;
+      l.point *= weight;
+      l.intrinsics *= weight;
+      point_block += l.point.transpose() * l.point;
       sights_.push_back(sight);
     }
     // A point that hardly anything determines, as one just before a lens, says nothing of poses.
@@ -113,31 +136,29 @@ class ReducedSystem {
         }
       }
     }
+    Draw(factors);
   }
 
-  SceneSigmas Solve(const SigmaOptions& options) {
+  SceneSigmas Solve(bool use_priors) {
     SceneSigmas sigmas;
     sigmas.poses.resize(scene_.photos.size());
-    int num_points = 0;
-    const RobustVariance scatter = ScatterOf(scene_, num_points);
-    if (scatter.num_residuals() == 0) return sigmas;
-    const double variance = scatter.Get(3.0 * num_points + unknowns_.size);
+    if (scatter_.num_residuals() == 0) return sigmas;
     for (size_t c = 0; c < scene_.cameras.size(); ++c) {
-      if (scene_.cameras[c].focal_sigma_ratio > 0) AddLens(c, variance);
+      if (scene_.cameras[c].focal_sigma_ratio > 0) AddLens(c);
     }
-    if (!options.use_priors || !AddPriors(variance)) HoldFrame();
-    const auto halves = NumRegistered(scene_) <= options.exact_photos
-                            ? normal_.HalfInverse(options.threads)
-                            : normal_.SampledHalfInverse(kSamples, options.threads);
-    if (!halves) return sigmas;
-    SetIntrinsics(*halves, variance, sigmas);
-    SetPoses(*halves, variance, sigmas);
+    if (!use_priors || !AddPriors()) HoldFrame();
+    AddRounding();
+    if (!SetIntrinsics(sigmas)) return sigmas;
+    for (const Draws* draws : {&as_alike_, &as_they_are_}) {
+      const auto solved = normal_.Solve(draws->rows() / std::sqrt(Draws::kCount), threads_);
+      if (solved) SetPoses(*solved, sigmas);
+    }
     return sigmas;
   }
 
  private:
+  static constexpr double kRounding = 1e-10;  // of what holds an unknown while all others are held
   static constexpr double kLeastCondition = 1e-10;
-  static constexpr int kSamples = 256;    // deviations are good to some 4 %
   static constexpr int kDatumRounds = 6;  // what is unsure loses the square of its share in each
 
   struct Sight {
@@ -158,44 +179,84 @@ class ReducedSystem {
     }
   }
 
-  // What the adjustment assumes about the lens. The whole system is scaled by `variance` in the
-  // end, which must not make these assumptions any firmer.
-  void AddLens(size_t index, double variance) {
+  // What errors of the track's observations do: of one size and each by itself, and as they are,
+  // those of tracks in one cell of a picture together.
+  void Draw(const Eigen::LLT<Eigen::Matrix3d>& of_point) {
+    const Draws::Signs together = Draws::SignsOf(scatter_.CellOf(*sights_.front().element));
+    Eigen::Matrix<double, Draws::kCount, 3> alike_by_point;
+    alike_by_point.setZero();
+    Eigen::Vector3d by_point = Eigen::Vector3d::Zero();
+    for (size_t i = 0; i < sights_.size(); ++i) {
+      const auto& [element, l] = sights_[i];
+      Eigen::Matrix<double, Draws::kCount, 2> signs;
+      for (int axis = 0; axis < 2; ++axis) signs.col(axis) = NextSigns();
+      signs *= std::sqrt(variance_);
+      const Eigen::Vector2d residual = shrunk_ * l.residual;
+      const auto add = [&](int offset, const auto& derivatives) {
+        as_alike_.Add(offset, signs * derivatives);
+        as_they_are_.Add(offset, together, derivatives.transpose() * residual);
+      };
+      add(unknowns_.of_pose[element->photo], l.pose);
+      const int camera = scene_.photos[element->photo].camera;
+      if (scene_.cameras[camera].focal_sigma_ratio > 0) {
+        add(unknowns_.of_camera[camera], l.intrinsics);
+      }
+      alike_by_point += signs * l.point;
+      by_point += l.point.transpose() * residual;
+    }
+    for (const Cross& cross : cross_) {
+      const Eigen::Matrix3Xd solved = of_point.solve(cross.block.transpose());
+      as_alike_.Add(cross.offset, -(alike_by_point * solved));
+      as_they_are_.Add(cross.offset, together, -(solved.transpose() * by_point));
+    }
+  }
+
+  Draws::Signs NextSigns() { return Draws::SignsOf(next_key_++); }
+
+  // Something known beforehand of unknowns from `offset` on, in its standard deviations. The whole
+  // is scaled by the variance of the observations, which must not make it any firmer.
+  void AddKnown(int offset, const Eigen::Ref<const Eigen::RowVectorXd>& derivatives) {
+    normal_.Add(offset, offset, variance_ * derivatives.transpose() * derivatives);
+    const Draws::Signs signs = NextSigns();
+    for (Draws* draws : {&as_alike_, &as_they_are_}) {
+      draws->Add(offset, signs, variance_ * derivatives.transpose());
+    }
+  }
+
+  // What the adjustment assumes about the lens.
+  void AddLens(size_t index) {
     const SceneCamera& camera = scene_.cameras[index];
     const int offset = unknowns_.of_camera[index];
-    Eigen::VectorXd weights(camera.intrinsics.params.size());
-    for (int i = 0; i < static_cast<int>(camera.intrinsics.params.size()); ++i) {
-      const double sigma = PriorSigma(camera, i);
-      weights[i] = variance / (sigma * sigma);
+    const auto count = static_cast<Eigen::Index>(camera.intrinsics.params.size());
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double sigma = PriorSigma(camera, static_cast<int>(i));
+      AddKnown(offset, Eigen::RowVectorXd::Unit(count, i) / sigma);
     }
-    normal_.AddToDiagonal(offset, weights);
     const double fx = camera.intrinsics.params[0];
     const double fy = camera.intrinsics.params[1];
-    const Eigen::RowVector2d by_focal =
-        Eigen::RowVector2d(-fy / (fx * fx), 1 / fx) / kFocalRatioSigma;
-    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(weights.size(), weights.size());
-    block.topLeftCorner<2, 2>() = variance * by_focal.transpose() * by_focal;
-    normal_.Add(offset, offset, block);
+    Eigen::RowVectorXd by_focal = Eigen::RowVectorXd::Zero(count);
+    by_focal.head<2>() = Eigen::RowVector2d(-fy / (fx * fx), 1 / fx) / kFocalRatioSigma;
+    AddKnown(offset, by_focal);
   }
 
   // Returns whether they hold the frame.
-  bool AddPriors(double variance) {
+  bool AddPriors() {
     int positions = 0;
     for (size_t i = 0; i < scene_.photos.size(); ++i) {
       const ScenePhoto& photo = scene_.photos[i];
       if (!photo.pose) continue;
       const int offset = unknowns_.of_pose[i];
-      if (photo.attitude) {
+      for (int axis = 0; photo.attitude && axis < 3; ++axis) {
         // The unknowns are half angles.
-        normal_.AddToDiagonal(offset, Eigen::Vector3d::Constant(
-                                          4 * variance / std::pow(photo.attitude->sigma_rad, 2)));
+        AddKnown(offset, Eigen::RowVectorXd::Unit(6, axis) * 2 / photo.attitude->sigma_rad);
       }
       if (!photo.prior) continue;
       const Eigen::Vector3d sigma(photo.prior->sigma_horizontal_m, photo.prior->sigma_horizontal_m,
                                   photo.prior->sigma_vertical_m);
-      const Eigen::Matrix<double, 3, 6> by_pose =
-          sigma.cwiseInverse().asDiagonal() * CenterByPose(*photo.pose);
-      normal_.Add(offset, offset, variance * by_pose.transpose() * by_pose);
+      const Eigen::Matrix<double, 3, 6> by_pose = CenterByPose(*photo.pose);
+      for (int axis = 0; axis < 3; ++axis) {
+        AddKnown(offset, by_pose.row(axis) / sigma[axis]);
+      }
       ++positions;
     }
     return positions >= 3;
@@ -210,59 +271,80 @@ class ReducedSystem {
     const Eigen::Vector3d origin = scene_.photos[first - offsets.begin()].pose->Center();
     double farthest = -1;
     int index = 0;
-    for (size_t i = 0; i < unknowns_.of_pose.size(); ++i) {
-      if (unknowns_.of_pose[i] < 0) continue;
+    for (size_t i = 0; i < offsets.size(); ++i) {
+      if (offsets[i] < 0) continue;
       const Eigen::Vector3d to_origin = *scene_.photos[i].pose * origin;
       if (to_origin.norm() <= farthest) continue;
       farthest = to_origin.norm();
       int axis = 0;
       to_origin.cwiseAbs().maxCoeff(&axis);
-      index = unknowns_.of_pose[i] + 3 + axis;
+      index = offsets[i] + 3 + axis;
     }
     normal_.AddToDiagonal(index, Eigen::VectorXd::Constant(1, strong));
   }
 
-  void SetIntrinsics(const Eigen::MatrixXd& half, double variance, SceneSigmas& sigmas) const {
-    for (size_t c = 0; c < scene_.cameras.size(); ++c) {
-      const SceneCamera& camera = scene_.cameras[c];
-      const int count = static_cast<int>(camera.intrinsics.params.size());
-      Eigen::VectorXd& sigma = sigmas.intrinsics.emplace_back(Eigen::VectorXd::Zero(count));
-      if (camera.focal_sigma_ratio == 0) continue;
-      sigma = std::sqrt(variance) *
-              half.middleCols(unknowns_.of_camera[c], count).colwise().norm().transpose();
+  // Two photos that nothing but poor records tie to the rest are held to no more than rounding.
+  void AddRounding() {
+    const Eigen::VectorXd held = kRounding * normal_.Diagonal();
+    normal_.AddToDiagonal(0, held);
+    for (Eigen::Index i = 0; i < held.size(); ++i) {
+      const Draws::Signs signs = NextSigns();
+      for (Draws* draws : {&as_alike_, &as_they_are_}) {
+        draws->Add(static_cast<int>(i), signs,
+                   Eigen::VectorXd::Constant(1, std::sqrt(variance_ * held[i])));
+      }
     }
   }
 
-  // The unknowns' covariance as half' * half says it, with what a similarity of all takes away left
-  // out: one that goes by the surest half of the photos, and by others the less the less sure they
-  // are. One that nothing holds would else take all with it.
-  void SetPoses(const Eigen::MatrixXd& half, double variance, SceneSigmas& sigmas) const {
-    Eigen::VectorXd weights(unknowns_.of_pose.size());
-    for (size_t i = 0; i < unknowns_.of_pose.size(); ++i)
-      weights[i] = unknowns_.of_pose[i] >= 0 ? 1 : 0;
+  // From the inverse itself. Whether it could be computed.
+  bool SetIntrinsics(SceneSigmas& sigmas) const {
+    const auto num_intrinsics = static_cast<Eigen::Index>(unknowns_.num_intrinsics);
+    const auto inverse =
+        normal_.Solve(Eigen::MatrixXd::Identity(num_intrinsics, unknowns_.size), threads_);
+    if (!inverse) return false;
+    const Eigen::VectorXd all = (variance_ * inverse->diagonal()).cwiseSqrt();
+    for (size_t c = 0; c < scene_.cameras.size(); ++c) {
+      const SceneCamera& camera = scene_.cameras[c];
+      const auto count = static_cast<Eigen::Index>(camera.intrinsics.params.size());
+      Eigen::VectorXd& sigma = sigmas.intrinsics.emplace_back(Eigen::VectorXd::Zero(count));
+      if (camera.focal_sigma_ratio > 0) sigma = all.segment(unknowns_.of_camera[c], count);
+    }
+    return true;
+  }
+
+  // What draws do to poses where that is more than what is there, with what a similarity of all
+  // takes away left out: one that goes by the surest half of the photos, and by others the less the
+  // less sure they are. One that nothing holds would else take all with it.
+  void SetPoses(const Eigen::MatrixXd& solved, SceneSigmas& sigmas) const {
+    const std::vector<int>& offsets = unknowns_.of_pose;
+    Eigen::VectorXd weights(offsets.size());
+    for (size_t i = 0; i < offsets.size(); ++i) weights[i] = offsets[i] >= 0 ? 1 : 0;
     std::optional<Datum> datum;
     Eigen::MatrixXd of_similarity;
     for (int round = 0; round < kDatumRounds; ++round) {
       datum.emplace(scene_, weights);
-      of_similarity = half * SimilarityByUnknowns(*datum).transpose();
-      weights = WeightsIn(*datum, half, of_similarity);
+      of_similarity = solved * SimilarityByUnknowns(*datum).transpose();
+      weights = WeightsIn(*datum, solved, of_similarity);
     }
-    for (size_t i = 0; i < unknowns_.of_pose.size(); ++i) {
-      if (unknowns_.of_pose[i] < 0) continue;
+    for (size_t i = 0; i < offsets.size(); ++i) {
+      if (offsets[i] < 0) continue;
       const int camera = scene_.photos[i].camera;
       const bool is_variable = scene_.cameras[camera].focal_sigma_ratio > 0;
       const Eigen::Index num_intrinsics =
           is_variable ? static_cast<Eigen::Index>(scene_.cameras[camera].intrinsics.params.size())
                       : 0;
-      Eigen::MatrixXd motion(half.rows(), 6 + num_intrinsics);
-      motion.leftCols<3>() = MotionOfCenter(i, *datum, half, of_similarity);
+      Eigen::MatrixXd motion(solved.rows(), 6 + num_intrinsics);
+      motion.leftCols<3>() = MotionOfCenter(i, *datum, solved, of_similarity);
       motion.middleCols<3>(3) =
-          2 * half.middleCols<3>(unknowns_.of_pose[i]) -
+          2 * solved.middleCols<3>(offsets[i]) -
           of_similarity * Datum::RotationBySimilarity(*scene_.photos[i].pose).transpose();
       motion.rightCols(num_intrinsics) =
-          half.middleCols(unknowns_.of_camera[camera], num_intrinsics);
-      sigmas.poses[i] =
-          SigmaOf(scene_, static_cast<int>(i), variance * motion.transpose() * motion);
+          solved.middleCols(unknowns_.of_camera[camera], num_intrinsics);
+      const PoseSigma shown = SigmaOf(scene_, static_cast<int>(i), motion.transpose() * motion);
+      PoseSigma& sigma = sigmas.poses[i];
+      sigma.position = std::max(sigma.position, shown.position);
+      sigma.rotation_rad = std::max(sigma.rotation_rad, shown.rotation_rad);
+      sigma.picture_px = std::max(sigma.picture_px, shown.picture_px);
     }
   }
 
@@ -277,20 +359,20 @@ class ReducedSystem {
     return similarity;
   }
 
-  Eigen::MatrixX3d MotionOfCenter(size_t photo, const Datum& datum, const Eigen::MatrixXd& half,
+  Eigen::MatrixX3d MotionOfCenter(size_t photo, const Datum& datum, const Eigen::MatrixXd& solved,
                                   const Eigen::MatrixXd& of_similarity) const {
-    return half.middleCols<6>(unknowns_.of_pose[photo]) *
+    return solved.middleCols<6>(unknowns_.of_pose[photo]) *
                CenterByPose(*scene_.photos[photo].pose).transpose() -
            of_similarity * datum.CenterBySimilarity(photo).transpose();
   }
 
-  Eigen::VectorXd WeightsIn(const Datum& datum, const Eigen::MatrixXd& half,
+  Eigen::VectorXd WeightsIn(const Datum& datum, const Eigen::MatrixXd& solved,
                             const Eigen::MatrixXd& of_similarity) const {
     Eigen::VectorXd variances = Eigen::VectorXd::Zero(unknowns_.of_pose.size());
     std::vector<double> all;
     for (size_t i = 0; i < unknowns_.of_pose.size(); ++i) {
       if (unknowns_.of_pose[i] < 0) continue;
-      variances[i] = MotionOfCenter(i, datum, half, of_similarity).squaredNorm();
+      variances[i] = MotionOfCenter(i, datum, solved, of_similarity).squaredNorm();
       all.push_back(variances[i]);
     }
     const double usual = *Median(std::move(all));
@@ -301,10 +383,18 @@ class ReducedSystem {
   }
 
   const Scene& scene_;
+  const int threads_;
   const Unknowns unknowns_;
+  int num_points_ = 0;  // before what sets it
+  const RobustVariance scatter_;
+  double variance_ = 1;  // of an observation, as it counts
+  double shrunk_ = 1;    // times larger than residuals are errors
   NormalMatrix normal_;
-  std::vector<Sight> sights_;  // of one track
-  std::vector<Cross> cross_;   // likewise
+  Draws as_alike_;
+  Draws as_they_are_;
+  uint64_t next_key_ = uint64_t{1} << 40;  // after those of cells
+  std::vector<Sight> sights_;              // of one track
+  std::vector<Cross> cross_;               // likewise
 };
 
 // Each pose with the points held, which were unknowns of the adjustment or given.
@@ -344,12 +434,14 @@ SceneSigmas EstimateSigmas(const SigmaOptions& options, const Scene& scene) {
   if (options.points_are_given) return {{}, OwnSigmas(scene, true)};
   if (registered < 2) return {{}, std::vector<PoseSigma>(scene.photos.size())};
   if (registered > options.max_photos) return {{}, OwnSigmas(scene, false)};
-  ReducedSystem system(scene);
+  ReducedSystem system(scene, options.threads);
   if (options.tracks.empty()) {
-    for (const SceneTrack& track : scene.tracks) system.AddTrack(track);
+    for (size_t track = 0; track < scene.tracks.size(); ++track) {
+      system.AddTrack(static_cast<int>(track));
+    }
   }
-  for (const int track : options.tracks) system.AddTrack(scene.tracks[track]);
-  return system.Solve(options);
+  for (const int track : options.tracks) system.AddTrack(track);
+  return system.Solve(options.use_priors);
 }
 
 }  // namespace stucco

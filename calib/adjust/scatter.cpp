@@ -22,7 +22,7 @@ RobustVariance::RobustVariance(const Scene& scene, double scale)
       sums_(scene.photos.size() * kCells * kCells, Eigen::Vector2d::Zero()) {}
 
 void RobustVariance::Add(const SceneElement& element, const Eigen::Vector2d& residual) {
-  const double weight = 1 / (1 + residual.squaredNorm() / (scale_ * scale_));
+  const double weight = Weight(residual);
   sums_[CellOf(element)] += weight * residual;
   slope_ += weight * weight;
   ++count_;
@@ -30,9 +30,21 @@ void RobustVariance::Add(const SceneElement& element, const Eigen::Vector2d& res
 
 double RobustVariance::Get(double num_unknowns) const {
   const double n = count_;
-  const double influence = std::max({Influence(1), Influence(kCells / 2), Influence(kCells)});
   const double redundancy = std::max(1.0, 2 * n - num_unknowns) / (2 * n);
-  return influence / n / std::pow(slope_ / n, 2) / redundancy;
+  return LargestInfluence() / n / std::pow(slope_ / n, 2) / redundancy;
+}
+
+double RobustVariance::Weight(const Eigen::Vector2d& residual) const {
+  return 1 / (1 + residual.squaredNorm() / (scale_ * scale_));
+}
+
+double RobustVariance::OfNeighbouringCells() const {
+  const double of_single = Influence(1);
+  return of_single > 0 ? LargestInfluence() / of_single : 1;
+}
+
+double RobustVariance::LargestInfluence() const {
+  return std::max({Influence(1), Influence(kCells / 2), Influence(kCells)});
 }
 
 double RobustVariance::Influence(int cells) const {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <cmath>
+#include <algorithm>
 #include <random>
 
 namespace stucco::test {
@@ -44,44 +44,32 @@ Chain MakeChain(int num_blocks, double smallest) {
   return chain;
 }
 
-TEST(NormalMatrix, HalfInverseGivesTheInverse) {
+TEST(NormalMatrix, SolvesRows) {
   const Chain chain = MakeChain(8, 0.1);
   EXPECT_TRUE(chain.blocks.Diagonal().isApprox(chain.dense.diagonal()));
-  const auto half = chain.blocks.HalfInverse(2);
-  ASSERT_TRUE(half);
-  EXPECT_TRUE((half->transpose() * *half).isApprox(chain.dense.inverse(), 1e-6));
+  const Eigen::MatrixXd right = Eigen::MatrixXd::Identity(chain.dense.rows(), chain.dense.cols());
+  const auto inverse = chain.blocks.Solve(right, 2);
+  ASSERT_TRUE(inverse);
+  EXPECT_TRUE(inverse->isApprox(chain.dense.inverse(), 1e-9));
+  EXPECT_EQ(*inverse, *chain.blocks.Solve(right, 1));
 }
 
-// Of many rows also what blocks far from each other have in common.
-TEST(NormalMatrix, SamplesShowTheInverse) {
-  constexpr int kRows = 20000;
-  const Chain chain = MakeChain(8, 0.01);
-  const auto half = chain.blocks.SampledHalfInverse(kRows, 2);
-  ASSERT_TRUE(half);
-  const Eigen::MatrixXd shown = half->transpose() * *half;
-  const Eigen::MatrixXd inverse = chain.dense.inverse();
-  for (Eigen::Index i = 0; i < inverse.rows(); ++i) {
-    for (Eigen::Index j = 0; j < inverse.cols(); ++j) {
-      const double usual = std::sqrt(inverse(i, i) * inverse(j, j) / kRows);
-      EXPECT_NEAR(shown(i, j), inverse(i, j), 6 * usual) << i << " " << j;
-    }
-  }
+TEST(NormalMatrix, SolvesWhatHasVeryDifferentUnits) {
+  NormalMatrix matrix(2);
+  matrix.Add(0, 0, (Eigen::Matrix2d() << 1e12, 1, 1, 1e-10).finished());
+  const auto solved = matrix.Solve(Eigen::RowVector2d(1e12, 1), 1);
+  ASSERT_TRUE(solved);
+  EXPECT_NEAR((*solved)(0, 0), 1, 1e-9);
+  EXPECT_NEAR((*solved)(0, 1), 0, 1e-3);
 }
 
-TEST(NormalMatrix, SamplesDoNotDependOnThreads) {
-  const Chain chain = MakeChain(8, 0.1);
-  EXPECT_EQ(*chain.blocks.SampledHalfInverse(50, 1), *chain.blocks.SampledHalfInverse(50, 4));
-}
-
-TEST(NormalMatrix, NothingWhereItIsSingular) {
-  NormalMatrix nothing_at_all(2);
-  nothing_at_all.AddToDiagonal(0, Eigen::VectorXd::Ones(1));
-  EXPECT_FALSE(nothing_at_all.HalfInverse(1));
-  EXPECT_FALSE(nothing_at_all.SampledHalfInverse(10, 1));
+TEST(NormalMatrix, NothingWhereItIsNotPositiveDefinite) {
+  NormalMatrix empty(2);
+  empty.AddToDiagonal(0, Eigen::VectorXd::Ones(1));
+  EXPECT_FALSE(empty.Solve(Eigen::RowVector2d(1, 1), 1));
   NormalMatrix indefinite(2);
   indefinite.Add(0, 0, (Eigen::Matrix2d() << 1, 2, 2, 1).finished());
-  EXPECT_FALSE(indefinite.HalfInverse(1));
-  EXPECT_FALSE(indefinite.SampledHalfInverse(10, 1));
+  EXPECT_FALSE(indefinite.Solve(Eigen::RowVector2d(1, 1), 1));
 }
 
 }  // namespace

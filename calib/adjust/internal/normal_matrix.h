@@ -10,9 +10,7 @@
 
 namespace stucco {
 
-// A symmetric matrix that is summed up block by block, of which most blocks are zero. All that is
-// factorised is scaled to a diagonal of ones first, and has a rounding error added to that: what
-// nothing but poor records tie to the rest is held to no more than rounding.
+// A symmetric matrix that is summed up block by block, of which most blocks are zero.
 class NormalMatrix {
  public:
   explicit NormalMatrix(int size) : diagonal_(Eigen::VectorXd::Zero(size)) {}
@@ -23,15 +21,9 @@ class NormalMatrix {
   void AddToDiagonal(int at, const Eigen::Ref<const Eigen::VectorXd>& values);
   Eigen::VectorXd Diagonal() const;
 
-  // A matrix H with H' H the inverse, lower triangular; nothing where the matrix is singular.
-  std::optional<Eigen::MatrixXd> HalfInverse(int threads) const;
-
-  // A matrix H of `rows` rows with H' H the inverse but for the noise of a sample of so many: the
-  // rows are drawn with the inverse as their covariance, from the sparse Cholesky factor (Rue,
-  // "Fast sampling of Gaussian Markov random fields", 2001), of signs instead of normal variables
-  // (Hutchinson 1990). A variance that it shows is off by sqrt(2 / rows) of itself in the root mean
-  // square. Time and memory are those of the factor.
-  std::optional<Eigen::MatrixXd> SampledHalfInverse(int rows, int threads) const;
+  // Solutions of right sides, a row each, by its sparse Cholesky factor, whose time and memory they
+  // take; nothing where it is not positive definite.
+  std::optional<Eigen::MatrixXd> Solve(const Eigen::MatrixXd& right, int threads) const;
 
  private:
   struct Block {
@@ -39,9 +31,6 @@ class NormalMatrix {
     int col = 0;
     Eigen::MatrixXd values;
   };
-
-  // Nothing where that is not possible.
-  std::optional<Eigen::VectorXd> ScaleToOnes() const;
 
   Eigen::VectorXd diagonal_;  // what was added to it alone
   std::vector<Block> blocks_;

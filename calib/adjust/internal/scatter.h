@@ -23,13 +23,20 @@ class RobustVariance {
   int num_residuals() const { return 2 * count_; }
   // With the degrees of freedom that are left.
   double Get(double num_unknowns) const;
+  // The share of its size that such a residual counts with.
+  double Weight(const Eigen::Vector2d& residual) const;
+  // Mean of how much a residual's count changes with its size, which is the weight's square.
+  double MeanSlope() const { return slope_ / count_; }
+  // Times as much as where cells err each by itself.
+  double OfNeighbouringCells() const;
+  size_t CellOf(const SceneElement& element) const;
 
  private:
   static constexpr int kCells = 8;  // of a picture in each direction
 
   // Of sums over so many cells in each direction.
   double Influence(int cells) const;
-  size_t CellOf(const SceneElement& element) const;
+  double LargestInfluence() const;
 
   const Scene& scene_;
   double scale_;
