@@ -254,7 +254,7 @@ TEST(PoseSigmas, APhotoThatShowsLargeBlobsIsLessCertain) {
   Scene scene = MakeScene({.num_photos = 6, .num_points = 200, .num_planes = 3, .noise_px = 0.5});
   for (ScenePhoto& photo : scene.photos) photo.blobs_px.assign(photo.keypoints.size(), 1);
   const auto before = EstimateSigmas({}, scene).poses;
-  scene.photos[3].blobs_px.assign(scene.photos[3].keypoints.size(), 20);
+  scene.photos[3].blobs_px.assign(scene.photos[3].keypoints.size(), 30);
   const auto after = EstimateSigmas({}, scene).poses;
   EXPECT_GT(after[3].position, 3 * before[3].position);
   EXPECT_LT(after[2].position, 2 * before[2].position);
