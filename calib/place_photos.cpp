@@ -41,7 +41,10 @@ Scene MakeScene(const CalibOptions& options, const UsablePhotos& photos,
     photo.camera = photos.usable[i]->camera;
     photo.keypoint_sigma_px = DetectionScale(options, *photos.usable[i]);
     Features all = features.AllOf(static_cast<int>(i));
-    for (const Keypoint& k : all.keypoints) photo.keypoints.emplace_back(k.x, k.y);
+    for (const Keypoint& k : all.keypoints) {
+      photo.keypoints.emplace_back(k.x, k.y);
+      photo.blobs_px.push_back(k.scale);
+    }
     photo.colors = std::move(all.colors);
     scene.photos.push_back(std::move(photo));
   }

@@ -181,8 +181,8 @@ class Adjustment {
 
   void AddObservation(const SceneElement& element, Eigen::Vector3d& point) {
     const ScenePhoto& photo = scene_.photos[element.photo];
-    AddSight({element.photo, photo.keypoints[element.keypoint]}, photo.keypoint_sigma_px, loss_,
-             point);
+    AddSight({element.photo, photo.keypoints[element.keypoint]},
+             photo.KeypointSigma(element.keypoint), loss_, point);
   }
 
   // A point where a photo shows it.
@@ -420,7 +420,8 @@ double MeasureNoise(const Scene& scene) {
     if (!track.position) continue;
     for (const SceneElement& element : track.elements) {
       if (!element.used) continue;
-      errors.push_back(ReprojectionErrorInSigmas(scene, element, *track.position));
+      errors.push_back(ReprojectionError(scene, element, *track.position) /
+                       scene.photos[element.photo].KeypointSigma(element.keypoint));
     }
   }
   const auto median = Median(std::move(errors));

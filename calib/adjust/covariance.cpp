@@ -4,17 +4,19 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "calib/adjust/adjust.h"
 #include "calib/adjust/datum.h"
+#include "calib/adjust/internal/draws.h"
 #include "calib/adjust/internal/linearise.h"
+#include "calib/adjust/internal/normal_matrix.h"
+#include "calib/adjust/internal/scatter.h"
 #include "survey/median.h"
-#include "survey/parallel.h"
 
 namespace stucco {
 namespace {
@@ -44,8 +46,8 @@ PoseSigma SigmaOf(const Scene& scene, int photo, const Eigen::MatrixXd& covarian
     Eigen::Matrix2Xd of_pixel(2, covariance.rows());
     of_pixel.leftCols<3>() = -by_point * pose.rotation.toRotationMatrix();
     of_pixel.middleCols<3>(3) = -by_point * cross;
-    of_pixel.rightCols(num_intrinsics) =
-        scene.photos[photo].keypoint_sigma_px * linear.intrinsics.leftCols(num_intrinsics);
+    of_pixel.rightCols(num_intrinsics) = scene.photos[photo].KeypointSigma(element->keypoint) *
+                                         linear.intrinsics.leftCols(num_intrinsics);
     squares.push_back((of_pixel * covariance * of_pixel.transpose()).trace());
   }
   PoseSigma sigma;
@@ -55,118 +57,60 @@ PoseSigma SigmaOf(const Scene& scene, int photo, const Eigen::MatrixXd& covarian
   return sigma;
 }
 
-// How robust residuals scatter: the variance of independent ones that would leave poses as
-// uncertain as these do, with Cauchy loss at `scale` standard deviations. Neighbours in a picture
-// err alike, by what the lens model lacks and by textures; and where only chosen tracks were
-// adjusted all residuals of a photo do. They count as what their sums over cells show, of the size
-// that shows most (Liang and Zeger, "Longitudinal data analysis using generalized linear models",
-// 1986).
-class RobustVariance {
- public:
-  RobustVariance(const Scene& scene, double scale)
-      : scene_(scene),
-        scale_(scale),
-        sums_(scene.photos.size() * kCells * kCells, Eigen::Vector2d::Zero()) {}
-
-  void Add(const SceneElement& element, const Eigen::Vector2d& residual) {
-    const double weight = 1 / (1 + residual.squaredNorm() / (scale_ * scale_));
-    sums_[CellOf(element)] += weight * residual;
-    slope_ += weight * weight;
-    ++count_;
-  }
-  int num_residuals() const { return 2 * count_; }
-  // With the degrees of freedom that are left.
-  double Get(double num_unknowns) const {
-    const double n = count_;
-    const double influence = std::max({Influence(1), Influence(kCells / 2), Influence(kCells)});
-    const double redundancy = std::max(1.0, 2 * n - num_unknowns) / (2 * n);
-    return influence / n / std::pow(slope_ / n, 2) / redundancy;
-  }
-
- private:
-  static constexpr int kCells = 8;  // of a picture in each direction
-
-  // Of sums over so many cells in each direction.
-  double Influence(int cells) const {
-    double influence = 0;
-    const int blocks = kCells / cells;
-    for (size_t photo = 0; photo < scene_.photos.size(); ++photo) {
-      for (int block = 0; block < blocks * blocks; ++block) {
-        Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-        for (int i = 0; i < cells * cells; ++i) {
-          const int row = block / blocks * cells + i / cells;
-          const int column = block % blocks * cells + i % cells;
-          sum += sums_[(photo * kCells + row) * kCells + column];
-        }
-        influence += sum.squaredNorm() / 2;
-      }
-    }
-    return influence;
-  }
-
-  size_t CellOf(const SceneElement& element) const {
-    const Camera& camera = scene_.CameraOf(element.photo);
-    const Eigen::Vector2d& pixel = scene_.photos[element.photo].keypoints[element.keypoint];
-    const auto cell = [](double place, int size) {
-      return static_cast<size_t>(
-          std::clamp(static_cast<int>(place / size * kCells), 0, kCells - 1));
-    };
-    return (element.photo * kCells + cell(pixel.y(), camera.height_px)) * kCells +
-           cell(pixel.x(), camera.width_px);
-  }
-
-  const Scene& scene_;
-  double scale_;
-  std::vector<Eigen::Vector2d> sums_;  // by photo and cell
-  double slope_ = 0;
-  int count_ = 0;
-};
-
-// Robust residuals lose weight beyond this many deviations of their noise (AdjustOptions).
-constexpr double kLossScale = 2;
-
-// Of all observations; `num_points` gets the number of points that they determine.
-RobustVariance ScatterOf(const Scene& scene, int& num_points) {
-  RobustVariance scatter(scene, kLossScale * MeasureNoise(scene));
-  num_points = 0;
-  for (const SceneTrack& track : scene.tracks) {
-    if (!track.position) continue;
-    ++num_points;
-    for (const SceneElement& element : track.elements) {
-      Linearised l;
-      if (element.used && Linearise(scene, element, *track.position, l)) {
-        scatter.Add(element, l.residual);
-      }
-    }
-  }
-  return scatter;
-}
-
-// The normal equations of poses and intrinsics, points eliminated.
-class ReducedSystem {
- public:
-  explicit ReducedSystem(const Scene& scene) : scene_(scene) {
+// Where the unknowns of the normal equations stand: intrinsics, then poses.
+struct Unknowns {
+  explicit Unknowns(const Scene& scene) : of_pose(scene.photos.size(), -1) {
     for (const SceneCamera& camera : scene.cameras) {
-      camera_offset_.push_back(size_);
-      if (camera.focal_sigma_ratio > 0) size_ += static_cast<int>(camera.intrinsics.params.size());
+      of_camera.push_back(size);
+      if (camera.focal_sigma_ratio > 0) size += static_cast<int>(camera.intrinsics.params.size());
     }
-    pose_offset_.assign(scene.photos.size(), -1);
+    num_intrinsics = size;
     for (size_t i = 0; i < scene.photos.size(); ++i) {
       if (!scene.photos[i].pose) continue;
-      pose_offset_[i] = size_;
-      size_ += 6;
+      of_pose[i] = size;
+      size += 6;
     }
-    normal_ = Eigen::MatrixXd::Zero(size_, size_);
   }
 
-  void AddTrack(const SceneTrack& track) {
+  int size = 0;
+  int num_intrinsics = 0;
+  std::vector<int> of_camera;
+  std::vector<int> of_pose;  // by photo; -1 without a pose
+};
+
+// The normal equations of poses and intrinsics, points eliminated, and draws of their right sides.
+// Observations count as the adjustment's loss lets them.
+class ReducedSystem {
+ public:
+  ReducedSystem(const Scene& scene, int threads)
+      : scene_(scene),
+        threads_(threads),
+        unknowns_(scene),
+        scatter_(ScatterOf(scene, num_points_)),
+        normal_(unknowns_.size),
+        as_alike_(unknowns_.size),
+        as_they_are_(unknowns_.size) {
+    if (scatter_.num_residuals() == 0) return;
+    const double redundancy = scatter_.num_residuals() - 3.0 * num_points_;
+    variance_ = scatter_.Get(3.0 * num_points_ + unknowns_.size) * scatter_.MeanSlope();
+    shrunk_ = std::sqrt(scatter_.OfNeighbouringCells() * std::max(1.0, redundancy) /
+                        std::max(1.0, redundancy - unknowns_.size));
+  }
+
+  void AddTrack(int index) {
+    const SceneTrack& track = scene_.tracks[index];
     if (!track.position) return;
     sights_.clear();
     Eigen::Matrix3d point_block = Eigen::Matrix3d::Zero();
     for (const SceneElement& element : track.elements) {
       Sight sight{&element, {}};
       if (!element.used || !Linearise(scene_, element, *track.position, sight.linear)) continue;
-      point_block += sight.linear.point.transpose() * sight.linear.point;
+      Linearised& l = sight.linear;
+      const double weight = scatter_.Weight(l.residual);
+      l.pose *= weight;
+      l.point *= weight;
+      l.intrinsics *= weight;
+      point_block += l.point.transpose() * l.point;
       sights_.push_back(sight);
     }
     // A point that hardly anything determines, as one just before a lens, says nothing of poses.
@@ -175,40 +119,40 @@ class ReducedSystem {
     cross_.clear();
     for (const auto& [element, l] : sights_) {
       const int camera = scene_.photos[element->photo].camera;
-      const int pose = pose_offset_[element->photo];
-      AddBlock(pose, pose, l.pose.transpose() * l.pose);
+      const int pose = unknowns_.of_pose[element->photo];
+      normal_.Add(pose, pose, l.pose.transpose() * l.pose);
       AddCross(pose, l.pose.transpose() * l.point);
       if (scene_.cameras[camera].focal_sigma_ratio == 0) continue;
-      const int intrinsics = camera_offset_[camera];
-      AddBlock(intrinsics, intrinsics, l.intrinsics.transpose() * l.intrinsics);
-      AddBlock(pose, intrinsics, l.pose.transpose() * l.intrinsics);
+      const int intrinsics = unknowns_.of_camera[camera];
+      normal_.Add(intrinsics, intrinsics, l.intrinsics.transpose() * l.intrinsics);
+      normal_.Add(pose, intrinsics, l.pose.transpose() * l.intrinsics);
       AddCross(intrinsics, l.intrinsics.transpose() * l.point);
     }
     for (const Cross& row : cross_) {
       const Eigen::Matrix3Xd solved = factors.solve(row.block.transpose());
       for (const Cross& col : cross_) {
         if (col.offset <= row.offset) {
-          AddBlock(row.offset, col.offset, -(col.block * solved).transpose());
+          normal_.Add(row.offset, col.offset, -(col.block * solved).transpose());
         }
       }
     }
+    Draw(factors);
   }
 
-  SceneSigmas Solve(const SigmaOptions& options) {
+  SceneSigmas Solve(bool use_priors) {
     SceneSigmas sigmas;
     sigmas.poses.resize(scene_.photos.size());
-    int num_points = 0;
-    const RobustVariance scatter = ScatterOf(scene_, num_points);
-    if (scatter.num_residuals() == 0) return sigmas;
-    const double variance = scatter.Get(3.0 * num_points + size_);
+    if (scatter_.num_residuals() == 0) return sigmas;
     for (size_t c = 0; c < scene_.cameras.size(); ++c) {
-      if (scene_.cameras[c].focal_sigma_ratio > 0) AddLens(c, variance);
+      if (scene_.cameras[c].focal_sigma_ratio > 0) AddLens(c);
     }
-    if (!options.use_priors || !AddPriors(variance)) HoldFrame();
-    const auto halves = HalfInverse(options.threads);
-    if (!halves) return sigmas;
-    SetIntrinsics(*halves, variance, sigmas);
-    SetPoses(*halves, variance, sigmas);
+    if (!use_priors || !AddPriors()) HoldFrame();
+    AddRounding();
+    if (!SetIntrinsics(sigmas)) return sigmas;
+    for (const Draws* draws : {&as_alike_, &as_they_are_}) {
+      const auto solved = normal_.Solve(draws->rows() / std::sqrt(Draws::kCount), threads_);
+      if (solved) SetPoses(*solved, sigmas);
+    }
     return sigmas;
   }
 
@@ -226,12 +170,6 @@ class ReducedSystem {
     Eigen::MatrixX3d block;
   };
 
-  // Of the lower triangle; what lies above it is not looked at.
-  template <typename Block>
-  void AddBlock(int row, int col, const Block& block) {
-    normal_.block(row, col, block.rows(), block.cols()) += block;
-  }
-
   void AddCross(int offset, const Eigen::MatrixX3d& block) {
     const auto same = std::ranges::find(cross_, offset, &Cross::offset);
     if (same == cross_.end()) {
@@ -241,40 +179,84 @@ class ReducedSystem {
     }
   }
 
-  // What the adjustment assumes about the lens. The whole system is scaled by `variance` in the
-  // end, which must not make these assumptions any firmer.
-  void AddLens(size_t index, double variance) {
+  // What errors of the track's observations do: of one size and each by itself, and as they are,
+  // those of tracks in one cell of a picture together.
+  void Draw(const Eigen::LLT<Eigen::Matrix3d>& of_point) {
+    const Draws::Signs together = Draws::SignsOf(scatter_.CellOf(*sights_.front().element));
+    Eigen::Matrix<double, Draws::kCount, 3> alike_by_point;
+    alike_by_point.setZero();
+    Eigen::Vector3d by_point = Eigen::Vector3d::Zero();
+    for (size_t i = 0; i < sights_.size(); ++i) {
+      const auto& [element, l] = sights_[i];
+      Eigen::Matrix<double, Draws::kCount, 2> signs;
+      for (int axis = 0; axis < 2; ++axis) signs.col(axis) = NextSigns();
+      signs *= std::sqrt(variance_);
+      const Eigen::Vector2d residual = shrunk_ * l.residual;
+      const auto add = [&](int offset, const auto& derivatives) {
+        as_alike_.Add(offset, signs * derivatives);
+        as_they_are_.Add(offset, together, derivatives.transpose() * residual);
+      };
+      add(unknowns_.of_pose[element->photo], l.pose);
+      const int camera = scene_.photos[element->photo].camera;
+      if (scene_.cameras[camera].focal_sigma_ratio > 0) {
+        add(unknowns_.of_camera[camera], l.intrinsics);
+      }
+      alike_by_point += signs * l.point;
+      by_point += l.point.transpose() * residual;
+    }
+    for (const Cross& cross : cross_) {
+      const Eigen::Matrix3Xd solved = of_point.solve(cross.block.transpose());
+      as_alike_.Add(cross.offset, -(alike_by_point * solved));
+      as_they_are_.Add(cross.offset, together, -(solved.transpose() * by_point));
+    }
+  }
+
+  Draws::Signs NextSigns() { return Draws::SignsOf(next_key_++); }
+
+  // Something known beforehand of unknowns from `offset` on, in its standard deviations. The whole
+  // is scaled by the variance of the observations, which must not make it any firmer.
+  void AddKnown(int offset, const Eigen::Ref<const Eigen::RowVectorXd>& derivatives) {
+    normal_.Add(offset, offset, variance_ * derivatives.transpose() * derivatives);
+    const Draws::Signs signs = NextSigns();
+    for (Draws* draws : {&as_alike_, &as_they_are_}) {
+      draws->Add(offset, signs, variance_ * derivatives.transpose());
+    }
+  }
+
+  // What the adjustment assumes about the lens.
+  void AddLens(size_t index) {
     const SceneCamera& camera = scene_.cameras[index];
-    const int offset = camera_offset_[index];
-    for (int i = 0; i < static_cast<int>(camera.intrinsics.params.size()); ++i) {
-      const double sigma = PriorSigma(camera, i);
-      normal_(offset + i, offset + i) += variance / (sigma * sigma);
+    const int offset = unknowns_.of_camera[index];
+    const auto count = static_cast<Eigen::Index>(camera.intrinsics.params.size());
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double sigma = PriorSigma(camera, static_cast<int>(i));
+      AddKnown(offset, Eigen::RowVectorXd::Unit(count, i) / sigma);
     }
     const double fx = camera.intrinsics.params[0];
     const double fy = camera.intrinsics.params[1];
-    const Eigen::RowVector2d by_focal =
-        Eigen::RowVector2d(-fy / (fx * fx), 1 / fx) / kFocalRatioSigma;
-    AddBlock(offset, offset, variance * by_focal.transpose() * by_focal);
+    Eigen::RowVectorXd by_focal = Eigen::RowVectorXd::Zero(count);
+    by_focal.head<2>() = Eigen::RowVector2d(-fy / (fx * fx), 1 / fx) / kFocalRatioSigma;
+    AddKnown(offset, by_focal);
   }
 
   // Returns whether they hold the frame.
-  bool AddPriors(double variance) {
+  bool AddPriors() {
     int positions = 0;
     for (size_t i = 0; i < scene_.photos.size(); ++i) {
       const ScenePhoto& photo = scene_.photos[i];
       if (!photo.pose) continue;
-      const int offset = pose_offset_[i];
-      if (photo.attitude) {
+      const int offset = unknowns_.of_pose[i];
+      for (int axis = 0; photo.attitude && axis < 3; ++axis) {
         // The unknowns are half angles.
-        normal_.diagonal().segment<3>(offset).array() +=
-            4 * variance / std::pow(photo.attitude->sigma_rad, 2);
+        AddKnown(offset, Eigen::RowVectorXd::Unit(6, axis) * 2 / photo.attitude->sigma_rad);
       }
       if (!photo.prior) continue;
       const Eigen::Vector3d sigma(photo.prior->sigma_horizontal_m, photo.prior->sigma_horizontal_m,
                                   photo.prior->sigma_vertical_m);
-      const Eigen::Matrix<double, 3, 6> by_pose =
-          sigma.cwiseInverse().asDiagonal() * CenterByPose(*photo.pose);
-      AddBlock(offset, offset, variance * by_pose.transpose() * by_pose);
+      const Eigen::Matrix<double, 3, 6> by_pose = CenterByPose(*photo.pose);
+      for (int axis = 0; axis < 3; ++axis) {
+        AddKnown(offset, by_pose.row(axis) / sigma[axis]);
+      }
       ++positions;
     }
     return positions >= 3;
@@ -282,116 +264,115 @@ class ReducedSystem {
 
   // First pose, and the scale by that coordinate of the farthest pose that changes most with it.
   void HoldFrame() {
-    const auto first = std::ranges::find_if(pose_offset_, [](int offset) { return offset >= 0; });
-    const double strong = normal_.diagonal().maxCoeff();
-    normal_.diagonal().segment<6>(*first).array() += strong;
-    const Eigen::Vector3d origin = scene_.photos[first - pose_offset_.begin()].pose->Center();
+    const auto& offsets = unknowns_.of_pose;
+    const auto first = std::ranges::find_if(offsets, [](int offset) { return offset >= 0; });
+    const double strong = normal_.Diagonal().maxCoeff();
+    normal_.AddToDiagonal(*first, Eigen::VectorXd::Constant(6, strong));
+    const Eigen::Vector3d origin = scene_.photos[first - offsets.begin()].pose->Center();
     double farthest = -1;
     int index = 0;
-    for (size_t i = 0; i < pose_offset_.size(); ++i) {
-      if (pose_offset_[i] < 0) continue;
+    for (size_t i = 0; i < offsets.size(); ++i) {
+      if (offsets[i] < 0) continue;
       const Eigen::Vector3d to_origin = *scene_.photos[i].pose * origin;
       if (to_origin.norm() <= farthest) continue;
       farthest = to_origin.norm();
       int axis = 0;
       to_origin.cwiseAbs().maxCoeff(&axis);
-      index = pose_offset_[i] + 3 + axis;
+      index = offsets[i] + 3 + axis;
     }
-    normal_(index, index) += strong;
+    normal_.AddToDiagonal(index, Eigen::VectorXd::Constant(1, strong));
   }
 
-  // A matrix whose product with its own transpose from the left is the inverse: M' M. Lower
-  // triangular; nothing where the system is singular. Takes the system.
-  std::optional<Eigen::MatrixXd> HalfInverse(int threads) {
-    const Eigen::VectorXd scale = normal_.diagonal().cwiseSqrt().cwiseInverse();
-    if (!scale.allFinite()) return std::nullopt;
-    normal_ = scale.asDiagonal() * normal_ * scale.asDiagonal();
-    // Two photos that nothing but poor records tie to the rest are held to no more than rounding.
-    normal_.diagonal().array() += kRounding;
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(normal_);
-    if (factors.info() != Eigen::Success) return std::nullopt;
-    constexpr int kColumns = 96;
-    Eigen::MatrixXd half = Eigen::MatrixXd::Zero(size_, size_);
-    ParallelFor((size_ + kColumns - 1) / kColumns, threads, [&](size_t block) {
-      const int begin = static_cast<int>(block) * kColumns;
-      const int count = std::min(kColumns, size_ - begin);
-      const int below = size_ - begin;
-      auto columns = half.block(begin, begin, below, count);
-      columns.topRows(count).setIdentity();
-      normal_.bottomRightCorner(below, below).triangularView<Eigen::Lower>().solveInPlace(columns);
-    });
-    half = half * scale.asDiagonal();
-    if (!half.allFinite()) return std::nullopt;
-    return half;
+  // Two photos that nothing but poor records tie to the rest are held to no more than rounding.
+  void AddRounding() {
+    const Eigen::VectorXd held = kRounding * normal_.Diagonal();
+    normal_.AddToDiagonal(0, held);
+    for (Eigen::Index i = 0; i < held.size(); ++i) {
+      const Draws::Signs signs = NextSigns();
+      for (Draws* draws : {&as_alike_, &as_they_are_}) {
+        draws->Add(static_cast<int>(i), signs,
+                   Eigen::VectorXd::Constant(1, std::sqrt(variance_ * held[i])));
+      }
+    }
   }
 
-  void SetIntrinsics(const Eigen::MatrixXd& half, double variance, SceneSigmas& sigmas) const {
+  // From the inverse itself. Whether it could be computed.
+  bool SetIntrinsics(SceneSigmas& sigmas) const {
+    const auto num_intrinsics = static_cast<Eigen::Index>(unknowns_.num_intrinsics);
+    const auto inverse =
+        normal_.Solve(Eigen::MatrixXd::Identity(num_intrinsics, unknowns_.size), threads_);
+    if (!inverse) return false;
+    const Eigen::VectorXd all = (variance_ * inverse->diagonal()).cwiseSqrt();
     for (size_t c = 0; c < scene_.cameras.size(); ++c) {
       const SceneCamera& camera = scene_.cameras[c];
-      const int count = static_cast<int>(camera.intrinsics.params.size());
+      const auto count = static_cast<Eigen::Index>(camera.intrinsics.params.size());
       Eigen::VectorXd& sigma = sigmas.intrinsics.emplace_back(Eigen::VectorXd::Zero(count));
-      if (camera.focal_sigma_ratio == 0) continue;
-      sigma = std::sqrt(variance) *
-              half.middleCols(camera_offset_[c], count).colwise().norm().transpose();
+      if (camera.focal_sigma_ratio > 0) sigma = all.segment(unknowns_.of_camera[c], count);
     }
+    return true;
   }
 
-  // The unknowns' covariance as half * half' says it, with what a similarity of all takes away left
-  // out: one that goes by the surest half of the photos, and by others the less the less sure they
-  // are. One that nothing holds would else take all with it.
-  void SetPoses(const Eigen::MatrixXd& half, double variance, SceneSigmas& sigmas) const {
-    Eigen::VectorXd weights(pose_offset_.size());
-    for (size_t i = 0; i < pose_offset_.size(); ++i) weights[i] = pose_offset_[i] >= 0 ? 1 : 0;
+  // What draws do to poses where that is more than what is there, with what a similarity of all
+  // takes away left out: one that goes by the surest half of the photos, and by others the less the
+  // less sure they are. One that nothing holds would else take all with it.
+  void SetPoses(const Eigen::MatrixXd& solved, SceneSigmas& sigmas) const {
+    const std::vector<int>& offsets = unknowns_.of_pose;
+    Eigen::VectorXd weights(offsets.size());
+    for (size_t i = 0; i < offsets.size(); ++i) weights[i] = offsets[i] >= 0 ? 1 : 0;
     std::optional<Datum> datum;
     Eigen::MatrixXd of_similarity;
     for (int round = 0; round < kDatumRounds; ++round) {
       datum.emplace(scene_, weights);
-      of_similarity = half * SimilarityByUnknowns(*datum).transpose();
-      weights = WeightsIn(*datum, half, of_similarity);
+      of_similarity = solved * SimilarityByUnknowns(*datum).transpose();
+      weights = WeightsIn(*datum, solved, of_similarity);
     }
-    for (size_t i = 0; i < pose_offset_.size(); ++i) {
-      if (pose_offset_[i] < 0) continue;
+    for (size_t i = 0; i < offsets.size(); ++i) {
+      if (offsets[i] < 0) continue;
       const int camera = scene_.photos[i].camera;
       const bool is_variable = scene_.cameras[camera].focal_sigma_ratio > 0;
       const Eigen::Index num_intrinsics =
           is_variable ? static_cast<Eigen::Index>(scene_.cameras[camera].intrinsics.params.size())
                       : 0;
-      Eigen::MatrixXd motion(size_, 6 + num_intrinsics);
-      motion.leftCols<3>() = MotionOfCenter(i, *datum, half, of_similarity);
+      Eigen::MatrixXd motion(solved.rows(), 6 + num_intrinsics);
+      motion.leftCols<3>() = MotionOfCenter(i, *datum, solved, of_similarity);
       motion.middleCols<3>(3) =
-          2 * half.middleCols<3>(pose_offset_[i]) -
+          2 * solved.middleCols<3>(offsets[i]) -
           of_similarity * Datum::RotationBySimilarity(*scene_.photos[i].pose).transpose();
-      motion.rightCols(num_intrinsics) = half.middleCols(camera_offset_[camera], num_intrinsics);
-      sigmas.poses[i] =
-          SigmaOf(scene_, static_cast<int>(i), variance * motion.transpose() * motion);
+      motion.rightCols(num_intrinsics) =
+          solved.middleCols(unknowns_.of_camera[camera], num_intrinsics);
+      const PoseSigma shown = SigmaOf(scene_, static_cast<int>(i), motion.transpose() * motion);
+      PoseSigma& sigma = sigmas.poses[i];
+      sigma.position = std::max(sigma.position, shown.position);
+      sigma.rotation_rad = std::max(sigma.rotation_rad, shown.rotation_rad);
+      sigma.picture_px = std::max(sigma.picture_px, shown.picture_px);
     }
   }
 
   // What the unknowns do to the similarity of all.
   Eigen::MatrixXd SimilarityByUnknowns(const Datum& datum) const {
-    Eigen::MatrixXd similarity = Eigen::MatrixXd::Zero(7, size_);
-    for (size_t i = 0; i < pose_offset_.size(); ++i) {
-      if (pose_offset_[i] < 0) continue;
-      similarity.middleCols<6>(pose_offset_[i]) =
+    Eigen::MatrixXd similarity = Eigen::MatrixXd::Zero(7, unknowns_.size);
+    for (size_t i = 0; i < unknowns_.of_pose.size(); ++i) {
+      if (unknowns_.of_pose[i] < 0) continue;
+      similarity.middleCols<6>(unknowns_.of_pose[i]) =
           datum.ByCenter(i) * CenterByPose(*scene_.photos[i].pose);
     }
     return similarity;
   }
 
-  Eigen::MatrixX3d MotionOfCenter(size_t photo, const Datum& datum, const Eigen::MatrixXd& half,
+  Eigen::MatrixX3d MotionOfCenter(size_t photo, const Datum& datum, const Eigen::MatrixXd& solved,
                                   const Eigen::MatrixXd& of_similarity) const {
-    return half.middleCols<6>(pose_offset_[photo]) *
+    return solved.middleCols<6>(unknowns_.of_pose[photo]) *
                CenterByPose(*scene_.photos[photo].pose).transpose() -
            of_similarity * datum.CenterBySimilarity(photo).transpose();
   }
 
-  Eigen::VectorXd WeightsIn(const Datum& datum, const Eigen::MatrixXd& half,
+  Eigen::VectorXd WeightsIn(const Datum& datum, const Eigen::MatrixXd& solved,
                             const Eigen::MatrixXd& of_similarity) const {
-    Eigen::VectorXd variances = Eigen::VectorXd::Zero(pose_offset_.size());
+    Eigen::VectorXd variances = Eigen::VectorXd::Zero(unknowns_.of_pose.size());
     std::vector<double> all;
-    for (size_t i = 0; i < pose_offset_.size(); ++i) {
-      if (pose_offset_[i] < 0) continue;
-      variances[i] = MotionOfCenter(i, datum, half, of_similarity).squaredNorm();
+    for (size_t i = 0; i < unknowns_.of_pose.size(); ++i) {
+      if (unknowns_.of_pose[i] < 0) continue;
+      variances[i] = MotionOfCenter(i, datum, solved, of_similarity).squaredNorm();
       all.push_back(variances[i]);
     }
     const double usual = *Median(std::move(all));
@@ -402,12 +383,18 @@ class ReducedSystem {
   }
 
   const Scene& scene_;
-  int size_ = 0;
-  std::vector<int> camera_offset_;
-  std::vector<int> pose_offset_;  // by photo; -1 without a pose
-  Eigen::MatrixXd normal_;        // lower triangle
-  std::vector<Sight> sights_;     // of one track
-  std::vector<Cross> cross_;      // likewise
+  const int threads_;
+  const Unknowns unknowns_;
+  int num_points_ = 0;  // before what sets it
+  const RobustVariance scatter_;
+  double variance_ = 1;  // of an observation, as it counts
+  double shrunk_ = 1;    // times larger than residuals are errors
+  NormalMatrix normal_;
+  Draws as_alike_;
+  Draws as_they_are_;
+  uint64_t next_key_ = uint64_t{1} << 40;  // after those of cells
+  std::vector<Sight> sights_;              // of one track
+  std::vector<Cross> cross_;               // likewise
 };
 
 // Each pose with the points held, which were unknowns of the adjustment or given.
@@ -447,12 +434,14 @@ SceneSigmas EstimateSigmas(const SigmaOptions& options, const Scene& scene) {
   if (options.points_are_given) return {{}, OwnSigmas(scene, true)};
   if (registered < 2) return {{}, std::vector<PoseSigma>(scene.photos.size())};
   if (registered > options.max_photos) return {{}, OwnSigmas(scene, false)};
-  ReducedSystem system(scene);
+  ReducedSystem system(scene, options.threads);
   if (options.tracks.empty()) {
-    for (const SceneTrack& track : scene.tracks) system.AddTrack(track);
+    for (size_t track = 0; track < scene.tracks.size(); ++track) {
+      system.AddTrack(static_cast<int>(track));
+    }
   }
-  for (const int track : options.tracks) system.AddTrack(scene.tracks[track]);
-  return system.Solve(options);
+  for (const int track : options.tracks) system.AddTrack(track);
+  return system.Solve(options.use_priors);
 }
 
 }  // namespace stucco

@@ -35,7 +35,8 @@ bool Linearise(const Scene& scene, const SceneElement& element, const Eigen::Vec
   const ScenePhoto& photo = scene.photos[element.photo];
   const Camera& camera = scene.CameraOf(element.photo);
   const int num_params = static_cast<int>(camera.params.size());
-  const auto cost = CostOf(camera, photo.keypoints[element.keypoint], photo.keypoint_sigma_px);
+  const auto cost =
+      CostOf(camera, photo.keypoints[element.keypoint], photo.KeypointSigma(element.keypoint));
   out.intrinsics.resize(2, num_params);
   Eigen::Matrix<double, 2, kPoseSize, Eigen::RowMajor> by_pose;
   Eigen::Matrix<double, kPoseSize, 1> pose;

@@ -224,6 +224,9 @@ Scene MakeSceneOf(const Work& work, const std::vector<std::vector<PointVote>>& s
     photo.camera = captured.camera;
     photo.keypoints = PixelsOf(work.added.detected.plain[i]);
     photo.keypoint_sigma_px = DetectionScale(work.options, captured);
+    for (const Keypoint& k : work.added.detected.plain[i].keypoints) {
+      photo.blobs_px.push_back(k.scale);
+    }
     for (const auto& [keypoint, point] : shown[i]) {
       elements[point].push_back({static_cast<int>(i), keypoint, false});
     }

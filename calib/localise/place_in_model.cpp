@@ -29,7 +29,7 @@ constexpr int kModelsPerSample = 4;
 // Standard deviation of a pose in the picture, in those of a keypoint: beyond, edges would be
 // painted beside where they are.
 constexpr double kMostSigma = 1;
-// What keypoints of a photo share shows in no residual (as in summarize_photos.cpp).
+// What keypoints of a photo share shows in no residual: by simulated flights (benchmarks.md).
 constexpr double kSharedErrors = 1.4;
 // Focal lengths this uncertain are a guess; others between half and twice the guess are tried, so
 // near to each other that the least squares find the rest.
@@ -171,7 +171,7 @@ Misfit MisfitOf(int camera, Scene& scene) {
     if (!scene.photos[photo].pose) continue;
     for (const Sighting& sighting : SightingsOf(scene, photo)) {
       const double sigmas = ReprojectionError(scene, *sighting.element, *sighting.point) /
-                            scene.photos[photo].keypoint_sigma_px;
+                            scene.photos[photo].KeypointSigma(sighting.element->keypoint);
       misfit.cost += scale * scale * std::log1p(sigmas * sigmas / (scale * scale));
       ++misfit.points;
     }

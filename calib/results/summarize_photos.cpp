@@ -19,9 +19,6 @@ namespace {
 
 constexpr int kCoverageCells = 10;
 constexpr double kDegree = std::numbers::pi / 180;
-// What a photo's keypoints share and its pose takes up shows in no residual: in simulated flights
-// poses were this much farther off than their residuals say (docs/benchmarks.md).
-constexpr double kSharedErrors = 1.4;
 
 double Coverage(const Camera& camera, const RegisteredImage& photo) {
   std::set<int> filled;
@@ -52,10 +49,10 @@ CalibratedPhoto DescribePhoto(const Reconstruction& reconstruction,
 
 void SetSigma(const PoseSigma& sigma, CalibratedPhoto& photo) {
   if (sigma.position >= 0) {
-    photo.position_sigma = kSharedErrors * sigma.position;
-    photo.rotation_sigma_deg = kSharedErrors * sigma.rotation_rad / kDegree;
+    photo.position_sigma = sigma.position;
+    photo.rotation_sigma_deg = sigma.rotation_rad / kDegree;
   }
-  if (sigma.picture_px >= 0) photo.picture_sigma_px = kSharedErrors * sigma.picture_px;
+  if (sigma.picture_px >= 0) photo.picture_sigma_px = sigma.picture_px;
 }
 
 // What has a reason already is weak.

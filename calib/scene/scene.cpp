@@ -9,8 +9,17 @@
 namespace stucco {
 namespace {
 
+// Of blobs so many times the standard deviation of a sharp keypoint in size, pixels and size tell
+// as much of how far off the place may be: a simulated flight against its true poses. Real sets
+// show more, but only against their own points (docs/benchmarks.md).
+constexpr double kBlobsOfSigma = 3.2;
+
 bool HasCamera(const Scene& scene, const ScenePhoto& photo) {
   return photo.camera >= 0 && static_cast<size_t>(photo.camera) < scene.cameras.size();
+}
+
+bool HasBlobs(const ScenePhoto& photo) {
+  return photo.blobs_px.empty() || photo.blobs_px.size() == photo.keypoints.size();
 }
 
 // One per photo at most.
@@ -42,6 +51,11 @@ bool IsIndexed(const Scene& scene) {
 
 }  // namespace
 
+double ScenePhoto::KeypointSigma(int keypoint) const {
+  if (blobs_px.empty()) return keypoint_sigma_px;
+  return std::hypot(keypoint_sigma_px, blobs_px[keypoint] / kBlobsOfSigma);
+}
+
 std::optional<Pose> RecordedPose(const ScenePhoto& photo) {
   if (!photo.prior || !photo.attitude) return std::nullopt;
   const Eigen::Quaterniond& rotation = photo.attitude->cam_from_world;
@@ -63,8 +77,9 @@ double ReprojectionErrorInSigmas(const Scene& scene, const SceneElement& element
 }
 
 bool IsConsistent(const Scene& scene) {
-  return std::ranges::all_of(scene.photos,
-                             [&](const ScenePhoto& photo) { return HasCamera(scene, photo); }) &&
+  return std::ranges::all_of(
+             scene.photos,
+             [&](const ScenePhoto& photo) { return HasCamera(scene, photo) && HasBlobs(photo); }) &&
          std::ranges::all_of(scene.tracks,
                              [&](const SceneTrack& track) { return HasKeypoints(scene, track); }) &&
          (scene.tracks_of_photo.empty() || IsIndexed(scene));

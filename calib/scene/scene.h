@@ -41,11 +41,18 @@ struct ScenePhoto {
   std::string name;
   int camera = 0;
   std::vector<Eigen::Vector2d> keypoints;  // full-resolution pixels
-  double keypoint_sigma_px = 1;  // standard deviation of a keypoint, full-resolution pixels
+  // Standard deviation of the sharpest keypoints, full-resolution pixels.
+  double keypoint_sigma_px = 1;
+  std::vector<float> blobs_px;  // by keypoint, standard deviation of its blob; empty: all sharp
   std::vector<std::array<uint8_t, 3>> colors;
   std::optional<Pose> pose;  // cam_from_world once it is known
   std::optional<PositionPrior> prior;
   std::optional<AttitudePrior> attitude;
+
+  // Standard deviation of a keypoint. A blob's place is known to a part of its size (Zeisl et al.,
+  // "Estimation of location uncertainty for scale invariant feature points", 2009), and no better
+  // than the pixels allow.
+  double KeypointSigma(int keypoint) const;
 };
 
 // Where its priors put the photo: nothing unless it has both.
@@ -102,8 +109,8 @@ struct Scene {
 double ReprojectionError(const Scene& scene, const SceneElement& element,
                          const Eigen::Vector3d& point);
 
-// The same over the standard deviation of the photo's keypoints, which is what limits are stated
-// in: photos of different sizes are detected at different scales.
+// The same over the standard deviation of the photo's sharpest keypoints, which is what limits are
+// stated in: photos of different sizes are detected at different scales.
 double ReprojectionErrorInSigmas(const Scene& scene, const SceneElement& element,
                                  const Eigen::Vector3d& point);
 

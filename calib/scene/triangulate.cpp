@@ -18,6 +18,7 @@ struct Ray {
   int element = 0;
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  double sigma = 1;  // over that of a sharp keypoint
 };
 
 std::vector<Ray> RaysOf(const Scene& scene, const SceneTrack& track) {
@@ -29,7 +30,8 @@ std::vector<Ray> RaysOf(const Scene& scene, const SceneTrack& track) {
     const auto ray = scene.CameraOf(element.photo).Unproject(photo.keypoints[element.keypoint]);
     if (!ray) continue;
     rays.push_back({static_cast<int>(i), photo.pose->Center(),
-                    (photo.pose->rotation.conjugate() * ray->homogeneous()).normalized()});
+                    (photo.pose->rotation.conjugate() * ray->homogeneous()).normalized(),
+                    photo.KeypointSigma(element.keypoint) / photo.keypoint_sigma_px});
   }
   return rays;
 }
@@ -58,7 +60,7 @@ std::vector<int> AgreeingElements(const Scene& scene, const SceneTrack& track,
   return agreeing;
 }
 
-// Gauss-Newton on the angular residuals of the agreeing rays.
+// Gauss-Newton on the angular residuals of the agreeing rays, in their standard deviations.
 Eigen::Vector3d Refine(const std::vector<Ray>& rays, const std::vector<int>& agreeing,
                        Eigen::Vector3d point) {
   for (int iteration = 0; iteration < 3; ++iteration) {
@@ -71,7 +73,7 @@ Eigen::Vector3d Refine(const std::vector<Ray>& rays, const std::vector<int>& agr
       const double distance = (point - ray.center).norm();
       const Eigen::Matrix3d across =
           (Eigen::Matrix3d::Identity() - ray.direction * ray.direction.transpose()) /
-          (distance * distance);
+          std::pow(distance * ray.sigma, 2);
       normal += across;
       right += across * ray.center;
     }

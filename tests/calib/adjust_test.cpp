@@ -84,6 +84,32 @@ TEST(Adjust, StaysWithinNoise) {
   EXPECT_LT(ComparePoses(scene, truth).position_m, 0.03);
 }
 
+// Every third keypoint is of a large blob and as much less sure.
+Scene WithLargeBlobs(Scene scene) {
+  Random random(5);
+  for (ScenePhoto& photo : scene.photos) {
+    photo.blobs_px.assign(photo.keypoints.size(), 1);
+    for (size_t k = 0; k < photo.keypoints.size(); k += 3) photo.blobs_px[k] = 30;
+    for (size_t k = 0; k < photo.keypoints.size(); ++k) {
+      const double sigma = 0.2 * photo.KeypointSigma(static_cast<int>(k));
+      photo.keypoints[k] += Eigen::Vector2d(random.Gauss(sigma), random.Gauss(sigma));
+    }
+  }
+  return scene;
+}
+
+TEST(Adjust, LargeBlobsWeighLess) {
+  const Scene truth = MakeScene({.num_points = 300});
+  Scene weighed = WithLargeBlobs(truth);
+  EXPECT_NEAR(MeasureNoise(weighed), 0.2, 0.02);
+  Scene as_sharp = weighed;
+  for (ScenePhoto& photo : as_sharp.photos) photo.blobs_px.clear();
+  ASSERT_TRUE(Adjust(Tight(RefineIntrinsics::kNone), weighed).usable);
+  ASSERT_TRUE(Adjust(Tight(RefineIntrinsics::kNone), as_sharp).usable);
+  EXPECT_LT(ComparePoses(weighed, truth).position_m,
+            0.6 * ComparePoses(as_sharp, truth).position_m);
+}
+
 TEST(Adjust, OutliersHardlyPull) {
   const Scene truth = MakeScene({.num_points = 300, .noise_px = 0.3});
   Scene scene = truth;

@@ -199,6 +199,32 @@ TEST(PoseSigmas, ScaleWithTheModelAndDoNotDependOnTheFrame) {
   }
 }
 
+// Photos that match the others worse than these match each other are known less surely than all
+// residuals together say.
+TEST(PoseSigmas, FollowTheResidualsOfThePhoto) {
+  const Scene truth = MakeScene({.num_photos = 8, .num_points = 300, .num_planes = 3});
+  constexpr int kRuns = 20;
+  constexpr int kWorse = 3;
+  double squares = 0;
+  double predicted = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    Scene scene = truth;
+    AddNoise(700 + run, scene);
+    Random random(50 + run);
+    for (Eigen::Vector2d& keypoint : scene.photos[kWorse].keypoints) {
+      keypoint += Eigen::Vector2d(random.Gauss(6 * kNoise), random.Gauss(6 * kNoise));
+    }
+    AdjustOptions options;
+    options.refine = RefineIntrinsics::kNone;
+    options.loss_scale = 2 * MeasureNoise(scene);
+    options.tolerance = 1e-8;
+    ASSERT_TRUE(Adjust(options, scene).usable);
+    squares += std::pow(ErrorsAfterAlignment(truth, scene)[kWorse].position, 2) / kRuns;
+    predicted += EstimateSigmas({}, scene).poses[kWorse].position / kRuns;
+  }
+  EXPECT_NEAR(std::log(predicted / std::sqrt(squares)), 0, 0.4);
+}
+
 // Records that are much better than what the photos tell among themselves make poses more certain.
 TEST(PoseSigmas, GetSmallerByRecords) {
   Scene scene = Adjusted(MakeScene({.num_photos = 6, .num_points = 120, .num_planes = 3}), 1);
@@ -222,6 +248,16 @@ TEST(PoseSigmas, APhotoWithFewObservationsIsLessCertain) {
   }
   const auto sigmas = EstimateSigmas({}, scene).poses;
   for (const int other : {1, 2, 4}) EXPECT_GT(sigmas[3].position, 1.5 * sigmas[other].position);
+}
+
+TEST(PoseSigmas, APhotoThatShowsLargeBlobsIsLessCertain) {
+  Scene scene = MakeScene({.num_photos = 6, .num_points = 200, .num_planes = 3, .noise_px = 0.5});
+  for (ScenePhoto& photo : scene.photos) photo.blobs_px.assign(photo.keypoints.size(), 1);
+  const auto before = EstimateSigmas({}, scene).poses;
+  scene.photos[3].blobs_px.assign(scene.photos[3].keypoints.size(), 30);
+  const auto after = EstimateSigmas({}, scene).poses;
+  EXPECT_GT(after[3].position, 3 * before[3].position);
+  EXPECT_LT(after[2].position, 2 * before[2].position);
 }
 
 // One photo that its points hardly hold makes the equations of all singular.

@@ -26,6 +26,17 @@ TEST(Scene, MeasuresReprojectionErrors) {
   EXPECT_TRUE(std::isinf(ReprojectionError(scene, e, *track.position)));
 }
 
+TEST(Scene, LargeBlobsAreLessSureThanSharpOnes) {
+  ScenePhoto photo;
+  photo.keypoint_sigma_px = 2;  // detected at half the size
+  photo.keypoints.resize(3);
+  EXPECT_EQ(photo.KeypointSigma(1), 2);
+  photo.blobs_px = {0.1F, 20, 40};
+  EXPECT_NEAR(photo.KeypointSigma(0), 2, 0.01);
+  EXPECT_GT(photo.KeypointSigma(1), 2 * photo.KeypointSigma(0));
+  EXPECT_NEAR(photo.KeypointSigma(2) / photo.KeypointSigma(1), 2, 0.15);
+}
+
 TEST(Scene, CountsPosesAndObservations) {
   Scene scene = MakeScene({.num_photos = 4, .num_points = 40});
   EXPECT_EQ(NumRegistered(scene), 4);
@@ -68,6 +79,9 @@ TEST(Scene, IsConsistentWhenAllIndicesLeadSomewhere) {
   EXPECT_TRUE(IsConsistent({}));
   Scene bad = good;
   bad.photos[1].camera = 1;
+  EXPECT_FALSE(IsConsistent(bad));
+  bad = good;
+  bad.photos[1].blobs_px = {1};
   EXPECT_FALSE(IsConsistent(bad));
   bad = good;
   bad.tracks[0].elements[0].photo = 3;

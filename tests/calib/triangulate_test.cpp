@@ -56,6 +56,25 @@ TEST(TriangulateTrack, StaysWithinNoise) {
   }
 }
 
+TEST(TriangulateTrack, GoesByTheSharpKeypoints) {
+  Scene scene = MakeScene({.num_photos = 8, .num_points = 60, .seen_share = 1});
+  SceneTrack& track = scene.tracks[0];
+  const Eigen::Vector3d point = *track.position;
+  for (ScenePhoto& photo : scene.photos) photo.blobs_px.assign(photo.keypoints.size(), 1);
+  for (size_t i = 0; i < 3; ++i) {
+    const SceneElement& e = track.elements[i];
+    scene.photos[e.photo].keypoints[e.keypoint] += Eigen::Vector2d(2, -2);
+  }
+  ASSERT_TRUE(TriangulateTrack(scene, {}, track));
+  const double off = (*track.position - point).norm();
+  for (size_t i = 0; i < 3; ++i) {
+    const SceneElement& e = track.elements[i];
+    scene.photos[e.photo].blobs_px[e.keypoint] = 30;
+  }
+  ASSERT_TRUE(TriangulateTrack(scene, {}, track));
+  EXPECT_LT((*track.position - point).norm(), off / 5);
+}
+
 TEST(TriangulateTrack, LeavesWrongElementsOut) {
   Scene scene = MakeScene({.num_points = 80, .seen_share = 1});
   int tried = 0;
