@@ -13,8 +13,8 @@ namespace {
 void MoveOff(PointId id, const Eigen::Vector2d& error, Reconstruction& model) {
   for (const TrackElement& element : model.points.at(id).track) {
     RegisteredImage& photo = model.photos.at(element.photo);
-    const auto pixel = model.cameras.at(photo.camera)
-                           .Project(photo.cam_from_world * model.points.at(id).position);
+    const auto pixel =
+        model.cameras.at(photo.camera).Project(photo.cam_from_world * model.points.at(id).position);
     photo.observations[element.observation].pixel = *pixel + error;
   }
 }
