@@ -7,12 +7,12 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cctype>
 #include <cmath>
 #include <map>
 
 #include "capture_ingest/focal.h"
 #include "survey/error.h"
+#include "survey/text.h"
 #include "survey/utf8.h"
 
 namespace stucco {
@@ -50,15 +50,10 @@ std::string Rounded(const Tags& tags, const std::string& key, int decimals) {
   return value > 0 ? fmt::format("{:.{}f}", value, decimals) : std::string();
 }
 
-std::string Lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 // "KODAK Z612 ..." of "EASTMAN KODAK COMPANY" and "Canon EOS" of "Canon" carry the make already.
 bool ModelNamesMake(const std::string& make, const std::string& model) {
-  const std::string first_word = Lower(model.substr(0, model.find(' ')));
-  return Lower(make).find(first_word) != std::string::npos;
+  const std::string first_word = LowerCase(model.substr(0, model.find(' ')));
+  return LowerCase(make).find(first_word) != std::string::npos;
 }
 
 void CheckPrior(std::span<const double> prior) {

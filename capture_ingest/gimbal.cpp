@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "survey/attitude.h"
+
 namespace stucco {
 namespace {
 
@@ -34,11 +36,6 @@ constexpr std::array kConventions = {
     // senseFly, Parrot Sequoia, early Autel.
     Convention{"Xmp.Camera.Yaw", "Xmp.Camera.Pitch", "Xmp.Camera.Roll", true},
 };
-
-double Wrapped(double degrees) {
-  const double wrapped = std::remainder(degrees, 360.0);
-  return wrapped <= -180 ? wrapped + 360 : wrapped;
-}
 
 bool IsSenseFly(const Tags& tags) {
   const std::string make = Text(tags, "Exif.Image.Make");
@@ -72,11 +69,12 @@ std::optional<std::string> FindProblem(const GimbalAngles& angles) {
 }  // namespace
 
 GimbalAngles Normalized(const GimbalAngles& angles) {
-  GimbalAngles same{Wrapped(angles.yaw_deg), Wrapped(angles.pitch_deg), Wrapped(angles.roll_deg)};
+  GimbalAngles same{WrappedDegrees(angles.yaw_deg), WrappedDegrees(angles.pitch_deg),
+                    WrappedDegrees(angles.roll_deg)};
   if (std::abs(same.roll_deg) <= 90) return same;
   // (yaw, pitch, roll) and (yaw + 180, 180 - pitch, roll + 180) are one rotation.
-  const GimbalAngles other{Wrapped(same.yaw_deg + 180), Wrapped(180 - same.pitch_deg),
-                           Wrapped(same.roll_deg + 180)};
+  const GimbalAngles other{WrappedDegrees(same.yaw_deg + 180), WrappedDegrees(180 - same.pitch_deg),
+                           WrappedDegrees(same.roll_deg + 180)};
   constexpr double kMostPitch_deg = 100;  // past straight down by what gimbals reach
   return std::abs(other.pitch_deg) <= kMostPitch_deg ? other : same;
 }

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <string>
 
+#include "survey/text.h"
+
 namespace stucco {
 namespace {
 
@@ -128,8 +130,7 @@ bool HasWord(const std::string& text, std::string_view word) {
 }  // namespace
 
 std::optional<double> SensorWidth_mm(std::string_view model) {
-  std::string lower(model);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string lower = LowerCase(model);
   const Sensor* best = nullptr;  // the longest name is the most specific
   for (const Sensor& sensor : kSensors) {
     const bool longer = best == nullptr || sensor.model.size() > best->model.size();

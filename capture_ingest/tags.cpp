@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "capture_ingest/tags.h"
 
-#include <charconv>
 #include <cmath>
 #include <exiv2/exiv2.hpp>
 #include <mutex>
+
+#include "survey/text.h"
 
 namespace stucco {
 namespace {
@@ -46,13 +47,8 @@ void CopyTags(Exiv2::Image& image, Tags& tags) {
 }
 
 std::optional<double> ParseDouble(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-    return std::nullopt;
-  }
-  return value;
+  const auto value = ParseNumber<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::optional<double> ParseFraction(std::string_view text) {

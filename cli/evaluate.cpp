@@ -42,10 +42,6 @@ std::string SurfaceText(const char* name, const SurfaceFigures& figures) {
                      Percent(figures.completeness), Percent(figures.completeness_all));
 }
 
-bool IsMeasured(const SurfaceFigures& figures) {
-  return std::isfinite(figures.error95_m) || std::isfinite(figures.completeness);
-}
-
 std::string ProxyText(const evaluate::ProxyFigures& proxy) {
   return fmt::format(
       "buildings   {} (truth {}): {} watertight, {} manifold, {} cross themselves\n"
@@ -68,7 +64,7 @@ std::string PlanText(const evaluate::PlanFigures& plan) {
 
 // The buildings first: most of what there is near them is ground.
 std::string PartsText(const char* name, const PartFigures& figures) {
-  if (!IsMeasured(figures.all)) return "";
+  if (!figures.all.IsMeasured()) return "";
   return SurfaceText(name, figures.building) + SurfaceText("  walls", figures.wall) +
          SurfaceText("  roofs", figures.roof) + SurfaceText("  ground", figures.ground) +
          SurfaceText("  all", figures.all);

@@ -42,15 +42,22 @@ function(add_module name)
   set_property(GLOBAL APPEND PROPERTY STUCCO_MODULES ${name})
 endfunction()
 
-# add_module_test(calib SOURCES adjust_test.cpp ... LINK test_support)
+# add_module_test(calib SOURCES adjust_test.cpp ... LINK test_support TOGETHER SlowToSetUp)
 # One executable per module: fewer links, one line per test in ctest. The library of the module's
-# name is linked where there is one; `pipeline` has several, which are named in LINK.
+# name is linked where there is one; `pipeline` has several, which are named in LINK. The tests of
+# the suites in TOGETHER run in one process and are one line: what they share is made once.
 function(add_module_test name)
-  cmake_parse_arguments(T "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(T "" "" "SOURCES;LINK;TOGETHER" ${ARGN})
   add_executable(${name}_test ${T_SOURCES} ${PROJECT_SOURCE_DIR}/tests/main.cpp)
   target_link_libraries(${name}_test
     PRIVATE $<TARGET_NAME_IF_EXISTS:${name}> ${T_LINK} project_warnings GTest::gmock GTest::gtest)
   target_include_directories(${name}_test PRIVATE ${PROJECT_SOURCE_DIR})
-  gtest_discover_tests(${name}_test TEST_PREFIX ${name}/ DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 300)
+  list(TRANSFORM T_TOGETHER APPEND ".*" OUTPUT_VARIABLE together)
+  list(JOIN together ":" together)
+  gtest_discover_tests(${name}_test TEST_PREFIX ${name}/ TEST_FILTER "*-${together}"
+    DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  foreach(suite ${T_TOGETHER})
+    add_test(NAME ${name}/${suite} COMMAND ${name}_test "--gtest_filter=${suite}.*")
+    set_tests_properties(${name}/${suite} PROPERTIES TIMEOUT 300)
+  endforeach()
 endfunction()

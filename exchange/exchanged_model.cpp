@@ -45,7 +45,9 @@ void AddSeenPoint(const ExchangedPoint& point, Reconstruction& model) {
   }
 }
 
-void MeasurePointErrors(Reconstruction& model) {
+void MeasurePointErrors(ExchangedModel& exchanged) {
+  assert(exchanged.crs.empty());
+  Reconstruction& model = exchanged.model;
   for (auto& [id, point] : model.points) {
     if (point.error_px >= 0) continue;
     double sum_px = 0;

@@ -47,8 +47,8 @@ PhotoId AddPosedPhoto(CameraId camera, std::string name, const Pose& cam_from_wo
 // Requires that its photos are of the model.
 void AddSeenPoint(const ExchangedPoint& point, Reconstruction& model);
 
-// Mean reprojection error of the points that have none: most formats leave it out. Requires a model
-// whose coordinates are not those of a map.
-void MeasurePointErrors(Reconstruction& model);
+// Mean reprojection error of the points that have none: most formats leave it out. Requires that
+// the coordinates are not those of a map.
+void MeasurePointErrors(ExchangedModel& exchanged);
 
 }  // namespace stucco

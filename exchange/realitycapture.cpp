@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <string_view>
 
@@ -26,10 +25,7 @@ constexpr char kNamespace[] = "http://www.capturingreality.com/ns/xcr/";
 constexpr double kFullFrame_mm = 36;
 
 bool IsXmp(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".xmp";
+  return LowerCase(path.extension().string()) == ".xmp";
 }
 
 // Fields of one photo: each is an attribute or an element of rdf:Description, as the program that

@@ -3,7 +3,6 @@
 #include "report/photo_trust.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "survey/median.h"
@@ -11,14 +10,6 @@
 
 namespace stucco {
 namespace {
-
-// The value that the share of the values does not exceed; -1 without any.
-double Quantile(std::vector<double> values, double share) {
-  if (values.empty()) return -1;
-  std::ranges::sort(values);
-  const auto rank = static_cast<size_t>(std::ceil(share * static_cast<double>(values.size())));
-  return values[std::max<size_t>(rank, 1) - 1];
-}
 
 const CalibratedPhoto* Find(const SurveyData& data, const std::string& path) {
   if (!data.calibration) return nullptr;
@@ -63,8 +54,8 @@ Placement SummarizePlacement(const Calibration& calibration) {
   }
   if (positions.empty()) return placement;
   const auto sigma = [&](double share) {
-    return PlacementSigma{Quantile(positions, share), Quantile(rotations, share),
-                          Quantile(pictures, share)};
+    return PlacementSigma{*Quantile(positions, share), *Quantile(rotations, share),
+                          Quantile(pictures, share).value_or(-1)};
   };
   placement.middle = sigma(0.5);
   placement.nine_in_ten = sigma(0.9);

@@ -23,6 +23,11 @@ Eigen::Quaterniond CamFromEnu(const GimbalAngles& angles) {
   return Eigen::Quaterniond(cam_from_enu).normalized();
 }
 
+double WrappedDegrees(double angle_deg) {
+  const double wrapped = std::remainder(angle_deg, 360.0);
+  return wrapped <= -180 ? wrapped + 360 : wrapped;
+}
+
 Eigen::Quaterniond AboutUp(double angle_rad) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()));
 }

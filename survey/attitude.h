@@ -12,6 +12,9 @@ namespace stucco {
 // y down, z forward). Roll is clockwise as seen from behind the camera.
 Eigen::Quaterniond CamFromEnu(const GimbalAngles& angles);
 
+// The same angle in (-180, 180].
+double WrappedDegrees(double angle_deg);
+
 // Turn about the up axis, counter-clockwise as seen from above.
 Eigen::Quaterniond AboutUp(double angle_rad);
 

@@ -4,23 +4,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "survey/error.h"
+#include "survey/text.h"
 
 namespace stucco {
 namespace {
-
-std::string LowerCaseExtension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
 
 void CheckIsWhole(const Image& image, const std::filesystem::path& path) {
   const bool has_size = image.width_px > 0 && image.height_px > 0;
@@ -51,7 +44,7 @@ cv::Mat ToOpenCv(const Image& image) {
 
 std::string EncodeImage(const Image& image, const std::filesystem::path& path, int quality) {
   CheckIsWhole(image, path);
-  const std::string extension = LowerCaseExtension(path);
+  const std::string extension = LowerCase(path.extension().string());
   const bool is_jpeg = extension == ".jpg" || extension == ".jpeg";
   if (!is_jpeg && extension != ".png") {
     throw Error(ErrorKind::kUsage, fmt::format("{}: pictures are written as .jpg or .png, not {}",

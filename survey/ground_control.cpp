@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
 #include "survey/error.h"
 #include "survey/escape.h"
+#include "survey/text.h"
 
 namespace stucco {
 namespace {
@@ -22,17 +22,11 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr char kForm[] =
     "a line is \"x y z pixel_x pixel_y photo [name] [check]\", with blanks or tabs between";
 
-std::string_view Trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 std::vector<std::string_view> Split(std::string_view line, std::string_view separators) {
   std::vector<std::string_view> fields;
   while (!line.empty()) {
     const size_t end = std::min(line.find_first_of(separators), line.size());
-    const std::string_view field = Trimmed(line.substr(0, end));
+    const std::string_view field = Trim(line.substr(0, end));
     if (!field.empty()) fields.push_back(field);
     line.remove_prefix(std::min(end + 1, line.size()));
   }
@@ -45,29 +39,15 @@ std::vector<std::string_view> FieldsOf(std::string_view line) {
   return fields.size() > kNumbers ? fields : Split(line, " \t");
 }
 
-std::optional<double> NumberIn(std::string_view field) {
-  if (field.starts_with('+')) field.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
-  return value;
-}
-
-std::string Lower(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return lower;
-}
-
 std::optional<PointRole> RoleIn(std::string_view field) {
-  const std::string word = Lower(field);
+  const std::string word = LowerCase(field);
   if (word == "check") return PointRole::kCheck;
   if (word == "control") return PointRole::kControl;
   return std::nullopt;
 }
 
 PointRole RoleByName(std::string_view name) {
-  const std::string lower = Lower(name);
+  const std::string lower = LowerCase(name);
   const bool is_check = lower.starts_with("chk") || lower.starts_with("check");
   return is_check ? PointRole::kCheck : PointRole::kControl;
 }
@@ -90,7 +70,7 @@ PointLine ReadLine(std::string_view line, int number) {
   }
   double numbers[kNumbers] = {};
   for (size_t i = 0; i < kNumbers; ++i) {
-    const auto value = NumberIn(fields[i]);
+    const auto value = ParseNumber<double>(fields[i]);
     if (i == kHeight && value && std::isnan(*value)) {
       result.problem = "has no height, and a point without one holds nothing; give its height";
     } else if (!value || !std::isfinite(*value)) {
@@ -209,7 +189,7 @@ GroundControlList ParseGroundControl(std::string_view text, const std::string& f
   std::string crs;
   for (int number = 1; !text.empty(); ++number) {
     const size_t end = std::min(text.find('\n'), text.size());
-    const std::string line = CleanUtf8(Trimmed(text.substr(0, end)));
+    const std::string line = CleanUtf8(Trim(text.substr(0, end)));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.empty() || line.starts_with('#')) continue;
     if (!crs.empty()) {

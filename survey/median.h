@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -18,6 +20,17 @@ inline std::optional<double> Median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+// The value below or at which a share of the values lies (nearest rank); nothing of none. Requires
+// a share in [0, 1].
+inline std::optional<double> Quantile(std::vector<double> values, double share) {
+  assert(share >= 0 && share <= 1);
+  if (values.empty()) return std::nullopt;
+  const double rank = std::ceil(share * static_cast<double>(values.size()));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 }  // namespace stucco

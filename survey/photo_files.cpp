@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fstream>
 #include <set>
 
 #include "survey/error.h"
+#include "survey/text.h"
 #include "survey/utf8.h"
 
 namespace stucco {
@@ -27,13 +27,8 @@ constexpr std::array<std::string_view, 19> kOtherPictures = {
 constexpr std::array<std::string_view, 5> kSystemFolders = {
     "$recycle.bin", "system volume information", "lost+found", "@eadir", "#recycle"};
 
-std::string Lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 std::string LowerExtension(const fs::path& path) {
-  return Lower(path.extension().string());
+  return LowerCase(path.extension().string());
 }
 
 template <size_t N>
@@ -101,7 +96,7 @@ class FolderWalk {
 
   // One folder that cannot be read costs only itself.
   void VisitBelow(const fs::path& folder) {
-    if (IsOneOf(Lower(folder.filename().string()), kSystemFolders)) return;
+    if (IsOneOf(LowerCase(folder.filename().string()), kSystemFolders)) return;
     try {
       Visit(folder);
     } catch (const fs::filesystem_error& error) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -30,6 +31,8 @@ struct SurfaceFigures {
   // Share of the truth's area with the result nearby: of what the photos show, and of everything.
   double completeness = kNotMeasured;
   double completeness_all = kNotMeasured;
+
+  bool IsMeasured() const { return std::isfinite(error95_m) || std::isfinite(completeness); }
 };
 
 // Of everything near buildings, and of its parts: the buildings alone (walls, roofs and what stands

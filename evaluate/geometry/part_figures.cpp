@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evaluate/geometry/part_figures.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <functional>
+
+#include "survey/median.h"
 
 namespace stucco::evaluate {
 namespace {
@@ -19,7 +19,7 @@ SurfaceFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
   for (size_t i = 0; i < result.distances.size(); ++i) {
     if (is_part(result.groups[i])) distances.push_back(result.distances[i]);
   }
-  figures.error95_m = Quantile(std::move(distances), 0.95);
+  figures.error95_m = Quantile(std::move(distances), 0.95).value_or(kNotMeasured);
   double seen = 0, seen_found = 0, all = 0, all_found = 0;
   for (size_t i = 0; i < truth.points.size(); ++i) {
     if (!is_part(truth.points[i].group)) continue;
@@ -35,15 +35,6 @@ SurfaceFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
 }
 
 }  // namespace
-
-double Quantile(std::vector<double> values, double share) {
-  assert(share >= 0 && share <= 1);
-  if (values.empty()) return kNotMeasured;
-  const double rank = std::ceil(share * static_cast<double>(values.size()));
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 PartFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
                       std::span<const char> found) {

@@ -32,8 +32,4 @@ struct ResultPoints {
 PartFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
                       std::span<const char> found);
 
-// The value below or at which a share of the values lies (nearest rank); not measured for none.
-// Requires a share in [0, 1].
-double Quantile(std::vector<double> values, double share);
-
 }  // namespace stucco::evaluate

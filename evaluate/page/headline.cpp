@@ -38,14 +38,10 @@ std::string Poses(const PoseFigures& poses) {
                      Degrees(poses.georeferenced_rotation_mean_deg), "in the frames as they are"));
 }
 
-bool IsMeasured(const SurfaceFigures& figures) {
-  return std::isfinite(figures.error95_m) || std::isfinite(figures.completeness);
-}
-
 enum class RowOf { kBuildings, kPart };
 
 std::string SurfaceRow(RowOf row, const std::string& name, const SurfaceFigures& figures) {
-  if (!IsMeasured(figures)) return "";
+  if (!figures.IsMeasured()) return "";
   return fmt::format(
       "<tr{}><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td>"
       "<td class=\"num\">{}</td></tr>",
@@ -55,7 +51,7 @@ std::string SurfaceRow(RowOf row, const std::string& name, const SurfaceFigures&
 
 // The buildings first: most of what there is near them is ground.
 std::string PartRows(const std::string& name, const PartFigures& figures) {
-  if (!IsMeasured(figures.all)) return "";
+  if (!figures.all.IsMeasured()) return "";
   return SurfaceRow(RowOf::kBuildings, name + ": buildings", figures.building) +
          SurfaceRow(RowOf::kPart, "walls", figures.wall) +
          SurfaceRow(RowOf::kPart, "roofs", figures.roof) +

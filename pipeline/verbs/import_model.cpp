@@ -154,7 +154,7 @@ ImportReport ImportModel(const fs::path& survey, const fs::path& path, const Sta
       PlaceModel(source.path, UsesPositions(settings) ? known : nullptr, imported);
   report.frame = place.georef.frame;
   report.notes.insert(report.notes.end(), place.notes.begin(), place.notes.end());
-  MeasurePointErrors(imported.model);
+  MeasurePointErrors(imported);
   Calibration calibration = DescribeModel(imported.model, place, known);
   calibration.findings.push_back(
       fmt::format("imported from {}", fs::absolute(path).lexically_normal().string()));

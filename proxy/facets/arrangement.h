@@ -50,7 +50,8 @@ struct Arrangement {
   std::vector<Edge> edges;  // each once, by (from, to)
 };
 
-// Requires lines that are not (nearly) the same line.
+// Lines may be the same, or nearly: what is within a billionth of the box's size of a line is on
+// it.
 Arrangement Arrange(const Eigen::AlignedBox2d& box, std::span<const CutLine> lines);
 
 // The corners of a face.

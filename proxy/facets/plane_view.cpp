@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -104,6 +105,7 @@ std::vector<PlaneView> ViewPlanes(const PlanarScene& scene, std::span<const Plan
                      view.raster);
     view.evidence = Classify(view.raster, tolerances.fill_gap, tolerances.min_area);
     if (plane.role == PlaneRole::kWall || plane.role == PlaneRole::kSlope) {
+      assert(frame.v.dot(scene.up) > 0);
       FillBays(view.raster, 3 * tolerances.fill_gap, view.evidence);
     }
     view.to_seen = DistanceToSeen(view.raster, view.evidence);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -172,6 +173,7 @@ std::vector<int> CellsToSeen(const PlaneRaster& raster, const std::vector<Eviden
 }  // namespace
 
 void FillBays(const PlaneRaster& raster, double reach, std::vector<Evidence>& evidence) {
+  assert(evidence.size() == raster.hits.size());
   const int most = static_cast<int>(reach / raster.cell);
   const auto left = CellsToSeen(raster, evidence, -1, 0);
   const auto right = CellsToSeen(raster, evidence, 1, 0);

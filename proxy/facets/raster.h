@@ -55,7 +55,7 @@ std::vector<Evidence> Classify(const PlaneRaster& raster, double fill_gap, doubl
 // Unknown cells between seen ones become gaps: those with seen cells above and below within
 // `reach`, and those with seen cells on both sides within `reach` and anywhere above (what stands
 // in front of a wall hides its foot; the sky between two gables has nothing above). Requires a
-// frame whose v points upwards.
+// frame whose v points upwards, and a piece of evidence for every cell.
 void FillBays(const PlaneRaster& raster, double reach, std::vector<Evidence>& evidence);
 
 }  // namespace stucco

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "simulate/city/footprints.h"
@@ -80,7 +81,7 @@ void AddCorners(const Perimeter& block, Random& random, Town& town) {
 // Cuts a row into lots of 11.5 to 15 m, or a little more or less, so that they fill it.
 std::vector<double> Lots(double from, double to, Random& random) {
   const double length = to - from;
-  const int count = std::max(1, static_cast<int>(length / random.Uniform(11.5, 15) + 0.5));
+  const int count = std::max(1, static_cast<int>(std::lround(length / random.Uniform(11.5, 15))));
   std::vector<double> cuts = {from};
   for (int i = 1; i < count; ++i) {
     cuts.push_back(from + length * (i + random.Uniform(-0.12, 0.12)) / count);

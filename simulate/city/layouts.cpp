@@ -10,6 +10,15 @@
 #include "survey/geometry2d.h"
 
 namespace stucco::simulate::internal {
+namespace {
+
+bool IsAmong(const std::vector<OutlineEdge>& edges, const Eigen::Vector2d& a,
+             const Eigen::Vector2d& b) {
+  return std::any_of(edges.begin(), edges.end(),
+                     [&](const OutlineEdge& edge) { return edge.a == a && edge.b == b; });
+}
+
+}  // namespace
 
 void ClearEdges(House& house) {
   const size_t count = EdgesOf(house.outline).size();
@@ -30,10 +39,9 @@ void MarkPartyWalls(std::vector<House>& houses) {
     const std::vector<OutlineEdge> edges = EdgesOf(house.outline);
     for (const House& other : houses) {
       if (&other == &house) continue;
-      for (const OutlineEdge& theirs : EdgesOf(other.outline)) {
-        for (size_t i = 0; i < edges.size(); ++i) {
-          if (edges[i].a == theirs.b && edges[i].b == theirs.a) house.party[i] = true;
-        }
+      const std::vector<OutlineEdge> theirs = EdgesOf(other.outline);
+      for (size_t i = 0; i < edges.size(); ++i) {
+        if (IsAmong(theirs, edges[i].b, edges[i].a)) house.party[i] = true;
       }
     }
   }

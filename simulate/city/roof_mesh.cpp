@@ -82,6 +82,18 @@ Loop OverhungFace(const House& house, const Solid& solid, const Solid::Face& fac
   return loop;
 }
 
+bool HasCorner(const Solid::Face& face, int corner) {
+  return std::find(face.outer.begin(), face.outer.end(), corner) != face.outer.end();
+}
+
+// Does another face of the roof go on beyond the edge between two corners of a face?
+bool IsShared(const Solid& solid, const Solid::Face& face, int from, int to) {
+  return std::any_of(solid.faces.begin(), solid.faces.end(), [&](const Solid::Face& other) {
+    return &other != &face && other.facet_class == FacetClass::kRoof && HasCorner(other, from) &&
+           HasCorner(other, to);
+  });
+}
+
 void AddPitchedEdges(const House& house, const Solid& solid, const Trim& trim, CityModel& model) {
   const Vector3d down(0, 0, -kRafters_m);
   for (const Solid::Face& face : solid.faces) {
@@ -95,15 +107,7 @@ void AddPitchedEdges(const House& house, const Solid& solid, const Trim& trim, C
     // Fascias where no other face of the roof goes on.
     for (size_t i = 0; i < loop.size(); ++i) {
       const size_t next = (i + 1) % loop.size();
-      const bool shared =
-          std::any_of(solid.faces.begin(), solid.faces.end(), [&](const Solid::Face& other) {
-            if (&other == &face || other.facet_class != FacetClass::kRoof) return false;
-            const auto has = [&](int corner) {
-              return std::find(other.outer.begin(), other.outer.end(), corner) != other.outer.end();
-            };
-            return has(face.outer[i]) && has(face.outer[next]);
-          });
-      if (shared) continue;
+      if (IsShared(solid, face, face.outer[i], face.outer[next])) continue;
       AddTrim(trim, {loop[i] + down, loop[next] + down, loop[next], loop[i]}, model);
     }
   }

@@ -82,6 +82,7 @@ class WallBuilder {
     Loop outer;
     for (const Vector2d& corner : shape_.outline) outer.push_back(At(corner.x(), corner.y(), 0));
     std::vector<Loop> holes;
+    holes.reserve(openings.size());
     for (const Rect& r : openings) {
       holes.push_back({At(r.left, r.bottom, 0), At(r.left, r.top, 0), At(r.right, r.top, 0),
                        At(r.right, r.bottom, 0)});

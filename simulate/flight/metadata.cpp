@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "survey/attitude.h"
 #include "survey/error.h"
 #include "survey/escape.h"
 
@@ -38,11 +39,6 @@ double Tenths(double degrees) {
 }
 
 // In (-180, 180].
-double Wrapped(double degrees) {
-  const double wrapped = std::remainder(degrees, 360.0);
-  return wrapped <= -180 ? wrapped + 360 : wrapped;
-}
-
 using TagList = std::vector<std::pair<const char*, std::string>>;
 
 TagList ExifTags(const PhotoMetadata& m) {
@@ -98,7 +94,7 @@ TagList XmpAttributes(const PhotoMetadata& m) {
   const std::string date =
       m.exif_time.substr(0, 4) + "-" + m.exif_time.substr(5, 2) + "-" + m.exif_time.substr(8, 2);
   const auto degrees = [](double value) { return fmt::format("{:+.2f}", Tenths(value)); };
-  const double yaw = Wrapped(Tenths(m.gimbal.yaw_deg));
+  const double yaw = WrappedDegrees(Tenths(m.gimbal.yaw_deg));
   TagList list = {
       {"xmp:ModifyDate", date},
       {"xmp:CreateDate", date},

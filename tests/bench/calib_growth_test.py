@@ -14,7 +14,7 @@ sys.path[:0] = [str(ROOT / "bench")]
 import calib_growth  # noqa: E402
 
 # Calibration of n photos takes 2 n CPU seconds, most of it for matching.
-STAND_IN = """#!/usr/bin/env python3
+STAND_IN = f"#!{sys.executable} -S\n" + """
 import json, os, pathlib, sys
 words = sys.argv[1:]
 with open(os.environ["COMMANDS"], "a") as log:

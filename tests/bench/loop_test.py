@@ -39,7 +39,7 @@ EVALUATION = {
     "views": {"compared": 0.95, "ssim_mean": 0.6, "psnr_mean": 19.5, "flip_mean": 0.2, "photos": []}, "notes": []}
 
 # Notes its commands and makes what the real one would make, as far as the scripts look at it.
-STAND_IN = """#!/usr/bin/env python3
+STAND_IN = f"#!{sys.executable} -S\n" + """
 import os, pathlib, sys
 words = sys.argv[1:]
 with open(os.environ["COMMANDS"], "a") as log:

@@ -34,6 +34,12 @@ Survey MadeSurvey(const std::string& name, const Renderer& scene, const Painting
   return survey;
 }
 
+// For what is asked of one wall alone: the others are not compared.
+void KeepSouth(Survey& survey) {
+  std::vector<Facet>& facets = survey.truth.buildings[0].facets;
+  facets.erase(facets.begin() + 1, facets.end());
+}
+
 std::vector<FacadeFigures> Compare(const Survey& survey, const Renderer& scene, int threads = 2) {
   return CompareFacades({.texture_folder = survey.folder,
                          .proxy = survey.proxy,
@@ -64,6 +70,7 @@ void ExpectEqual(const FacadeFigures& figures, double most_flip = 0.006) {
 TEST(CompareFacades, WhatIsBelowTheGroundNeedNotBePainted) {
   const Renderer scene(MadeHouseScene());
   Survey survey = MadeSurvey("buried", scene);
+  KeepSouth(survey);
   survey.truth.buildings[0].facets[0].seen = 0.75;
   const FacadeFigures south = Compare(survey, scene)[0];
   EXPECT_NEAR(south.area_m2, 0.75 * 3 * 2.5, 1e-9);
@@ -149,6 +156,7 @@ TEST(CompareFacades, FinerTexelsAreComparedAtTheTruths) {
 TEST(CompareFacades, FilledInTexelsAreNotPainted) {
   const Renderer scene(MadeHouseScene());
   Survey survey = MadeSurvey("filled", scene);
+  KeepSouth(survey);
   TexturedFacet& south = survey.textures.facets[0];
   Image image = ReadImage(survey.folder / south.image);
   Image labels{south.width_px, south.height_px, 1, {}};
@@ -175,6 +183,7 @@ TEST(CompareFacades, WhatStandsBeforeAWallIsLeftOutButNotItsShade) {
   std::vector<bool> tree(scene.scene().elements.size(), false);
   tree.back() = true;
   Survey survey = MadeSurvey("tree", scene, {.left_out = tree});
+  KeepSouth(survey);
   EXPECT_LT(Compare(survey, scene)[0].picture.psnr, 20);
   survey.occluders = tree;
   ExpectEqual(Compare(survey, scene)[0]);
@@ -189,6 +198,7 @@ TEST(CompareFacades, ANearHouseBehindTheOnlookerIsLeftOut) {
   std::vector<bool> neighbour(scene.scene().elements.size(), false);
   neighbour.back() = true;
   Survey survey = MadeSurvey("narrow", scene, {.left_out = neighbour});
+  KeepSouth(survey);
   survey.truth.buildings.push_back({.id = "B0002", .watertight = true, .source = "", .facets = {}});
   ExpectEqual(Compare(survey, scene)[0]);
 }
@@ -237,6 +247,7 @@ TEST(CompareFacades, TheCeilingIsWhatIdealPhotosShow) {
 TEST(CompareFacades, ACoarserCameraHasALowerCeiling) {
   const Renderer scene(MadeHouseScene());
   Survey survey = MadeSurvey("coarse_ceiling", scene);
+  KeepSouth(survey);
   survey.flight.photos = {SouthPhoto()};
   const double fine = Compare(survey, scene)[0].ceiling.ssim;
   survey.flight.photos[0].camera = Resized(survey.flight.photos[0].camera, 40, 30);
@@ -251,6 +262,7 @@ TEST(CompareFacades, TellsTheWallsPlaneFromRelief) {
   AddBoard("B0001/trim", 0.3, scene_with_balcony);  // 1 m x 1 m before a wall of 3 m x 2.5 m
   const Renderer scene(scene_with_balcony);
   Survey survey = MadeSurvey("relief", scene);
+  KeepSouth(survey);
   survey.flight.photos = {SouthPhoto()};
   // Wrong on relief alone: as if no board were there.
   const Renderer bare(MadeHouseScene());

@@ -13,6 +13,7 @@
 #include "survey/survey_folder.h"
 #include "tests/evaluate/made_truth.h"
 #include "tests/evaluate/made_walls.h"
+#include "tests/survey/temporary_folder.h"
 
 namespace stucco::evaluate {
 namespace {
@@ -21,72 +22,92 @@ namespace fs = std::filesystem;
 
 constexpr double kTruthTexel_m = 0.01;
 
-// A scene folder with the house, and a survey of it that has made everything but a cloud.
+// A scene folder with the house, a survey of it that has made everything but a cloud, and its
+// evaluation, made once; each test has a copy of the survey.
 class SurveyedHouse : public ::testing::Test {
  protected:
-  void SetUp() override {
-    fs::remove_all(root_);
+  static void SetUpTestSuite() {
+    folder_ = new test::TemporaryFolder();
     for (const char* folder : {"scene/truth", "survey/calib/sparse/0", "survey/proxy",
                                "survey/texture", "survey/truth/held_out"}) {
-      fs::create_directories(root_ / folder);
+      fs::create_directories(*folder_ / folder);
     }
-    WriteScene();
-    WriteFlight();
-    WriteColmapText(MadeReconstruction(flight_), survey_ / kSparseFolder);
-    WriteGeoref(MadeGeoref(), survey_ / kGeorefFile);
-    WriteProxy(MadeHouse(), survey_ / kFacetsFile);
-    Paint({});
+    WriteHouse();
+    const fs::path survey = *folder_ / "survey";
+    const simulate::Flight flight = FlyAround(survey);
+    WriteColmapText(MadeReconstruction(flight), survey / kSparseFolder);
+    WriteGeoref(MadeGeoref(), survey / kGeorefFile);
+    WriteProxy(MadeHouse(), survey / kFacetsFile);
+    Paint({}, survey);
+    right_ = new Evaluation(Evaluate(RequestIn(folder_->path())));
+  }
+  static void TearDownTestSuite() {
+    delete right_;
+    delete folder_;
   }
 
-  void WriteScene() {
+  void SetUp() override {
+    for (const char* made : {"survey", "out"}) {
+      fs::copy(*folder_ / made, root_ / made, fs::copy_options::recursive);
+    }
+  }
+
+  static void WriteHouse() {
     simulate::SceneInfo info;
     info.style = "hamlet";
     info.georef = MadeGeoref();
     info.has_truth = true;
-    simulate::WriteSceneInfo(info, scene_);
-    simulate::WriteGlb(MadeHouseScene(), scene_ / simulate::kSceneModel);
-    WriteProxy(MadeHouse(), scene_ / simulate::kTruthFacets);
+    simulate::WriteSceneInfo(info, Scene());
+    simulate::WriteGlb(MadeHouseScene(), Scene() / simulate::kSceneModel);
+    WriteProxy(MadeHouse(), Scene() / simulate::kTruthFacets);
   }
 
-  void WriteFlight() {
-    const simulate::Renderer house(simulate::ReadScene(scene_));
-    flight_ = MadeFlight();
-    flight_.scene = scene_.string();
-    flight_.georef = MadeGeoref();
+  static simulate::Flight FlyAround(const fs::path& survey) {
+    const simulate::Renderer house(simulate::ReadScene(Scene()));
+    simulate::Flight flight = MadeFlight();
+    flight.scene = Scene().string();
+    flight.georef = MadeGeoref();
     for (const char* name : {"a", "b"}) {
-      flight_.photos.push_back(HeldOutPhoto(std::string("held_out/") + name + ".jpg", 0.9));
-      const simulate::FlownPhoto& photo = flight_.photos.back();
-      WriteImage(Recorded(house, photo), survey_ / "truth" / photo.path, 100);
+      flight.photos.push_back(HeldOutPhoto(std::string("held_out/") + name + ".jpg", 0.9));
+      const simulate::FlownPhoto& photo = flight.photos.back();
+      WriteImage(Recorded(house, photo), survey / "truth" / photo.path, 100);
     }
-    simulate::WriteFlight(flight_, survey_);
+    simulate::WriteFlight(flight, survey);
+    return flight;
   }
 
   // As the flight's light shows the house.
-  void Paint(const Painting& painting) {
-    const simulate::Renderer house(simulate::ReadScene(scene_));
-    TextureSet textures = PaintHouse(house, simulate::Light{}, painting, survey_ / "texture");
+  static void Paint(const Painting& painting, const fs::path& survey) {
+    const simulate::Renderer house(simulate::ReadScene(Scene()));
+    TextureSet textures = PaintHouse(house, simulate::Light{}, painting, survey / "texture");
     textures.model_glb = "model.glb";
-    simulate::WriteGlb(MadeHouseScene(), survey_ / "texture/model.glb");
-    WriteTextureSet(textures, survey_ / kTexturesFile);
+    simulate::WriteGlb(MadeHouseScene(), survey / "texture/model.glb");
+    WriteTextureSet(textures, survey / kTexturesFile);
   }
 
-  EvaluateRequest Request() const {
+  static EvaluateRequest RequestIn(const fs::path& root) {
     EvaluateRequest request;
-    request.survey = survey_;
-    request.scene = scene_;
-    request.output = root_ / "out";
+    request.survey = root / "survey";
+    request.scene = Scene();
+    request.output = root / "out";
     request.threads = 2;
     return request;
   }
 
-  fs::path root_ = fs::path(::testing::TempDir()) / "stucco_surveyed_house";
-  fs::path scene_ = root_ / "scene";
+  static fs::path Scene() { return *folder_ / "scene"; }
+  EvaluateRequest Request() const { return RequestIn(root_.path()); }
+
+  static test::TemporaryFolder* folder_;
+  static Evaluation* right_;
+  test::TemporaryFolder root_;
   fs::path survey_ = root_ / "survey";
-  simulate::Flight flight_;
 };
 
+test::TemporaryFolder* SurveyedHouse::folder_ = nullptr;
+Evaluation* SurveyedHouse::right_ = nullptr;
+
 TEST_F(SurveyedHouse, TruthHasNoErrorInAnyPicture) {
-  const Evaluation found = Evaluate(Request());
+  const Evaluation& found = *right_;
   EXPECT_THAT(found.notes, ::testing::Contains(::testing::HasSubstr("the cloud is not measured")));
   ASSERT_EQ(found.facades.size(), 4u);
   EXPECT_NEAR(found.painted, 1, 0.002);
@@ -103,7 +124,7 @@ TEST_F(SurveyedHouse, TruthHasNoErrorInAnyPicture) {
 }
 
 TEST_F(SurveyedHouse, ADisplacedTextureIsOffByAsMuch) {
-  Paint({.texel_m = 0.02, .shift = 1.5});
+  Paint({.texel_m = 0.02, .shift = 1.5}, survey_);
   const Evaluation found = Evaluate(Request());
   EXPECT_NEAR(found.misregistration_px, 1.5, 0.05);
   EXPECT_NEAR(found.misregistration_m, 0.03, 0.001);
@@ -121,17 +142,16 @@ TEST_F(SurveyedHouse, WhatIsNotPaintedLowersTheShareAndNotTheRest) {
 }
 
 TEST_F(SurveyedHouse, TheFlightMayLieElsewhere) {
-  const Evaluation before = Evaluate(Request());
   const fs::path elsewhere = root_ / "elsewhere";
   fs::create_directories(elsewhere);
   fs::rename(survey_ / "truth", elsewhere / "truth");
   EvaluateRequest request = Request();
   request.flight = elsewhere;
-  EXPECT_EQ(EvaluationJson(Evaluate(request)), EvaluationJson(before));
+  EXPECT_EQ(EvaluationJson(Evaluate(request)), EvaluationJson(*right_));
 }
 
 TEST_F(SurveyedHouse, TheSecondTimeGivesTheSameAndNoMorePictures) {
-  WriteEvaluation(Evaluate(Request()), root_ / "out");
+  WriteEvaluation(*right_, root_ / "out");
   const auto count = [&] {
     return std::distance(fs::directory_iterator(root_ / "out/pictures"), fs::directory_iterator());
   };

@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "plan/map/read_dem.h"
 #include "survey/coordinate_system.h"
@@ -126,7 +127,8 @@ INSTANTIATE_TEST_SUITE_P(Rasters, ReadDemTest,
                          testing::Values(MadeDem{.pixels = 300, .step = 1},
                                          MadeDem{.pixels = 120, .step = 2},
                                          MadeDem{.pixels = 50, .step = 7.3},
-                                         MadeDem{.crs = "EPSG:4326", .pixels = 80, .step = 5e-5}));
+                                         MadeDem{.crs = "EPSG:4326", .pixels = 80, .step = 5e-5}),
+                         [](const auto& test) { return std::to_string(test.param.pixels) + "px"; });
 
 }  // namespace
 }  // namespace stucco::plan

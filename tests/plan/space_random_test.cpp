@@ -7,6 +7,7 @@
 #include <CGAL/Polygon_2_algorithms.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -113,7 +114,12 @@ bool IsInside(const Polygon& polygon, const ExactPoint& p) {
   bool inside = false;
   for (const Ring& ring : polygon.rings) {
     std::vector<ExactPoint> points;
-    for (const Vector2d& corner : ring) points.push_back(ToExact(corner));
+    CGAL::Bbox_2 around;
+    for (const Vector2d& corner : ring) {
+      points.push_back(ToExact(corner));
+      around += points.back().bbox();
+    }
+    if (!CGAL::do_overlap(p.bbox(), around)) continue;
     const auto side = CGAL::bounded_side_2(points.begin(), points.end(), p, Kernel());
     if (side == CGAL::ON_BOUNDARY) return true;
     inside = inside != (side == CGAL::ON_BOUNDED_SIDE);
@@ -121,12 +127,24 @@ bool IsInside(const Polygon& polygon, const ExactPoint& p) {
   return inside;
 }
 
+// Whether what two boxes enclose lies farther apart by more than rounding could be wrong: most
+// does, and needs no exact arithmetic.
+bool AreFarther(const CGAL::Bbox_2& a, const CGAL::Bbox_2& b, const Exact& squared_distance) {
+  const double x = std::max({0.0, a.xmin() - b.xmax(), b.xmin() - a.xmax()});
+  const double y = std::max({0.0, a.ymin() - b.ymax(), b.ymin() - a.ymax()});
+  return x * x + y * y > CGAL::to_double(squared_distance) + 1e-3;
+}
+
 // Whether the straight line from p to q (one point, if they are equal) keeps off the polygon.
 bool KeepsOff(const Polygon& polygon, const ExactPoint& p, const ExactPoint& q,
               const Exact& squared_distance) {
+  const CGAL::Bbox_2 way = p.bbox() + q.bbox();
   for (const Ring& ring : polygon.rings) {
     for (size_t k = 0; k < ring.size(); ++k) {
-      const ExactSegment edge(ToExact(ring[k]), ToExact(ring[(k + 1) % ring.size()]));
+      const ExactPoint a = ToExact(ring[k]);
+      const ExactPoint b = ToExact(ring[(k + 1) % ring.size()]);
+      if (AreFarther(a.bbox() + b.bbox(), way, squared_distance)) continue;
+      const ExactSegment edge(a, b);
       const Exact squared = p == q ? CGAL::squared_distance(p, edge)
                                    : CGAL::squared_distance(ExactSegment(p, q), edge);
       if (squared < squared_distance || squared == 0) return false;

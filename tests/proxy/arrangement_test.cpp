@@ -48,9 +48,15 @@ TEST(Arrange, LinesThroughOnePointAndOutsideTheBox) {
 TEST(Arrange, FacesFillTheBoxWhateverTheLines) {
   std::mt19937_64 engine(7);
   const auto uniform = [&](double high) { return high * double(engine() >> 11) * 0x1p-53; };
-  for (int round = 0; round < 20; ++round) {
+  for (int round = 0; round < 200; ++round) {
     std::vector<CutLine> lines;
-    for (int i = 0; i < 12; ++i) lines.push_back(Line(uniform(4), uniform(3), uniform(180)));
+    for (int i = 0; i < 8; ++i) {
+      const double x = uniform(4), y = uniform(3), angle_deg = uniform(180);
+      lines.push_back(Line(x, y, angle_deg));
+      // In every other round a twin, which is the same in one of five.
+      const double apart = uniform(1) < 0.2 ? 0 : std::pow(10, -uniform(16));
+      if (round % 2 == 0) lines.push_back(Line(x + apart, y, angle_deg + uniform(2) * apart));
+    }
     const Arrangement arrangement = Arrange(kBox, lines);
     double area = 0;
     for (size_t f = 0; f < arrangement.faces.size(); ++f) {

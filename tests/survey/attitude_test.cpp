@@ -40,5 +40,12 @@ TEST(CamFromEnu, TiltsAndRolls) {
   EXPECT_NEAR(right.x(), std::cos(10 * std::numbers::pi / 180), 1e-12);
 }
 
+TEST(WrappedDegrees, EndsAtHalfATurn) {
+  EXPECT_EQ(WrappedDegrees(-180), 180);
+  EXPECT_EQ(WrappedDegrees(540), 180);
+  EXPECT_EQ(WrappedDegrees(190), -170);
+  EXPECT_EQ(WrappedDegrees(-370), -10);
+}
+
 }  // namespace
 }  // namespace stucco
