@@ -107,14 +107,12 @@ class FolderWalk {
 
   void Consider(const fs::path& path, const std::set<fs::path>& jpegs) {
     const std::string extension = LowerExtension(path);
-    if (IsOneOf(extension, kJpegExtensions)) {
+    if (IsOneOf(extension, kJpegExtensions) || (extension.empty() && StartsLikeJpeg(path))) {
       Add(path, "");
     } else if (IsOneOf(extension, kOtherPictures) && !IsMask(path) &&
                !jpegs.contains(path.stem())) {  // a camera's raw file lies beside its JPEG
       Add(path,
           fmt::format("{} pictures are not read; convert the photo to JPEG", extension.substr(1)));
-    } else if (extension.empty() && StartsLikeJpeg(path)) {
-      Add(path, "");
     } else {
       ++listing_.other_files;
     }
