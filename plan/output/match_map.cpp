@@ -18,15 +18,15 @@
 namespace stucco::plan {
 namespace {
 
+using internal::kMargin;
+using internal::kPageWidth;
+using internal::kTallestMap;
 using internal::MapScale;
 using internal::PathData;
 using internal::Svg;
 
-constexpr double kPageWidth = 1600;
-constexpr double kMargin = 24;
 constexpr double kTop = 128;
 constexpr double kBelowMap = 60;
-constexpr double kTallestMap = 1250;
 constexpr double kKeyRow = 71;  // from the top of the page
 
 // How surely two photos match, by what flown surveys show (docs/benchmarks.md): of pairs below the

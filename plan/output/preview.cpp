@@ -11,18 +11,18 @@
 namespace stucco::plan {
 namespace {
 
+using internal::kMargin;
+using internal::kPageWidth;
+using internal::kTallestMap;
 using internal::MapScale;
 using internal::Svg;
 
-constexpr double kPageWidth = 1600;
-constexpr double kMargin = 24;
 constexpr double kTitle = 92;
 constexpr double kWarningLine = 19;
 constexpr size_t kWarningLetters = 190;  // in a line
 constexpr double kLegend = 330;
 constexpr double kBelowMap = 48;
 constexpr double kMapWidth = kPageWidth - 3 * kMargin - kLegend;
-constexpr double kTallestMap = 1250;
 constexpr double kLowestPage = 960;  // the legend needs it
 
 std::string Title(const Plan& plan, const PlanStats& stats) {

@@ -76,6 +76,11 @@ text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:
 <path d="M0 0V9" stroke="#c0392b" stroke-width="2.4" stroke-opacity="0.55"/></pattern></defs>
 )svg";
 
+// Every page; pixels.
+inline constexpr double kPageWidth = 1600;
+inline constexpr double kMargin = 24;
+inline constexpr double kTallestMap = 1250;
+
 // Trees, cranes, wires.
 inline constexpr char kObstacleLook[] =
     "fill=\"#cfe3c4\" fill-rule=\"evenodd\" stroke=\"#7f9c70\" stroke-width=\"0.5\"";
