@@ -14,10 +14,10 @@
 #include "survey/parallel.h"
 #include "survey/survey_folder.h"
 #include "survey/texture_set.h"
-#include "texture/colour.h"
-#include "texture/epoch_facet.h"
-#include "texture/file_names.h"
-#include "texture/paint.h"
+#include "texture/epoch/epoch_facet.h"
+#include "texture/light/colour.h"
+#include "texture/output/file_names.h"
+#include "texture/painting/paint.h"
 #include "texture/steps.h"
 
 namespace stucco {

@@ -8,7 +8,7 @@
 #include "survey/epoch.h"
 #include "survey/stage.h"
 #include "survey/survey_photo.h"
-#include "texture/options.h"
+#include "texture/options/texture_options.h"
 
 namespace stucco {
 

@@ -8,9 +8,9 @@
 
 #include "survey/files.h"
 #include "survey/parallel.h"
-#include "texture/colour.h"
-#include "texture/orthophoto.h"
-#include "texture/write_model.h"
+#include "texture/light/colour.h"
+#include "texture/output/orthophoto.h"
+#include "texture/output/write_model.h"
 
 namespace stucco {
 namespace {

@@ -10,11 +10,11 @@
 
 #include "survey/stage.h"
 #include "survey/texture_set.h"
-#include "texture/facet_unit.h"
-#include "texture/input.h"
-#include "texture/look.h"
-#include "texture/options.h"
-#include "texture/visibility.h"
+#include "texture/options/texture_options.h"
+#include "texture/painting/facet_unit.h"
+#include "texture/views/input.h"
+#include "texture/views/look.h"
+#include "texture/views/visibility.h"
 
 namespace stucco {
 

@@ -12,11 +12,11 @@
 #include "survey/parallel.h"
 #include "survey/survey_folder.h"
 #include "survey/texture_set.h"
-#include "texture/facet_unit.h"
-#include "texture/file_names.h"
-#include "texture/input.h"
-#include "texture/paint.h"
+#include "texture/output/file_names.h"
+#include "texture/painting/facet_unit.h"
+#include "texture/painting/paint.h"
 #include "texture/steps.h"
+#include "texture/views/input.h"
 
 namespace stucco {
 namespace {

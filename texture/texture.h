@@ -3,7 +3,7 @@
 #pragma once
 
 #include "survey/stage.h"
-#include "texture/options.h"
+#include "texture/options/texture_options.h"
 
 namespace stucco {
 

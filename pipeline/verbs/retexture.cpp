@@ -30,7 +30,7 @@
 #include "survey/plan_of_survey.h"
 #include "survey/survey_folder.h"
 #include "survey/survey_photo.h"
-#include "texture/options.h"
+#include "texture/options/texture_options.h"
 #include "texture/repaint.h"
 
 namespace stucco {

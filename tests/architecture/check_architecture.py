@@ -41,7 +41,7 @@ FOLDER_ARROWS = {
                         "calib/options/calib_options.h", "calib/records/placement.h",
                         "capture_ingest/ingest.h", "exchange/", "plan/",
                         "report/epoch_report.h", "survey/",
-                        "texture/options.h", "texture/repaint.h"),
+                        "texture/options/texture_options.h", "texture/repaint.h"),
     "cli/": ("cli/", "evaluate/", "pipeline/default_stages.h", "pipeline/engine/engine.h",
              "pipeline/verbs/", "simulate/", "survey/"),
 }
@@ -56,6 +56,8 @@ FLOORS = {
              "planar", "match", "baseline", "path", "output", "mission", "field", "."),
     "proxy": ("options", "cloud", "planes", "scene", "facets", "solids", "map", "output", "."),
     "simulate": (".", "scene", "paint", "city", "render", "flight"),
+    "texture": ("options", "grid", "photos", "light", "views", "relief", "selection", "painting",
+                "output", "epoch", "."),
 }
 
 # The virtual drone and the measuring of results may serve any test.

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/blend.h"
+#include "texture/painting/blend.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "texture/composite.h"
+#include "texture/painting/composite.h"
 
 namespace stucco {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/colour.h"
+#include "texture/light/colour.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/facet_unit.h"
+#include "texture/painting/facet_unit.h"
 
 #include <gtest/gtest.h>
 
 #include "survey/error.h"
 #include "tests/texture/synthetic.h"
-#include "texture/file_names.h"
+#include "texture/output/file_names.h"
 
 namespace stucco {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/fill.h"
+#include "texture/painting/fill.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "tests/texture/synthetic.h"
-#include "texture/patch_fill.h"
+#include "texture/painting/patch_fill.h"
 
 namespace stucco {
 namespace {

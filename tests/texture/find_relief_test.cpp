@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/find_relief.h"
+#include "texture/relief/find_relief.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "tests/texture/wall_survey.h"
-#include "texture/relief_file.h"
+#include "texture/grid/relief_file.h"
 
 namespace stucco::testing {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/look.h"
+#include "texture/views/look.h"
 
 #include <gtest/gtest.h>
 

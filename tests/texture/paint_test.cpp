@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/paint.h"
+#include "texture/painting/paint.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/relief.h"
+#include "texture/grid/relief.h"
 
 #include <gtest/gtest.h>
 
 #include "survey/error.h"
 #include "survey/files.h"
 #include "tests/survey/temporary_folder.h"
-#include "texture/relief_file.h"
+#include "texture/grid/relief_file.h"
 
 namespace stucco::test {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/select.h"
+#include "texture/selection/select.h"
 
 #include <gtest/gtest.h>
 

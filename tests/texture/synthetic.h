@@ -13,7 +13,7 @@
 #include "survey/proxy.h"
 #include "survey/survey_photo.h"
 #include "tests/survey/temporary_folder.h"
-#include "texture/grid.h"
+#include "texture/grid/grid.h"
 
 namespace stucco::testing {
 

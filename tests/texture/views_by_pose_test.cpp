@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/views_by_pose.h"
+#include "texture/views/views_by_pose.h"
 
 #include <gtest/gtest.h>
 

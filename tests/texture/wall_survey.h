@@ -14,7 +14,7 @@
 #include "survey/texture_set.h"
 #include "tests/survey/temporary_folder.h"
 #include "tests/texture/synthetic.h"
-#include "texture/options.h"
+#include "texture/options/texture_options.h"
 
 namespace stucco::testing {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "texture/write_model.h"
+#include "texture/output/write_model.h"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -15,7 +15,7 @@
 #include "survey/files.h"
 #include "survey/image.h"
 #include "tests/texture/synthetic.h"
-#include "texture/orthophoto.h"
+#include "texture/output/orthophoto.h"
 
 namespace stucco {
 namespace {

@@ -1,0 +1,311 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/relief/find_relief.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "texture/relief/best_rectangle.h"
+#include "texture/relief/plane_sweep.h"
+
+namespace stucco {
+namespace {
+
+constexpr double kCell_m = 0.04;
+constexpr double kMostCells = 150'000;
+constexpr int kLeastTexels = 2;  // of a cell, a side
+constexpr size_t kMostPhotos = 8;
+constexpr int kSightStep = 4;  // cells of a cell that sights are asked for
+constexpr int kBlock = 4;      // cells of a block, a side, that rectangles are first looked for in
+// Plain surfaces look alike on any plane: they cost little and count for nothing.
+constexpr float kTelling = 0.12f;  // mean correlation on either plane
+constexpr float kPlainCost = 0.01f;
+constexpr double kLeastTelling = 0.25;  // of a rectangle
+constexpr float kLeastGain = 0.06f;     // of the mean correlation of pairs, in what tells
+// Mean correlation: of all pairs for what stands out, as nothing hides it from any photo; of the
+// better ones for what lies back, as its own reveal does.
+constexpr double kLeastCorrelationOut = 0.25;
+constexpr double kLeastCorrelationIn = 0.35;
+constexpr double kLeastSquarely = 0.1;  // of the pairs with the squarest photo
+constexpr double kLeastArea_m2 = 0.15;
+constexpr int kLeastSide = 5;           // cells: a window of the sweep
+constexpr double kLeastSum_m2 = 0.015;  // of area times gain beyond the least
+// What stands before the plane belongs to the facet when three photos show it and none the facet
+// behind it; else it is a lamp, a car, a branch.
+constexpr int kFewestPairs = 3;
+constexpr float kBehind = 0.5f;       // of a pair that shows the facet
+constexpr double kMostBehind = 0.3;   // of a rectangle
+constexpr int kMostRectangles = 400;  // looked at
+
+TexelGrid SweepRaster(const TexelGrid& grid) {
+  const double needed =
+      std::max(kCell_m / grid.texel, std::sqrt(static_cast<double>(grid.size()) / kMostCells));
+  return Coarsened(grid, std::max(kLeastTexels, static_cast<int>(std::ceil(needed))));
+}
+
+// Where a photo sees the facet's plane freely, by cell of the raster.
+std::vector<uint8_t> SeenCells(const Facet& facet, const TexelGrid& raster, int photo,
+                               const ViewLimits& limits, const PaintScene& scene) {
+  FacetRaster coarse{Coarsened(raster, kSightStep), {}, 1};
+  coarse.inside.assign(coarse.grid.size(), 1);
+  const RasterView view = MeasureView(scene.sights, photo, facet, coarse, limits);
+  std::vector<uint8_t> out(raster.size());
+  for (size_t i = 0; i < out.size(); ++i) {
+    const size_t column = i % raster.width / kSightStep;
+    const size_t row = i / raster.width / kSightStep;
+    out[i] = view.texels[row * coarse.grid.width + column].sight != Sight::kNot;
+  }
+  return out;
+}
+
+// The best photos, one from each side.
+std::vector<int> PhotosFromAllSides(const TexelGrid& raster, std::span<const Candidate> candidates,
+                                    const PaintScene& scene) {
+  std::vector<int> out;
+  std::vector<Eigen::Vector2d> slants;
+  for (const Candidate& candidate : candidates) {
+    if (out.size() == kMostPhotos) break;
+    const Eigen::Vector2d slant = SlantOf(scene.sights.photos[candidate.photo], raster);
+    const auto is_near = [&](const Eigen::Vector2d& other) {
+      return (slant - other).norm() < kLeastParallax;
+    };
+    if (std::ranges::any_of(slants, is_near)) continue;
+    out.push_back(candidate.photo);
+    slants.push_back(slant);
+  }
+  return out;
+}
+
+// Puts rectangles onto other planes, those that gain most first; later ones may lie on earlier
+// ones.
+class RectangleFinder {
+ public:
+  explicit RectangleFinder(const PlaneSweep& sweep)
+      : sweep_(sweep), labels_(sweep.raster.size(), sweep.plane), best_(sweep.planes) {
+    refused_.fill(std::vector<uint8_t>(sweep.raster.size(), 0));
+  }
+
+  // By cell, its plane.
+  std::vector<int> Find() {
+    for (int i = 0; i < kMostRectangles; ++i) {
+      const int label = BestLabel();
+      if (best_[label]->sum < kLeastSum_m2 / CellArea()) break;
+      const CellRectangle cells = Refined(best_[label]->cells, label);
+      if (IsSure(cells, label)) {
+        Take(cells, label);
+      } else {
+        Refuse(cells, label);
+      }
+    }
+    return std::move(labels_);
+  }
+
+ private:
+  enum Side : uint8_t { kBehindIt, kOnIt, kBefore };
+  Side SideOf(int label) const {
+    if (label == sweep_.plane) return kOnIt;
+    return label > sweep_.plane ? kBefore : kBehindIt;
+  }
+  double CellArea() const { return sweep_.raster.texel * sweep_.raster.texel; }
+  size_t CellAt(int column, int row) const {
+    return static_cast<size_t>(row) * sweep_.raster.width + column;
+  }
+  float Best(size_t cell, int label) const {
+    return sweep_.best[label * sweep_.raster.size() + cell];
+  }
+  float All(size_t cell, int label) const {
+    return sweep_.all[label * sweep_.raster.size() + cell];
+  }
+  float Closest(size_t cell, int label) const {
+    return sweep_.closest[label * sweep_.raster.size() + cell];
+  }
+  float Squarest(size_t cell, int label) const {
+    return sweep_.squarest[label * sweep_.raster.size() + cell];
+  }
+  bool IsFree(size_t cell, int label) const {
+    return labels_[cell] != label && !refused_[SideOf(label)][cell];
+  }
+  bool Tells(size_t cell, int label) const {
+    return std::max(Best(cell, label), Best(cell, labels_[cell])) >= kTelling;
+  }
+  float Gain(size_t cell, int label) const { return All(cell, label) - All(cell, labels_[cell]); }
+
+  // What a cell is worth to a rectangle.
+  float Worth(size_t cell, int label) const {
+    if (!IsFree(cell, label)) return 0;
+    return Tells(cell, label) ? Gain(cell, label) - kLeastGain : -kPlainCost;
+  }
+
+  int BestLabel() {
+    int best = 0;
+    for (int label = 0; label < sweep_.planes; ++label) {
+      if (!best_[label]) best_[label] = InBlocks(label);
+      if (best_[label]->sum > best_[best]->sum) best = label;
+    }
+    return best;
+  }
+
+  RectangleSum InBlocks(int label) const {
+    const int width = (sweep_.raster.width + kBlock - 1) / kBlock;
+    const int height = (sweep_.raster.height + kBlock - 1) / kBlock;
+    std::vector<float> sums(static_cast<size_t>(width) * height, 0);
+    for (int y = 0; y < sweep_.raster.height; ++y) {
+      for (int x = 0; x < sweep_.raster.width; ++x) {
+        sums[static_cast<size_t>(y / kBlock) * width + x / kBlock] += Worth(CellAt(x, y), label);
+      }
+    }
+    RectangleSum out = BestRectangle(sums, width, height);
+    out.cells = {out.cells.left * kBlock, out.cells.top * kBlock,
+                 std::min(out.cells.right * kBlock, sweep_.raster.width),
+                 std::min(out.cells.bottom * kBlock, sweep_.raster.height)};
+    return out;
+  }
+
+  // The best rectangle of cells in that of blocks and one block around it.
+  CellRectangle Refined(const CellRectangle& blocks, int label) const {
+    const CellRectangle around = {std::max(0, blocks.left - kBlock),
+                                  std::max(0, blocks.top - kBlock),
+                                  std::min(sweep_.raster.width, blocks.right + kBlock),
+                                  std::min(sweep_.raster.height, blocks.bottom + kBlock)};
+    std::vector<float> worth;
+    for (int y = around.top; y < around.bottom; ++y) {
+      for (int x = around.left; x < around.right; ++x) worth.push_back(Worth(CellAt(x, y), label));
+    }
+    CellRectangle out =
+        BestRectangle(worth, around.right - around.left, around.bottom - around.top).cells;
+    out.left += around.left;
+    out.right += around.left;
+    out.top += around.top;
+    out.bottom += around.top;
+    return out;
+  }
+
+  template <typename Do>
+  void ForFree(const CellRectangle& cells, int label, const Do& what) const {
+    for (int y = cells.top; y < cells.bottom; ++y) {
+      for (int x = cells.left; x < cells.right; ++x) {
+        if (IsFree(CellAt(x, y), label)) what(CellAt(x, y));
+      }
+    }
+  }
+
+  bool IsSure(const CellRectangle& cells, int label) const {
+    const bool out = label > sweep_.plane;
+    double free = 0;
+    double telling = 0;
+    double correlation = 0;
+    double squarely = 0;
+    double shown = 0;   // by enough pairs
+    double behind = 0;  // before what a pair shows of the plane
+    ForFree(cells, label, [&](size_t cell) {
+      free += 1;
+      shown += sweep_.pairs[cell] >= kFewestPairs;
+      behind += Closest(cell, sweep_.plane) >= std::max(kBehind, Closest(cell, label));
+      if (!Tells(cell, label)) return;
+      telling += 1;
+      correlation += out ? All(cell, label) : Best(cell, label);
+      squarely += Squarest(cell, label);
+    });
+    if (!(free * CellArea() >= kLeastArea_m2 && telling >= kLeastTelling * free)) return false;
+    if (std::min(cells.right - cells.left, cells.bottom - cells.top) < kLeastSide) return false;
+    if (label == sweep_.plane) return true;
+    // What is beyond the last planes may be farther off.
+    if (label == 0 || label + 1 == sweep_.planes) return false;
+    if (!out) return correlation >= kLeastCorrelationIn * telling;
+    return 2 * shown >= free && behind <= kMostBehind * free &&
+           correlation >= kLeastCorrelationOut * telling && squarely >= kLeastSquarely * telling;
+  }
+
+  void Take(const CellRectangle& cells, int label) {
+    ForFree(cells, label, [&](size_t cell) { labels_[cell] = label; });
+    if (label > sweep_.plane) RefuseHidden(cells, sweep_.HeightOf(label) / sweep_.raster.texel);
+    ForgetOver(cells);
+  }
+
+  // What is on the same side there is the same thing seen less well.
+  void Refuse(const CellRectangle& cells, int label) {
+    for (int y = cells.top; y < cells.bottom; ++y) {
+      for (int x = cells.left; x < cells.right; ++x) refused_[SideOf(label)][CellAt(x, y)] = 1;
+    }
+    ForgetOver(cells);
+  }
+
+  // Nothing is looked for at cells of the plane that a rectangle, `height` cells before it,
+  // hides from half of the photos: they show its edges there, which look alike on many planes.
+  void RefuseHidden(const CellRectangle& cells, double height) {
+    const auto from_cells = [](int cell, double slant, double low, double high) {
+      // Where the way to the camera is over [low, high], of its height.
+      const double a = (low - cell - 0.5) / slant;
+      const double b = (high - cell - 0.5) / slant;
+      return std::pair(std::min(a, b), std::max(a, b));
+    };
+    for (int y = 0; y < sweep_.raster.height; ++y) {
+      for (int x = 0; x < sweep_.raster.width; ++x) {
+        size_t hidden = 0;
+        for (const Eigen::Vector2d& slant : sweep_.slants) {
+          const auto [u0, u1] = from_cells(x, slant.x(), cells.left, cells.right);
+          const auto [v0, v1] = from_cells(y, slant.y(), cells.top, cells.bottom);
+          hidden += std::max({u0, v0, 0.0}) < std::min({u1, v1, height});
+        }
+        if (2 * hidden < sweep_.slants.size()) continue;
+        refused_[kBefore][CellAt(x, y)] = 1;
+        refused_[kBehindIt][CellAt(x, y)] = 1;
+      }
+    }
+    for (auto& best : best_) best.reset();
+  }
+
+  void ForgetOver(const CellRectangle& cells) {
+    for (auto& best : best_) {
+      if (best && Overlap(best->cells, cells)) best.reset();
+    }
+  }
+
+  static bool Overlap(const CellRectangle& a, const CellRectangle& b) {
+    return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+  }
+
+  const PlaneSweep& sweep_;
+  std::vector<int> labels_;
+  // By cell: that it lies on this side of the facet's plane is refused.
+  std::array<std::vector<uint8_t>, 3> refused_;
+  std::vector<std::optional<RectangleSum>> best_;  // by label, where known, in blocks
+};
+
+}  // namespace
+
+std::shared_ptr<const Relief> FindRelief(const Facet& facet, const TexelGrid& grid,
+                                         std::span<const Candidate> candidates,
+                                         const ViewLimits& limits, const PaintScene& scene) {
+  const TexelGrid raster = SweepRaster(grid);
+  std::vector<SweepPhoto> photos;
+  for (const int chosen : PhotosFromAllSides(raster, candidates, scene)) {
+    photos.push_back(OpenForSweep(scene.sights.photos[chosen], raster, *scene.cache));
+    photos.back().sees = SeenCells(facet, raster, chosen, limits, scene);
+  }
+  const std::optional<PlaneSweep> sweep = SweepPlanes(raster, photos);
+  if (!sweep) return nullptr;
+  const std::vector<int> labels = RectangleFinder(*sweep).Find();
+  const int highest = *std::ranges::max_element(labels);
+  if (std::ranges::all_of(labels, [&](int label) { return label == sweep->plane; })) return nullptr;
+  auto relief = std::make_shared<Relief>();
+  relief->cell = raster.texel;
+  relief->width = raster.width;
+  relief->height = raster.height;
+  relief->step = sweep->step;
+  relief->highest = std::max(0.0, sweep->HeightOf(highest));
+  for (const int label : labels) {
+    relief->heights.push_back(static_cast<float>(sweep->HeightOf(label)));
+  }
+  return relief;
+}
+
+uint64_t ReliefBytes(const TexelGrid& grid) {
+  return PlaneSweepBytes(SweepRaster(grid), kMostPhotos);
+}
+
+}  // namespace stucco
