@@ -148,9 +148,10 @@ class ReducedSystem {
     }
     if (!use_priors || !AddPriors()) HoldFrame();
     AddRounding();
-    if (!SetIntrinsics(sigmas)) return sigmas;
+    const std::optional<NormalFactor> factor = normal_.Factor();
+    if (!factor || !SetIntrinsics(*factor, sigmas)) return sigmas;
     for (const Draws* draws : {&as_alike_, &as_they_are_}) {
-      const auto solved = normal_.Solve(draws->rows() / std::sqrt(Draws::kCount), threads_);
+      const auto solved = factor->Solve(draws->rows() / std::sqrt(Draws::kCount), threads_);
       if (solved) SetPoses(*solved, sigmas);
     }
     return sigmas;
@@ -297,10 +298,10 @@ class ReducedSystem {
   }
 
   // From the inverse itself. Whether it could be computed.
-  bool SetIntrinsics(SceneSigmas& sigmas) const {
+  bool SetIntrinsics(const NormalFactor& factor, SceneSigmas& sigmas) const {
     const auto num_intrinsics = static_cast<Eigen::Index>(unknowns_.num_intrinsics);
     const auto inverse =
-        normal_.Solve(Eigen::MatrixXd::Identity(num_intrinsics, unknowns_.size), threads_);
+        factor.Solve(Eigen::MatrixXd::Identity(num_intrinsics, unknowns_.size), threads_);
     if (!inverse) return false;
     const Eigen::VectorXd all = (variance_ * inverse->diagonal()).cwiseSqrt();
     for (size_t c = 0; c < scene_.cameras.size(); ++c) {

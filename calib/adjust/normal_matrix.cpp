@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/adjust/internal/normal_matrix.h"
 
-#include <Eigen/SparseCholesky>
 #include <cassert>
 
 #include "survey/parallel.h"
@@ -33,11 +32,10 @@ Eigen::VectorXd NormalMatrix::Diagonal() const {
   return diagonal;
 }
 
-std::optional<Eigen::MatrixXd> NormalMatrix::Solve(const Eigen::MatrixXd& right,
-                                                   int threads) const {
-  assert(right.cols() == diagonal_.size());
-  // To a diagonal of ones: unknowns have different units.
-  const Eigen::VectorXd scale = Diagonal().cwiseSqrt().cwiseInverse();
+std::optional<NormalFactor> NormalMatrix::Factor() const {
+  NormalFactor result;
+  result.scale_ = Diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd& scale = result.scale_;
   if (!scale.allFinite()) return std::nullopt;
   const Eigen::Index size = diagonal_.size();
   std::vector<Eigen::Triplet<double>> entries;
@@ -54,13 +52,19 @@ std::optional<Eigen::MatrixXd> NormalMatrix::Solve(const Eigen::MatrixXd& right,
   }
   Eigen::SparseMatrix<double> lower(size, size);
   lower.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower> factors(lower);
-  if (factors.info() != Eigen::Success) return std::nullopt;
-  Eigen::MatrixXd solutions(right.rows(), size);
+  result.factor_ = std::make_unique<const NormalFactor::Factor>(lower);
+  if (result.factor_->info() != Eigen::Success) return std::nullopt;
+  return result;
+}
+
+std::optional<Eigen::MatrixXd> NormalFactor::Solve(const Eigen::MatrixXd& right,
+                                                   int threads) const {
+  assert(right.cols() == scale_.size());
+  Eigen::MatrixXd solutions(right.rows(), right.cols());
   ParallelFor(static_cast<size_t>(right.rows()), threads, [&](size_t i) {
     const auto row = static_cast<Eigen::Index>(i);
-    const Eigen::VectorXd scaled = scale.cwiseProduct(right.row(row).transpose());
-    solutions.row(row) = scale.cwiseProduct(factors.solve(scaled).eval()).transpose();
+    const Eigen::VectorXd scaled = scale_.cwiseProduct(right.row(row).transpose());
+    solutions.row(row) = scale_.cwiseProduct(factor_->solve(scaled).eval()).transpose();
   });
   if (!solutions.allFinite()) return std::nullopt;
   return solutions;

@@ -48,16 +48,20 @@ TEST(NormalMatrix, SolvesRows) {
   const Chain chain = MakeChain(8, 0.1);
   EXPECT_TRUE(chain.blocks.Diagonal().isApprox(chain.dense.diagonal()));
   const Eigen::MatrixXd right = Eigen::MatrixXd::Identity(chain.dense.rows(), chain.dense.cols());
-  const auto inverse = chain.blocks.Solve(right, 2);
+  const auto factor = chain.blocks.Factor();
+  ASSERT_TRUE(factor);
+  const auto inverse = factor->Solve(right, 2);
   ASSERT_TRUE(inverse);
   EXPECT_TRUE(inverse->isApprox(chain.dense.inverse(), 1e-9));
-  EXPECT_EQ(*inverse, *chain.blocks.Solve(right, 1));
+  EXPECT_EQ(*inverse, *factor->Solve(right, 1));
 }
 
 TEST(NormalMatrix, SolvesWhatHasVeryDifferentUnits) {
   NormalMatrix matrix(2);
   matrix.Add(0, 0, (Eigen::Matrix2d() << 1e12, 1, 1, 1e-10).finished());
-  const auto solved = matrix.Solve(Eigen::RowVector2d(1e12, 1), 1);
+  const auto factor = matrix.Factor();
+  ASSERT_TRUE(factor);
+  const auto solved = factor->Solve(Eigen::RowVector2d(1e12, 1), 1);
   ASSERT_TRUE(solved);
   EXPECT_NEAR((*solved)(0, 0), 1, 1e-9);
   EXPECT_NEAR((*solved)(0, 1), 0, 1e-3);
@@ -66,10 +70,10 @@ TEST(NormalMatrix, SolvesWhatHasVeryDifferentUnits) {
 TEST(NormalMatrix, NothingWhereItIsNotPositiveDefinite) {
   NormalMatrix empty(2);
   empty.AddToDiagonal(0, Eigen::VectorXd::Ones(1));
-  EXPECT_FALSE(empty.Solve(Eigen::RowVector2d(1, 1), 1));
+  EXPECT_FALSE(empty.Factor());
   NormalMatrix indefinite(2);
   indefinite.Add(0, 0, (Eigen::Matrix2d() << 1, 2, 2, 1).finished());
-  EXPECT_FALSE(indefinite.Solve(Eigen::RowVector2d(1, 1), 1));
+  EXPECT_FALSE(indefinite.Factor());
 }
 
 }  // namespace

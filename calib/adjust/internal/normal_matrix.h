@@ -3,12 +3,28 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCholesky>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
 
 namespace stucco {
+
+// The sparse Cholesky factor of a matrix whose unknowns have different units.
+class NormalFactor {
+ public:
+  // Solutions of right sides, a row each; nothing where they are not finite.
+  std::optional<Eigen::MatrixXd> Solve(const Eigen::MatrixXd& right, int threads) const;
+
+ private:
+  friend class NormalMatrix;
+  using Factor = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
+
+  Eigen::VectorXd scale_;  // that brings the diagonal to ones
+  std::unique_ptr<const Factor> factor_;
+};
 
 // A symmetric matrix that is summed up block by block, of which most blocks are zero.
 class NormalMatrix {
@@ -21,9 +37,8 @@ class NormalMatrix {
   void AddToDiagonal(int at, const Eigen::Ref<const Eigen::VectorXd>& values);
   Eigen::VectorXd Diagonal() const;
 
-  // Solutions of right sides, a row each, by its sparse Cholesky factor, whose time and memory they
-  // take; nothing where it is not positive definite.
-  std::optional<Eigen::MatrixXd> Solve(const Eigen::MatrixXd& right, int threads) const;
+  // Most of the time and memory of solving. Nothing where it is not positive definite.
+  std::optional<NormalFactor> Factor() const;
 
  private:
   struct Block {
