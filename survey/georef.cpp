@@ -118,6 +118,14 @@ Eigen::Vector3d EnuFromGeodetic(const Georef& georef, double latitude_deg, doubl
   return EnuFromEcefRotation(georef) * (ecef - OriginInEcef(georef));
 }
 
+Eigen::Isometry3d EcefFromEnu(const Georef& georef) {
+  assert(georef.frame == "enu");
+  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+  transform.linear() = EnuFromEcefRotation(georef).transpose();
+  transform.translation() = OriginInEcef(georef);
+  return transform;
+}
+
 Eigen::Vector3d GeodeticFromEnu(const Georef& georef, const Eigen::Vector3d& enu) {
   return GeodeticFromEcef(OriginInEcef(georef) + EnuFromEcefRotation(georef).transpose() * enu);
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -35,5 +35,8 @@ void WriteGeoref(const Georef& georef, const std::filesystem::path& path);
 Eigen::Vector3d EnuFromGeodetic(const Georef& georef, double latitude_deg, double longitude_deg,
                                 double height_m);
 Eigen::Vector3d GeodeticFromEnu(const Georef& georef, const Eigen::Vector3d& enu);
+
+// From that frame to geocentric coordinates (EPSG:4978), metres. Requires frame "enu".
+Eigen::Isometry3d EcefFromEnu(const Georef& georef);
 
 }  // namespace stucco

@@ -16,6 +16,8 @@
 #include "survey/georef.h"
 #include "survey/options.h"
 #include "survey/survey_folder.h"
+#include "survey/texture_set.h"
+#include "texture/output/tiles_3d.h"
 
 namespace stucco {
 namespace {
@@ -99,6 +101,17 @@ void ExportPoses(const fs::path& survey, const std::string& format, const fs::pa
   WriteGeoref(georef, out / "georef.json");
 }
 
+void ExportTiles(const fs::path& survey, const fs::path& out, int threads) {
+  const Proxy proxy = ReadProxy(survey / kFacetsFile);
+  const TextureSet textures = ReadTextureSet(survey / kTexturesFile);
+  std::error_code error;
+  const Georef georef =
+      fs::exists(survey / kGeorefFile, error) ? ReadGeoref(survey / kGeorefFile) : Georef();
+  Tiles3dOptions options;
+  options.threads = threads;
+  WriteTiles3d({proxy, textures, survey / "texture"}, georef, out, options);
+}
+
 }  // namespace
 
 const std::vector<ExportFormat>& ExportFormats() {
@@ -109,6 +122,8 @@ const std::vector<ExportFormat>& ExportFormats() {
       {"nerfstudio", "folder with transforms.json and sparse_pc.ply", "calib"},
       {"obj", "folder with model.obj, its .mtl and its textures", "texture"},
       {"glb", "file: textured model as binary glTF", "texture"},
+      {"3dtiles", "folder with tileset.json: textured model as 3D Tiles 1.1, with levels of detail",
+       "texture"},
       {"ply", "file: dense point cloud", "dense"}};
   return formats;
 }
@@ -120,6 +135,10 @@ void ExportSurvey(const fs::path& survey, const std::string& format, const fs::p
     RequireMade(survey, kSparseFolder, chosen.stage);
     RequireFree(out, overwrite);
     ExportPoses(survey, format, out, LoadSettings(survey, table, {}).photos);
+  } else if (format == "3dtiles") {
+    RequireMade(survey, kTexturesFile, chosen.stage);
+    RequireFree(out, overwrite);
+    ExportTiles(survey, out, ResolvedThreads(LoadSettings(survey, table, {}).run));
   } else if (format == "obj") {
     RequireMade(survey, "texture/model.obj", chosen.stage);
     RequireFree(out, overwrite);

@@ -41,7 +41,8 @@ FOLDER_ARROWS = {
                         "calib/options/calib_options.h", "calib/records/placement.h",
                         "capture_ingest/ingest.h", "exchange/", "plan/",
                         "report/epoch_report.h", "survey/",
-                        "texture/options/texture_options.h", "texture/repaint.h"),
+                        "texture/options/texture_options.h", "texture/output/tiles_3d.h",
+                        "texture/repaint.h"),
     "cli/": ("cli/", "evaluate/", "pipeline/default_stages.h", "pipeline/engine/engine.h",
              "pipeline/verbs/", "simulate/", "survey/"),
 }

@@ -13,24 +13,22 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "survey/encode_image.h"
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/glb.h"
-#include "survey/image.h"
 #include "survey/parallel.h"
 #include "survey/triangulate.h"
 #include "texture/grid/grid.h"
+#include "texture/output/glb_parts.h"
 
 namespace stucco {
 namespace {
 
-constexpr float kGrey = 0.6f;
 constexpr double kFar_m = 10000;        // floats are still good to a millimetre
 constexpr double kOffsetStep_m = 1000;  // offsets are whole multiples: people copy them
 
@@ -41,7 +39,7 @@ aiMaterial* MakeMaterial(const std::string& name, const std::string* texture) {
   auto* material = new aiMaterial();  // owned by the scene, as everything assimp takes
   const aiString title(name);
   material->AddProperty(&title, AI_MATKEY_NAME);
-  const float shade = texture ? 1.0f : kGrey;
+  const float shade = texture ? 1.0f : kUnpaintedGrey;
   const aiColor4D color(shade, shade, shade, 1);
   material->AddProperty(&color, 1, AI_MATKEY_COLOR_DIFFUSE);
   const aiShadingMode shading = aiShadingMode_Unlit;
@@ -177,64 +175,15 @@ std::vector<ImageSize> EmbeddedSizes(const std::vector<TexturedFacet>& facets,
 }
 
 std::string EncodeJpeg(const std::filesystem::path& path, const ImageSize& size, int quality) {
-  const Image image = ReadImage(path);
-  cv::Mat picture(image.height_px, image.width_px, CV_8UC3,
-                  const_cast<uint8_t*>(image.data.data()));
-  cv::Mat scaled;
-  cv::resize(picture, scaled, {size.width_px, size.height_px}, 0, 0, cv::INTER_AREA);
-  cv::cvtColor(scaled, scaled, cv::COLOR_RGB2BGR);
-  std::vector<uint8_t> bytes;
-  cv::imencode(".jpg", scaled, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
-  return {bytes.begin(), bytes.end()};
+  return EncodeImage(ReadScaled(path, size), "picture.jpg", quality);
 }
 
 Eigen::Isometry3d TurnToYUp(const Eigen::Vector3d& up) {
-  Eigen::Matrix3d y_from_z;
-  y_from_z << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
-  turn.linear() =
-      y_from_z *
-      Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  return turn;
+  return YUpFromZUp() * Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
 }
 
 Eigen::Isometry3d WithoutOffset(const TextureSet& textures) {
   return Eigen::Isometry3d(Eigen::Translation3d(-textures.model_offset));
-}
-
-Eigen::Vector2f GlbCoordinates(const TexturedFacet& texture, const Eigen::Vector3d& vertex) {
-  const Eigen::Vector3d offset = (vertex - texture.origin) / texture.metres_per_texel;
-  return Eigen::Vector2d(offset.dot(texture.u_axis) / texture.width_px,
-                         offset.dot(texture.v_axis) / texture.height_px)
-      .cast<float>();
-}
-
-// A mesh without triangles where the facet has none.
-GlbMesh GlbMeshOf(const Facet& facet, const TexturedFacet* texture,
-                  const Eigen::Isometry3d& model_from_world, int material) {
-  GlbMesh mesh{facet.id, {}};
-  const FacetTriangles shape = TriangulateFacet(facet);
-  if (shape.triangles.empty()) return mesh;
-  GlbPrimitive& primitive = mesh.primitives.emplace_back();
-  primitive.material = material;
-  const Eigen::Vector3f normal = (model_from_world.linear() * facet.normal).cast<float>();
-  for (const Eigen::Vector3d& vertex : shape.vertices) {
-    primitive.positions.emplace_back((model_from_world * vertex).cast<float>());
-    primitive.normals.push_back(normal);
-    if (texture) primitive.uv.push_back(GlbCoordinates(*texture, vertex));
-  }
-  for (const auto& triangle : shape.triangles) {
-    primitive.indices.insert(primitive.indices.end(), triangle.begin(), triangle.end());
-  }
-  return mesh;
-}
-
-GlbMaterial GlbMaterialOf(const std::string& name, int texture) {
-  return {.name = name,
-          .colour = Eigen::Vector3f::Constant(texture < 0 ? kGrey : 1.0f),
-          .texture = texture,
-          .unlit = true,
-          .two_sided = false};
 }
 
 }  // namespace

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/output/glb_parts.h"
+
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "survey/image.h"
+#include "survey/triangulate.h"
+
+namespace stucco {
+namespace {
+
+Eigen::Vector2f GlbCoordinates(const TexturedFacet& texture, const Eigen::Vector3d& vertex) {
+  const Eigen::Vector3d offset = (vertex - texture.origin) / texture.metres_per_texel;
+  return Eigen::Vector2d(offset.dot(texture.u_axis) / texture.width_px,
+                         offset.dot(texture.v_axis) / texture.height_px)
+      .cast<float>();
+}
+
+}  // namespace
+
+Eigen::Isometry3d YUpFromZUp() {
+  Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+  turn.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  return turn;
+}
+
+GlbMesh GlbMeshOf(const Facet& facet, const TexturedFacet* texture,
+                  const Eigen::Isometry3d& glb_from_world, int material) {
+  GlbMesh mesh{facet.id, {}};
+  const FacetTriangles shape = TriangulateFacet(facet);
+  if (shape.triangles.empty()) return mesh;
+  GlbPrimitive& primitive = mesh.primitives.emplace_back();
+  primitive.material = material;
+  const Eigen::Vector3f normal = (glb_from_world.linear() * facet.normal).cast<float>();
+  for (const Eigen::Vector3d& vertex : shape.vertices) {
+    primitive.positions.emplace_back((glb_from_world * vertex).cast<float>());
+    primitive.normals.push_back(normal);
+    if (texture) primitive.uv.push_back(GlbCoordinates(*texture, vertex));
+  }
+  for (const auto& triangle : shape.triangles) {
+    primitive.indices.insert(primitive.indices.end(), triangle.begin(), triangle.end());
+  }
+  return mesh;
+}
+
+GlbMaterial GlbMaterialOf(const std::string& name, int texture) {
+  return {.name = name,
+          .colour = Eigen::Vector3f::Constant(texture < 0 ? kUnpaintedGrey : 1.0f),
+          .texture = texture,
+          .unlit = true,
+          .two_sided = false};
+}
+
+Image ReadScaled(const std::filesystem::path& path, const ImageSize& size) {
+  Image full = ReadImage(path);
+  if (full.width_px == size.width_px && full.height_px == size.height_px) return full;
+  Image scaled{size.width_px, size.height_px, full.channels, {}};
+  scaled.data.resize(static_cast<size_t>(size.width_px) * size.height_px * full.channels);
+  const int type = CV_8UC(full.channels);
+  cv::Mat to(size.height_px, size.width_px, type, scaled.data.data());
+  cv::resize(cv::Mat(full.height_px, full.width_px, type, full.data.data()), to, to.size(), 0, 0,
+             cv::INTER_AREA);
+  return scaled;
+}
+
+}  // namespace stucco
