@@ -13,7 +13,7 @@ struct DenseOptions {
   double max_cost = 0.5;
   double max_reprojection_px = 1.5;
   double max_depth_difference = 0.01;
-  int iterations = 2;
+  int iterations = 1;
   double outlier_sigmas = 3;
   bool write_depth_maps = false;
 };

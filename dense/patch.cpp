@@ -24,15 +24,17 @@ using Ints = int32_t __attribute__((vector_size(32)));
 struct Offsets {
   alignas(32) float x[kPatchSamples] = {};
   alignas(32) float y[kPatchSamples] = {};
-  float spatial[kPatchSamples] = {};  // 0 for padding
+  float spatial[kPatchSamples] = {};
   Offsets() {
     int i = 0;
     for (int dy = -kPatchRadius; dy <= kPatchRadius; dy += 2) {
-      for (int dx = -kPatchRadius; dx <= kPatchRadius; dx += 2, ++i) {
+      for (int dx = -kPatchRadius; dx <= kPatchRadius; dx += 2) {
+        if (dx * dx == kPatchRadius * kPatchRadius && dy * dy == dx * dx) continue;
         x[i] = static_cast<float>(dx);
         y[i] = static_cast<float>(dy);
         spatial[i] =
             std::exp(-static_cast<float>(dx * dx + dy * dy) / (2 * kSpatialSigma * kSpatialSigma));
+        ++i;
       }
     }
   }
@@ -81,110 +83,228 @@ ReferencePatch MakeReferencePatch(const PackedImage& image, int x, int y) {
 
 namespace {
 
-// The cost, with a way to fetch the words at eight places. Inlined into what is compiled for one
-// kind of processor; all of them give the same bits, as no operation is fused or reordered.
+// Whether the window's corners are inside of the source; then all of it is.
+__attribute__((always_inline)) inline bool IsInside(const PatchWarp& warp,
+                                                    const PackedImage& source) {
+  constexpr float kR = kPatchRadius;
+  // Each corner stands in the vector twice.
+  const Floats dx = {-kR, kR, -kR, kR, -kR, kR, -kR, kR};
+  const Floats dy = {-kR, -kR, kR, kR, -kR, -kR, kR, kR};
+  const Floats u = warp.at[0] + warp.right[0] * dx + warp.down[0] * dy;
+  const Floats v = warp.at[1] + warp.right[1] * dx + warp.down[1] * dy;
+  const Floats z = warp.at[2] + warp.right[2] * dx + warp.down[2] * dy;
+  const Ints inside = (z > 1e-6f) & (u >= 0) & (v >= 0) &
+                      (u < static_cast<float>(source.width - 1) * z) &
+                      (v < static_cast<float>(source.height - 1) * z);
+  return (inside[0] & inside[1] & inside[2] & inside[3]) != 0;
+}
+
+// Eight places in a source, the grey values there, and how those change to the right and down.
+struct Sampled {
+  Floats u, v, inverse_z;
+  Floats value, to_right, to_down;
+};
+
+template <typename Fetch>
+__attribute__((always_inline)) inline Sampled Sample(const Fetch& fetch, const PackedImage& source,
+                                                     const PatchWarp& warp, const Floats& dx,
+                                                     const Floats& dy) {
+  Sampled at;
+  at.inverse_z = 1 / (warp.at[2] + warp.right[2] * dx + warp.down[2] * dy);
+  at.u = (warp.at[0] + warp.right[0] * dx + warp.down[0] * dy) * at.inverse_z;
+  at.v = (warp.at[1] + warp.right[1] * dx + warp.down[1] * dy) * at.inverse_z;
+  const Ints column = __builtin_convertvector(at.u, Ints);
+  const Ints row = __builtin_convertvector(at.v, Ints);
+  const Floats fx = at.u - __builtin_convertvector(column, Floats);
+  const Floats fy = at.v - __builtin_convertvector(row, Floats);
+  const Ints place = row * source.width + column;
+  Ints quad;
+  fetch(source.quads.data(), place, quad);
+  const Floats v00 = __builtin_convertvector(quad & 255, Floats);
+  const Floats v01 = __builtin_convertvector((quad >> 8) & 255, Floats);
+  const Floats v10 = __builtin_convertvector((quad >> 16) & 255, Floats);
+  const Floats v11 = __builtin_convertvector((quad >> 24) & 255, Floats);
+  const Floats top = v00 + fx * (v01 - v00);
+  const Floats bottom = v10 + fx * (v11 - v10);
+  at.to_down = bottom - top;
+  at.value = top + fy * at.to_down;
+  at.to_right = (v01 - v00) + fy * ((v11 - v10) - (v01 - v00));
+  return at;
+}
+
+__attribute__((always_inline)) inline float Sum(const Floats& of) {
+  float sum = 0;
+  for (int lane = 0; lane < 8; ++lane) sum += of[lane];
+  return sum;
+}
+
+__attribute__((always_inline)) inline void Load(const float* from, Floats& to) {
+  std::memcpy(&to, from, sizeof to);
+}
+
+// Both of the following take a way to fetch the words at eight places. They are inlined into what
+// is compiled for one kind of processor; all of them give the same bits, as no operation is fused
+// or reordered.
 template <typename Fetch>
 __attribute__((always_inline)) inline float CostBy(const Fetch& fetch, const ReferencePatch& patch,
-                                                   const PackedImage& source, const float* h,
-                                                   const PixelPlace& at) {
-  if (patch.variance < kLeastVariance) return kNoMatch;
-  const float u0 = h[0] * at.x + h[1] * at.y + h[2];
-  const float v0 = h[3] * at.x + h[4] * at.y + h[5];
-  const float z0 = h[6] * at.x + h[7] * at.y + h[8];
-  {
-    // The window's corners are inside of the picture; each stands in the vector twice.
-    constexpr float kR = kPatchRadius;
-    const Floats dx = {-kR, kR, -kR, kR, -kR, kR, -kR, kR};
-    const Floats dy = {-kR, -kR, kR, kR, -kR, -kR, kR, kR};
-    const Floats z = z0 + h[6] * dx + h[7] * dy;
-    const Floats u = u0 + h[0] * dx + h[1] * dy;
-    const Floats v = v0 + h[3] * dx + h[4] * dy;
-    const Ints inside = (z > 1e-6f) & (u >= 0) & (v >= 0) &
-                        (u < static_cast<float>(source.width - 1) * z) &
-                        (v < static_cast<float>(source.height - 1) * z);
-    if ((inside[0] & inside[1] & inside[2] & inside[3]) == 0) return kNoMatch;
-  }
+                                                   const PackedImage& source,
+                                                   const PatchWarp& warp) {
+  if (patch.variance < kLeastVariance || !IsInside(warp, source)) return kNoMatch;
   Floats sum = {};
   Floats squares = {};
   Floats product = {};
   for (int i = 0; i < kPatchSamples; i += 8) {
     Floats dx, dy, weights, weighted;
-    std::memcpy(&dx, kOffsets.x + i, 32);
-    std::memcpy(&dy, kOffsets.y + i, 32);
-    std::memcpy(&weights, patch.weights + i, 32);
-    std::memcpy(&weighted, patch.weighted + i, 32);
-    const Floats inverse_z = 1 / (z0 + h[6] * dx + h[7] * dy);
-    const Floats u = (u0 + h[0] * dx + h[1] * dy) * inverse_z;
-    const Floats v = (v0 + h[3] * dx + h[4] * dy) * inverse_z;
-    const Ints column = __builtin_convertvector(u, Ints);
-    const Ints row = __builtin_convertvector(v, Ints);
-    const Floats fx = u - __builtin_convertvector(column, Floats);
-    const Floats fy = v - __builtin_convertvector(row, Floats);
-    const Ints place = row * source.width + column;
-    Ints quad;
-    fetch(source.quads.data(), place, quad);
-    const Floats v00 = __builtin_convertvector(quad & 255, Floats);
-    const Floats v01 = __builtin_convertvector((quad >> 8) & 255, Floats);
-    const Floats v10 = __builtin_convertvector((quad >> 16) & 255, Floats);
-    const Floats v11 = __builtin_convertvector((quad >> 24) & 255, Floats);
-    const Floats top = v00 + fx * (v01 - v00);
-    const Floats bottom = v10 + fx * (v11 - v10);
-    const Floats value = top + fy * (bottom - top);
-    sum += weights * value;
-    squares += weights * value * value;
-    product += weighted * value;
+    Load(kOffsets.x + i, dx);
+    Load(kOffsets.y + i, dy);
+    Load(patch.weights + i, weights);
+    Load(patch.weighted + i, weighted);
+    const Sampled at = Sample(fetch, source, warp, dx, dy);
+    sum += weights * at.value;
+    squares += weights * at.value * at.value;
+    product += weighted * at.value;
   }
-  float mean = 0;
-  float square = 0;
-  float covariance = 0;
-  for (int lane = 0; lane < 8; ++lane) {
-    mean += sum[lane];
-    square += squares[lane];
-    covariance += product[lane];
-  }
-  const float variance = square - mean * mean;
+  const float mean = Sum(sum);
+  const float variance = Sum(squares) - mean * mean;
   if (variance < kLeastVariance) return kNoMatch;
-  return std::clamp(1 - covariance / std::sqrt(variance * patch.variance), 0.0f, kNoMatch);
+  return std::clamp(1 - Sum(product) / std::sqrt(variance * patch.variance), 0.0f, kNoMatch);
+}
+
+// Weighted sums over a window of a source's values v and of their derivatives d by the inverse
+// depth, times 1, dx and dy: by the weights, with the reference, with each other.
+struct DerivativeSums {
+  Floats value = {}, value_square = {}, value_reference = {};
+  Floats mean[3] = {}, reference[3] = {}, product[3] = {};
+  Floats square[6] = {};
+};
+
+template <typename Fetch>
+__attribute__((always_inline)) inline DerivativeSums SumDerivatives(
+    const Fetch& fetch, const ReferencePatch& patch, const PackedImage& source,
+    const PatchWarp& warp, const std::array<float, 3>& epipole) {
+  DerivativeSums sums;
+  for (int i = 0; i < kPatchSamples; i += 8) {
+    Floats dx, dy, weights, weighted;
+    Load(kOffsets.x + i, dx);
+    Load(kOffsets.y + i, dy);
+    Load(patch.weights + i, weights);
+    Load(patch.weighted + i, weighted);
+    const Sampled at = Sample(fetch, source, warp, dx, dy);
+    const Floats d = (at.to_right * (epipole[0] - at.u * epipole[2]) +
+                      at.to_down * (epipole[1] - at.v * epipole[2])) *
+                     at.inverse_z;
+    const Floats by[3] = {d, d * dx, d * dy};
+    const Floats weighted_value = weights * at.value;
+    sums.value += weighted_value;
+    sums.value_square += weighted_value * at.value;
+    sums.value_reference += weighted * at.value;
+    int entry = 0;
+    for (int row = 0; row < 3; ++row) {
+      const Floats weighted_row = weights * by[row];
+      sums.mean[row] += weighted_row;
+      sums.reference[row] += weighted * by[row];
+      sums.product[row] += weighted_row * at.value;
+      for (int column = row; column < 3; ++column, ++entry) {
+        sums.square[entry] += weighted_row * by[column];
+      }
+    }
+  }
+  return sums;
+}
+
+template <typename Fetch>
+__attribute__((always_inline)) inline void AddStepBy(
+    const Fetch& fetch, const ReferencePatch& patch, const PackedImage& source,
+    const PatchWarp& warp, const std::array<float, 3>& epipole, StepSums& sums) {
+  if (patch.variance < kLeastVariance || !IsInside(warp, source)) return;
+  const DerivativeSums of = SumDerivatives(fetch, patch, source, warp, epipole);
+  const float mean = Sum(of.value);
+  const float variance = Sum(of.value_square) - mean * mean;
+  if (variance < kLeastVariance) return;
+  const float with_reference = Sum(of.value_reference) / patch.variance;
+  float means[3];
+  float references[3];
+  for (int k = 0; k < 3; ++k) {
+    means[k] = Sum(of.mean[k]);
+    references[k] = Sum(of.reference[k]);
+  }
+  // A source of more contrast is no better witness.
+  const float scale = 1 / variance;
+  int entry = 0;
+  for (int row = 0; row < 3; ++row) {
+    const float slope = Sum(of.product[row]) - means[row] * mean - references[row] * with_reference;
+    sums.slope[row] += scale * slope;
+    for (int column = row; column < 3; ++column, ++entry) {
+      sums.square[entry] += scale * (Sum(of.square[entry]) - means[row] * means[column] -
+                                     references[row] * references[column] / patch.variance);
+    }
+  }
 }
 
 #if defined(__x86_64__)
 
-__attribute__((target("avx2"))) float CostByGathers(const ReferencePatch& patch,
-                                                    const PackedImage& source, const float* h,
-                                                    const PixelPlace& at) {
-  const auto fetch =
-      [](const uint32_t* words, const Ints& place, Ints& found) __attribute__((target("avx2"))) {
+struct Gathers {
+  __attribute__((target("avx2"))) void operator()(const uint32_t* words, const Ints& place,
+                                                  Ints& found) const {
     found = reinterpret_cast<Ints>(_mm256_i32gather_epi32(reinterpret_cast<const int*>(words),
                                                           reinterpret_cast<__m256i>(place), 4));
-  };
-  return CostBy(fetch, patch, source, h, at);
+  }
+};
+
+__attribute__((target("avx2"))) float CostByGathers(const ReferencePatch& patch,
+                                                    const PackedImage& source,
+                                                    const PatchWarp& warp) {
+  return CostBy(Gathers(), patch, source, warp);
+}
+
+__attribute__((target("avx2"))) void AddStepByGathers(const ReferencePatch& patch,
+                                                      const PackedImage& source,
+                                                      const PatchWarp& warp,
+                                                      const std::array<float, 3>& epipole,
+                                                      StepSums& sums) {
+  AddStepBy(Gathers(), patch, source, warp, epipole, sums);
 }
 
 #endif
 
-float CostByLoads(const ReferencePatch& patch, const PackedImage& source, const float* h,
-                  const PixelPlace& at) {
-  const auto fetch = [](const uint32_t* words, const Ints& place, Ints& found) {
+struct Loads {
+  void operator()(const uint32_t* words, const Ints& place, Ints& found) const {
     for (int lane = 0; lane < 8; ++lane) found[lane] = static_cast<int32_t>(words[place[lane]]);
-  };
-  return CostBy(fetch, patch, source, h, at);
+  }
+};
+
+float CostByLoads(const ReferencePatch& patch, const PackedImage& source, const PatchWarp& warp) {
+  return CostBy(Loads(), patch, source, warp);
+}
+
+void AddStepByLoads(const ReferencePatch& patch, const PackedImage& source, const PatchWarp& warp,
+                    const std::array<float, 3>& epipole, StepSums& sums) {
+  AddStepBy(Loads(), patch, source, warp, epipole, sums);
+}
+
+const PatchCode& Fastest() {
+  static const PatchCode fastest = PatchCodes().front();
+  return fastest;
 }
 
 }  // namespace
 
-std::vector<PatchCostCode> PatchCostCodes() {
-  std::vector<PatchCostCode> codes;
+std::vector<PatchCode> PatchCodes() {
+  std::vector<PatchCode> codes;
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) codes.push_back(CostByGathers);
+  if (__builtin_cpu_supports("avx2")) codes.push_back({CostByGathers, AddStepByGathers});
 #endif
-  codes.push_back(CostByLoads);
+  codes.push_back({CostByLoads, AddStepByLoads});
   return codes;
 }
 
-float PatchCost(const ReferencePatch& patch, const PackedImage& source, const float homography[9],
-                const PixelPlace& at) {
-  static const PatchCostCode fastest = PatchCostCodes().front();
-  return fastest(patch, source, homography, at);
+float PatchCost(const ReferencePatch& patch, const PackedImage& source, const PatchWarp& warp) {
+  return Fastest().cost(patch, source, warp);
+}
+
+void AddStep(const ReferencePatch& patch, const PackedImage& source, const PatchWarp& warp,
+             const std::array<float, 3>& epipole, StepSums& sums) {
+  Fastest().add_step(patch, source, warp, epipole, sums);
 }
 
 }  // namespace stucco

@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "dense/view.h"
 
 namespace stucco {
 
-// A window of 11 x 11 pixels sampled every second pixel, padded to whole vectors of eight.
+// A window of 11 x 11 pixels sampled every second pixel, without its corners: four vectors of
+// eight.
 inline constexpr int kPatchRadius = 5;
-inline constexpr int kPatchSamples = 40;
+inline constexpr int kPatchSamples = 32;
 
 // The reference side of a comparison, the same for every hypothesis at a pixel. Weights fall off
 // with distance and grey difference (bilateral, as in Schoenberger et al. 2016), and sum to 1.
@@ -20,24 +22,42 @@ struct ReferencePatch {
   float variance = 0;
 };
 
-struct PixelPlace {
-  float x = 0;
-  float y = 0;
-};
-
 ReferencePatch MakeReferencePatch(const PackedImage& image, int x, int y);
 
-// 1 - weighted normalised cross-correlation between the reference patch around `at` and where the
-// homography takes it in `source`: 0 for a perfect match, kNoMatch when the patch leaves the image
-// or either side has no texture. `homography` maps reference to source pixels, row by row.
-float PatchCost(const ReferencePatch& patch, const PackedImage& source, const float homography[9],
-                const PixelPlace& at);
+// Takes a pixel's surroundings into a source: the offset (dx, dy) from the pixel goes to the
+// homogeneous source pixel at + right * dx + down * dy.
+struct PatchWarp {
+  std::array<float, 3> at{};
+  std::array<float, 3> right{};
+  std::array<float, 3> down{};
+};
+
+// 1 - weighted normalised cross-correlation between the reference patch and where the warp takes it
+// in `source`: 0 for a perfect match, kNoMatch when the patch leaves the image or either side has
+// no texture.
+float PatchCost(const ReferencePatch& patch, const PackedImage& source, const PatchWarp& warp);
 
 inline constexpr float kNoMatch = 2.0f;
 
-// The code for PatchCost that this processor can run, the fastest first. All give the same bits.
-using PatchCostCode = float (*)(const ReferencePatch& patch, const PackedImage& source,
-                                const float* homography, const PixelPlace& at);
-std::vector<PatchCostCode> PatchCostCodes();
+// How the match changes with the plane: sums of a Gauss-Newton step in the plane's inverse depth,
+// its slope to the right and its slope down. Brightness and contrast are free (they are projected
+// out), as in the cost.
+struct StepSums {
+  std::array<float, 6> square{};  // 11, 12, 13, 22, 23, 33 of the normal matrix
+  std::array<float, 3> slope{};   // half the gradient of the squared residuals
+};
+
+// Adds a source's part; nothing where the cost would be kNoMatch. `epipole` is the source pixel,
+// homogeneous, that the warp moves towards as the inverse depth grows.
+void AddStep(const ReferencePatch& patch, const PackedImage& source, const PatchWarp& warp,
+             const std::array<float, 3>& epipole, StepSums& sums);
+
+// The code for the above that this processor can run, the fastest first. All give the same bits.
+struct PatchCode {
+  float (*cost)(const ReferencePatch&, const PackedImage&, const PatchWarp&);
+  void (*add_step)(const ReferencePatch&, const PackedImage&, const PatchWarp&,
+                   const std::array<float, 3>& epipole, StepSums&);
+};
+std::vector<PatchCode> PatchCodes();
 
 }  // namespace stucco

@@ -21,10 +21,12 @@ constexpr float kGeometricLimit = 3;       // pixels
 constexpr float kLeastOwnVariance = 5;     // grey levels squared, within two pixels
 constexpr float kSteepest = 0.1f;          // cosine between a plane's normal and the ray, at least
 constexpr float kUnknown = -1;             // a matching cost that was not asked for yet
-// Planes closer than this match alike: within a window of 11 pixels they lie hundredths of a pixel
-// of disparity apart.
-constexpr float kSameDepth = 5e-5f;       // relative
-constexpr float kSameNormal = 1 - 5e-5f;  // cosine
+constexpr float kSamePx = 0.02f;  // planes that take no pixel of a window further apart match alike
+// Of Gauss-Newton steps, of the diagonal: a window says little about its plane's slopes, and full
+// steps follow its noise.
+constexpr float kDamping = 1;
+constexpr int kCoarsestRounds = 4;
+constexpr float kLongestStep = 0.1f;  // change of the inverse depth, relative
 
 // Candidates are taken from where a red pixel has black neighbours: offsets with an odd sum.
 constexpr std::array<std::array<int, 2>, 4> kNear[4] = {
@@ -60,11 +62,6 @@ class Random {
   uint32_t state_;
 };
 
-struct Plane {
-  float depth = 0;
-  Eigen::Vector3f normal = -Eigen::Vector3f::UnitZ();
-};
-
 struct Pixel {
   int x = 0;
   int y = 0;
@@ -79,6 +76,11 @@ class LevelMatcher {
         view_(input.reference->cameras[level]),
         image_(input.reference->images[level]) {
     for (const auto& source : input.sources) geometry_.emplace_back(view_, source->cameras[level]);
+    float widest = 0;
+    for (const SourceGeometry& source : geometry_) {
+      widest = std::max(widest, view_.fx * source.translation.norm());
+    }
+    same_ = kSamePx / std::max(widest, 1e-9f);
     planes_.resize(image_.gray.size());
     costs_.assign(image_.gray.size(), kNoMatch);
     matching_.assign(image_.gray.size() * geometry_.size(), kUnknown);
@@ -88,10 +90,11 @@ class LevelMatcher {
   }
 
   void StartFromSeeds() {
-    for (size_t i = 0; i < planes_.size(); ++i) {
-      Random random(options_.seed, static_cast<uint32_t>(i), 0);
-      planes_[i] =
-          RandomPlane(random, static_cast<int>(i % view_.width), static_cast<int>(i / view_.width));
+    for (int y = 0; y < view_.height; ++y) {
+      for (int x = 0; x < view_.width; ++x) {
+        Random random(options_.seed, static_cast<uint32_t>(Index(x, y)), 0);
+        planes_[Index(x, y)] = RandomPlane(random, x, y);
+      }
     }
     // Every seed colours a disc; later and nearer seeds do not matter, propagation sorts them out.
     const float scale = static_cast<float>(view_.width) / input_.reference->cameras[0].width;
@@ -102,8 +105,8 @@ class LevelMatcher {
       for (int y = std::max(0, y0 - kRadius); y <= std::min(view_.height - 1, y0 + kRadius); ++y) {
         for (int x = std::max(0, x0 - kRadius); x <= std::min(view_.width - 1, x0 + kRadius); ++x) {
           if ((x + y) % 3 == 0) continue;  // keep some random ones in between
-          Plane& plane = planes_[Index(x, y)];
-          plane.depth = seed.depth;
+          DepthPlane& plane = planes_[Index(x, y)];
+          plane = plane.MovedTo(1 / seed.depth);
         }
       }
     }
@@ -114,19 +117,41 @@ class LevelMatcher {
     const float scale_y = static_cast<float>(coarser.view_.height) / view_.height;
     for (int y = 0; y < view_.height; ++y) {
       for (int x = 0; x < view_.width; ++x) {
-        const int cx = std::min(static_cast<int>((x + 0.5f) * scale_x), coarser.view_.width - 1);
-        const int cy = std::min(static_cast<int>((y + 0.5f) * scale_y), coarser.view_.height - 1);
-        const Plane& plane = coarser.planes_[coarser.Index(cx, cy)];
-        const Eigen::Vector3f point =
-            coarser.view_.Ray(static_cast<float>(cx), static_cast<float>(cy)) * plane.depth;
-        planes_[Index(x, y)] = {DepthOfPlane(plane.normal, point, x, y), plane.normal};
+        const float there_x = (x + 0.5f) * scale_x;
+        const float there_y = (y + 0.5f) * scale_y;
+        const int cx = std::min(static_cast<int>(there_x), coarser.view_.width - 1);
+        const int cy = std::min(static_cast<int>(there_y), coarser.view_.height - 1);
+        DepthPlane plane = coarser.planes_[coarser.Index(cx, cy)];
+        plane.inverse_depth = Bounded(plane.inverse_depth + plane.right * (there_x - 0.5f - cx) +
+                                      plane.down * (there_y - 0.5f - cy));
+        plane.right *= scale_x;
+        plane.down *= scale_y;
+        planes_[Index(x, y)] = plane;
       }
     }
   }
 
   void StartFrom(const DepthMap& map) {
-    for (size_t i = 0; i < planes_.size(); ++i) {
-      planes_[i] = {map.depths[i], map.Normal(i)};
+    for (int y = 0; y < map.height; ++y) {
+      for (int x = 0; x < map.width; ++x) {
+        const size_t i = Index(x, y);
+        if (map.depths[i] > 0) {
+          planes_[i] = PlaneAcross(view_, x, y, map.depths[i], Facing(map.Normal(i), x, y));
+        } else {
+          planes_[i] = {1 / options_.max_depth, 0, 0};
+        }
+      }
+    }
+  }
+
+  // What the planes cost that a level begins with, so that the best spread from the first round on.
+  void Rate() {
+    for (int y = 0; y < view_.height; ++y) {
+      if (y % 64 == 0) input_.check_cancelled();
+      for (int x = 0; x < view_.width; ++x) {
+        const ReferencePatch patch = MakeReferencePatch(image_, x, y);
+        costs_[Index(x, y)] = SelectViews(patch, planes_[Index(x, y)], {x, y}).cost;
+      }
     }
   }
 
@@ -151,9 +176,10 @@ class LevelMatcher {
       const auto y = static_cast<int>(i / view_.width);
       const ReferencePatch patch = MakeReferencePatch(image_, x, y);
       const float cost = SelectViews(patch, planes_[i], {x, y}).matching;
-      map.depths[i] = planes_[i].depth;
+      map.depths[i] = planes_[i].depth();
+      const Eigen::Vector3f normal = -AwayNormal(view_, x, y, planes_[i]).normalized();
       for (int k = 0; k < 3; ++k) {
-        map.normals[i][k] = static_cast<int8_t>(std::lround(planes_[i].normal[k] * 127));
+        map.normals[i][k] = static_cast<int8_t>(std::lround(normal[k] * 127));
       }
       map.costs[i] = static_cast<uint8_t>(std::min(254.0f, cost * 127));
     }
@@ -167,12 +193,9 @@ class LevelMatcher {
     return view_.Ray(static_cast<float>(x), static_cast<float>(y));
   }
 
-  // Depth at a pixel of the plane through `point`.
-  float DepthOfPlane(const Eigen::Vector3f& normal, const Eigen::Vector3f& point, int x,
-                     int y) const {
-    const float along = normal.dot(Ray(x, y));
-    const float depth = along < -1e-6f ? normal.dot(point) / along : point.z();
-    return std::clamp(depth, options_.min_depth, options_.max_depth);
+  float Bounded(float inverse_depth) const {
+    return std::clamp(inverse_depth, 1 / options_.max_depth,
+                      1 / std::max(options_.min_depth, 1e-9f));
   }
 
   // Whether the pixel's near surroundings vary. Where only the rim of the window does, the match
@@ -206,29 +229,31 @@ class LevelMatcher {
     return normal;
   }
 
-  Plane RandomPlane(Random& random, int x, int y) const {
-    Plane plane;
+  bool IsTooSteep(const DepthPlane& plane, Pixel at) const {
+    const float along_ray = plane.inverse_depth / Ray(at.x, at.y).norm();
+    return along_ray < kSteepest * AwayNormal(view_, at.x, at.y, plane).norm();
+  }
+
+  DepthPlane RandomPlane(Random& random, int x, int y) const {
     // Uniform in inverse depth: as many planes per pixel of disparity everywhere.
-    plane.depth =
-        1 / random.Uniform(1 / options_.max_depth, 1 / std::max(options_.min_depth, 1e-9f));
-    plane.normal =
-        Facing({random.Uniform(-1, 1), random.Uniform(-1, 1), -random.Uniform(0.4f, 1.6f)}, x, y);
-    return plane;
+    const float inverse_depth =
+        random.Uniform(1 / options_.max_depth, 1 / std::max(options_.min_depth, 1e-9f));
+    const Eigen::Vector3f normal(random.Uniform(-1, 1), random.Uniform(-1, 1),
+                                 -random.Uniform(0.4f, 1.6f));
+    return PlaneAcross(view_, x, y, 1 / inverse_depth, Facing(normal, x, y));
   }
 
   // The matching cost in a source alone.
-  float Matching(const ReferencePatch& patch, const Plane& plane, Pixel at, int source) const {
-    float h[9];
-    geometry_[source].Homography(view_, Ray(at.x, at.y) * plane.depth, plane.normal, h);
-    return PatchCost(patch, input_.sources[source]->images[level_], h,
-                     {static_cast<float>(at.x), static_cast<float>(at.y)});
+  float Matching(const ReferencePatch& patch, const DepthPlane& plane, Pixel at, int source) const {
+    return PatchCost(patch, input_.sources[source]->images[level_],
+                     geometry_[source].Warp(plane, at.x, at.y));
   }
 
   // What the source's map holds against the plane; together with the matching cost kNoMatch at
   // most.
-  float Penalty(const Plane& plane, Pixel at, int source) const {
+  float Penalty(const DepthPlane& plane, Pixel at, int source) const {
     if (input_.source_maps.empty()) return 0;
-    return kGeometricWeight * Disagreement(Ray(at.x, at.y) * plane.depth, at, source);
+    return kGeometricWeight * Disagreement(Ray(at.x, at.y) * plane.depth(), at, source);
   }
 
   // Forward-backward reprojection error in pixels against the source's own depth, limited.
@@ -272,7 +297,7 @@ class LevelMatcher {
     return std::span(matching_).subspan(Index(at.x, at.y) * geometry_.size(), geometry_.size());
   }
 
-  Selection SelectViews(const ReferencePatch& patch, const Plane& plane, Pixel at) {
+  Selection SelectViews(const ReferencePatch& patch, const DepthPlane& plane, Pixel at) {
     std::array<std::pair<float, int>, kMaxSources> costs;
     const std::span<float> matching = MatchingOf(at);
     const int total = static_cast<int>(matching.size());
@@ -300,19 +325,19 @@ class LevelMatcher {
     Pixel at;
     const ReferencePatch& patch;
     Selection selection;
-    Plane best;
+    DepthPlane best;
     float best_cost = kNoMatch;
-    std::array<Plane, kMostOffers> offered{};
+    std::array<DepthPlane, kMostOffers> offered{};
     size_t num_offered = 0;
   };
 
-  static bool IsSame(const Plane& a, const Plane& b) {
-    return std::abs(a.depth - b.depth) <= kSameDepth * a.depth &&
-           a.normal.dot(b.normal) >= kSameNormal;
+  bool IsSame(const DepthPlane& a, const DepthPlane& b) const {
+    const float slopes = std::abs(a.right - b.right) + std::abs(a.down - b.down);
+    return std::abs(a.inverse_depth - b.inverse_depth) + kPatchRadius * slopes <= same_;
   }
 
-  void Offer(const Plane& plane, Search& search) {
-    const auto same = [&](const Plane& other) { return IsSame(plane, other); };
+  void Offer(const DepthPlane& plane, Search& search) {
+    const auto same = [&](const DepthPlane& other) { return IsSame(plane, other); };
     const auto end = search.offered.begin() + static_cast<std::ptrdiff_t>(search.num_offered);
     if (std::any_of(search.offered.begin(), end, same)) return;
     search.offered[search.num_offered++] = plane;
@@ -369,27 +394,47 @@ class LevelMatcher {
       by = y + dy;
     }
     if (best == planes_.size()) return;
-    const Plane& plane = planes_[best];
-    Offer({DepthOfPlane(plane.normal, Ray(bx, by) * plane.depth, x, y), plane.normal}, search);
+    DepthPlane plane = planes_[best];
+    plane.inverse_depth = Bounded(plane.At(x - bx, y - by));
+    Offer(plane, search);
   }
 
-  // Small random changes of depth and normal, halving from one iteration to the next; at the coarse
-  // levels also a new plane altogether.
+  // A Gauss-Newton step of the plane in the sources that see the pixel best; at the coarse levels
+  // also random changes.
   void Refine(int iteration, bool anew, Search& search) {
+    Step(search);
+    if (!anew) return;
     const auto [x, y] = search.at;
     Random random(options_.seed, static_cast<uint32_t>(Index(x, y)),
-                  static_cast<uint32_t>(1 + iteration + 100 * level_ + (input_.start ? 1000 : 0)));
-    const float size = std::ldexp(1.0f, -iteration) * (anew ? 1.0f : 0.25f);
-    const float depth = search.best.depth * (1 + random.Uniform(-0.02f, 0.02f) * size);
-    const Eigen::Vector3f turn(random.Uniform(-0.5f, 0.5f), random.Uniform(-0.5f, 0.5f),
-                               random.Uniform(-0.5f, 0.5f));
-    const Eigen::Vector3f normal = Facing(search.best.normal + turn * size, x, y);
-    const float moved = std::clamp(depth, options_.min_depth, options_.max_depth);
-    Offer({moved, search.best.normal}, search);
-    Offer({search.best.depth, normal}, search);
-    if (!anew) return;
-    Offer({moved, normal}, search);
-    Offer(RandomPlane(random, x, y), search);
+                  static_cast<uint32_t>(1 + iteration + 100 * level_));
+    const DepthPlane other = RandomPlane(random, x, y);
+    Offer(other, search);
+    Offer(other.MovedTo(search.best.inverse_depth), search);
+    Step(search);
+  }
+
+  void Step(Search& search) {
+    const auto [x, y] = search.at;
+    StepSums sums;
+    for (int i = 0; i < search.selection.count; ++i) {
+      const int source = search.selection.sources[i];
+      const SourceGeometry& geometry = geometry_[source];
+      AddStep(search.patch, input_.sources[source]->images[level_],
+              geometry.Warp(search.best, x, y),
+              {geometry.epipole.x(), geometry.epipole.y(), geometry.epipole.z()}, sums);
+    }
+    Eigen::Matrix3f square;
+    square << sums.square[0], sums.square[1], sums.square[2],  //
+        sums.square[1], sums.square[3], sums.square[4],        //
+        sums.square[2], sums.square[4], sums.square[5];
+    square.diagonal() *= 1 + kDamping;
+    const Eigen::Vector3f step =
+        square.ldlt().solve(Eigen::Vector3f(sums.slope[0], sums.slope[1], sums.slope[2]));
+    // Not a number where nothing shows a change.
+    if (!(std::abs(step[0]) < kLongestStep * search.best.inverse_depth)) return;
+    const DepthPlane better = {Bounded(search.best.inverse_depth - step[0]),
+                               search.best.right - step[1], search.best.down - step[2]};
+    if (!IsTooSteep(better, search.at)) Offer(better, search);
   }
 
   const PatchMatchInput& input_;
@@ -397,9 +442,10 @@ class LevelMatcher {
   int level_;
   const PinholeCamera& view_;
   const PackedImage& image_;
+  float same_ = 0;  // inverse depths within a window that match alike
   std::vector<SourceGeometry> geometry_;
   std::vector<SourceGeometry> back_;  // reference from source, in the second pass
-  std::vector<Plane> planes_;
+  std::vector<DepthPlane> planes_;
   std::vector<float> costs_;     // of the planes, geometry included
   std::vector<float> matching_;  // source by source; kUnknown where the plane was not tried
 };
@@ -410,6 +456,7 @@ DepthMap MatchDepths(const PatchMatchInput& input, const PatchMatchOptions& opti
   if (input.start != nullptr) {
     LevelMatcher matcher(input, options, 0);
     matcher.StartFrom(*input.start);
+    matcher.Rate();
     matcher.Run(options.iterations, false);
     return matcher.Result();
   }
@@ -419,11 +466,12 @@ DepthMap MatchDepths(const PatchMatchInput& input, const PatchMatchOptions& opti
     auto finer = std::make_unique<LevelMatcher>(input, options, level);
     if (level == coarsest) {
       finer->StartFromSeeds();
-      finer->Run(6, true);
     } else {
       finer->StartFrom(*matcher);
-      finer->Run(options.iterations + (level > 0 ? 1 : 0), level > 0);
     }
+    finer->Rate();
+    const int rounds = options.iterations + (level > 0 ? 1 : 0);
+    finer->Run(level == coarsest ? std::max(kCoarsestRounds, rounds) : rounds, level > 0);
     matcher = std::move(finer);
   }
   return matcher->Result();

@@ -20,7 +20,7 @@ struct DepthSeed {
 };
 
 struct PatchMatchOptions {
-  int iterations = 2;  // at the finest level; coarser ones do more
+  int iterations = 1;  // at the finest level; coarser ones do more
   int views_per_pixel = 3;
   float min_depth = 0;
   float max_depth = 0;
@@ -40,8 +40,9 @@ struct PatchMatchInput {
 
 // Depth and normal per pixel by PatchMatch stereo with slanted planes (Bleyer et al. 2011),
 // checkerboard propagation (Galliani et al. 2015, Xu & Tao 2019), per pixel the best few sources,
-// coarse to fine. Every pixel draws its random numbers from its own position, so that the result
-// does not depend on the order of work.
+// coarse to fine; planes are refined by damped Gauss-Newton steps (as least squares matching does,
+// Gruen 1985) in inverse depth and its slopes. Every pixel draws its random numbers from its own
+// position, so that the result does not depend on the order of work.
 DepthMap MatchDepths(const PatchMatchInput& input, const PatchMatchOptions& options);
 
 }  // namespace stucco

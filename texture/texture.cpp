@@ -12,6 +12,7 @@
 #include "survey/parallel.h"
 #include "survey/survey_folder.h"
 #include "survey/texture_set.h"
+#include "texture/output/explain.h"
 #include "texture/output/file_names.h"
 #include "texture/painting/facet_unit.h"
 #include "texture/painting/paint.h"
@@ -55,12 +56,19 @@ std::vector<TexturedFacet> PaintAll(const Painting& painting, const TextureInput
   ParallelFor(facets.size(), threads, [&](size_t i) {
     context.ThrowIfCancelled();
     const std::string key = FilesKey(*facets[i], painting.looks[i], input, painting.gains, options);
+    const auto paint = [&](PaintRecord* record) {
+      return PaintFacet(*facets[i], painting.looks[i], painting.gains, scene, options, record);
+    };
     FacetFiles files = UnpackFiles(ComputeUnit(context, "texture_facet", key, [&] {
-      const PaintedFacet painted =
-          PaintFacet(*facets[i], painting.looks[i], painting.gains, scene, options);
+      const PaintedFacet painted = paint(nullptr);
       return PackFiles(
           MakeFacetFiles(*facets[i], painted, input.photos, painting.gains, options.orthophotos));
     }));
+    if (options.debug) {
+      PaintRecord record;
+      const PaintedFacet painted = paint(&record);
+      WriteExplanation(record, painted, input.photos, context.out / "debug" / names[i]);
+    }
     textured[i] = StoreFacet(std::move(files), *facets[i], names[i], input, context.out);
     context.progress->Advance();
   });

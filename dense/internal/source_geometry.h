@@ -4,12 +4,14 @@
 
 #include <Eigen/Core>
 
+#include "dense/depth_plane.h"
+#include "dense/patch.h"
 #include "dense/view.h"
 
 namespace stucco {
 
 // Takes planes of the reference camera to homographies into one source (Hartley & Zisserman 2004,
-// result 13.1): H = infinite + epipole * m', where m holds the plane n'X = d as n' K^-1 / d.
+// result 13.1): H = infinite + epipole * m', where m' p is the plane's inverse depth at pixel p.
 struct SourceGeometry {
   Eigen::Matrix3f infinite = Eigen::Matrix3f::Zero();
   Eigen::Vector3f epipole = Eigen::Vector3f::Zero();
@@ -26,19 +28,18 @@ struct SourceGeometry {
     epipole = k_source * translation;
   }
 
-  // Row-major homography of the plane through `point` (reference camera frame) with normal
-  // `normal`.
-  void Homography(const PinholeCamera& reference, const Eigen::Vector3f& point,
-                  const Eigen::Vector3f& normal, float out[9]) const {
-    const float inverse_d = 1 / normal.dot(point);
-    const float mx = normal.x() / reference.fx * inverse_d;
-    const float my = normal.y() / reference.fy * inverse_d;
-    const float mz = normal.z() * inverse_d - mx * reference.cx - my * reference.cy;
+  // Around the reference's pixel (x, y), by the plane that the pixel shows.
+  PatchWarp Warp(const DepthPlane& plane, int x, int y) const {
+    const auto px = static_cast<float>(x);
+    const auto py = static_cast<float>(y);
+    PatchWarp warp;
     for (int row = 0; row < 3; ++row) {
-      out[3 * row] = infinite(row, 0) + epipole[row] * mx;
-      out[3 * row + 1] = infinite(row, 1) + epipole[row] * my;
-      out[3 * row + 2] = infinite(row, 2) + epipole[row] * mz;
+      warp.right[row] = infinite(row, 0) + epipole[row] * plane.right;
+      warp.down[row] = infinite(row, 1) + epipole[row] * plane.down;
+      warp.at[row] = infinite(row, 0) * px + infinite(row, 1) * py + infinite(row, 2) +
+                     epipole[row] * plane.inverse_depth;
     }
+    return warp;
   }
 
   static Eigen::Matrix3f Intrinsics(const PinholeCamera& view) {

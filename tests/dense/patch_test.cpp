@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -14,6 +16,18 @@ namespace {
 
 constexpr int kSize = 64;
 constexpr float kIdentity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+// Around a pixel, of a homography that maps reference to source pixels, row by row.
+PatchWarp WarpOf(const float h[9], int x, int y) {
+  PatchWarp warp;
+  for (int row = 0; row < 3; ++row) {
+    const float* of = h + 3 * row;
+    warp.right[row] = of[0];
+    warp.down[row] = of[1];
+    warp.at[row] = of[0] * static_cast<float>(x) + of[1] * static_cast<float>(y) + of[2];
+  }
+  return warp;
+}
 
 double Waves(double x, double y) {
   return 128 + 30 * std::sin(0.7 * x + 0.3 * y) + 25 * std::sin(-0.4 * x + 0.9 * y + 1) +
@@ -32,8 +46,7 @@ PackedImage Make(const std::function<double(double, double)>& gray) {
 
 float CostAt(const PackedImage& reference, const PackedImage& source, const float h[9], int x,
              int y) {
-  return PatchCost(MakeReferencePatch(reference, x, y), source, h,
-                   {static_cast<float>(x), static_cast<float>(y)});
+  return PatchCost(MakeReferencePatch(reference, x, y), source, WarpOf(h, x, y));
 }
 
 TEST(ReferencePatch, HasWeightsThatSumToOne) {
@@ -113,15 +126,24 @@ TEST(PatchCost, NoMatchWithoutTexture) {
 
 TEST(PatchCost, HasTheSameBitsWhateverTheProcessorCan) {
   const PackedImage image = Make(Waves);
-  const std::vector<PatchCostCode> codes = PatchCostCodes();
+  const std::vector<PatchCode> codes = PatchCodes();
   for (int k = 0; k < 400; ++k) {
     const auto shift = static_cast<float>(0.013 * k - 2);
     const float h[9] = {1.02f, 0.01f, shift, -0.02f, 0.98f, shift / 3, 1e-4f, -2e-4f, 1};
-    const PixelPlace at{static_cast<float>(5 + k % 54), static_cast<float>(5 + k * 7 % 54)};
-    const ReferencePatch patch =
-        MakeReferencePatch(image, static_cast<int>(at.x), static_cast<int>(at.y));
-    const float cost = codes.back()(patch, image, h, at);
-    for (const PatchCostCode code : codes) EXPECT_EQ(code(patch, image, h, at), cost) << k;
+    const int x = 5 + k % 54;
+    const int y = 5 + k * 7 % 54;
+    const ReferencePatch patch = MakeReferencePatch(image, x, y);
+    const PatchWarp warp = WarpOf(h, x, y);
+    const float cost = codes.back().cost(patch, image, warp);
+    StepSums sums;
+    codes.back().add_step(patch, image, warp, {3, 1, 0.1f}, sums);
+    for (const PatchCode& code : codes) {
+      EXPECT_EQ(code.cost(patch, image, warp), cost) << k;
+      StepSums same;
+      code.add_step(patch, image, warp, {3, 1, 0.1f}, same);
+      EXPECT_EQ(same.square, sums.square) << k;
+      EXPECT_EQ(same.slope, sums.slope) << k;
+    }
   }
 }
 
@@ -131,6 +153,45 @@ TEST(PatchCost, NeverLeavesItsRange) {
   const float cost = CostAt(image, negative, kIdentity, 30, 30);
   EXPECT_GT(cost, 1.9f);
   EXPECT_LE(cost, kNoMatch);
+}
+
+// The source shows the reference a pixel further left and with twice the contrast; a plane of the
+// inverse depth d is seen 3 d further right. From planes that are off by a shift and by slopes one
+// step leads to the truth but for what is of second order.
+TEST(AddStep, LeadsToTheTruePlane) {
+  // Waves long enough for lines between pixels to follow them.
+  const auto smooth = [](double x, double y) { return Waves(0.4 * x, 0.4 * y); };
+  const PackedImage reference = Make([&](double x, double y) { return 64 + smooth(x, y) / 2; });
+  const PackedImage source = Make([&](double x, double y) { return smooth(x + 1, y); });
+  constexpr std::array<float, 3> kEpipole = {3, 0, 0};
+  for (const auto& [shift, right, down] :
+       {std::array{0.1f, 0.0f, 0.0f}, std::array{-0.08f, 0.0f, 0.0f}, std::array{0.0f, 0.01f, 0.0f},
+        std::array{0.03f, -0.006f, 0.008f}}) {
+    const std::array<float, 3> plane = {-1.0f / 3 + shift, right, down};
+    PatchWarp warp{{30 + 3 * plane[0], 30, 1}, {1 + 3 * right, 0, 0}, {3 * down, 1, 0}};
+    StepSums sums;
+    AddStep(MakeReferencePatch(reference, 30, 30), source, warp, kEpipole, sums);
+    Eigen::Matrix3d square;
+    square << sums.square[0], sums.square[1], sums.square[2], sums.square[1], sums.square[3],
+        sums.square[4], sums.square[2], sums.square[4], sums.square[5];
+    const Eigen::Vector3d step =
+        square.ldlt().solve(Eigen::Vector3d(sums.slope[0], sums.slope[1], sums.slope[2]));
+    EXPECT_NEAR(step[0], shift, 0.012) << shift;
+    EXPECT_NEAR(step[1], right, 0.003) << right;
+    EXPECT_NEAR(step[2], down, 0.003) << down;
+  }
+}
+
+TEST(AddStep, AddsNothingWhereNothingMatches) {
+  const PackedImage image = Make(Waves);
+  const PackedImage flat = Make([](double, double) { return 100.0; });
+  const ReferencePatch patch = MakeReferencePatch(image, 30, 30);
+  const float outside[9] = {1, 0, 40, 0, 1, 0, 0, 0, 1};
+  StepSums sums;
+  AddStep(patch, flat, WarpOf(kIdentity, 30, 30), {1, 0, 0}, sums);
+  AddStep(patch, image, WarpOf(outside, 30, 30), {1, 0, 0}, sums);
+  EXPECT_EQ(sums.square, StepSums().square);
+  EXPECT_EQ(sums.slope, StepSums().slope);
 }
 
 }  // namespace

@@ -131,21 +131,36 @@ TEST(SourceGeometry, TakesPointsOfAPlaneToTheSource) {
   const PinholeCamera reference = PinholeLevels(DistortedCamera(), a, 400, 1)[0];
   const PinholeCamera source = PinholeLevels(DistortedCamera(), b, 200, 1)[0];
   const SourceGeometry geometry(reference, source);
-  const Eigen::Vector3f point(0.3f, -0.2f, 6);
   const Eigen::Vector3f normal = Eigen::Vector3f(0.3f, 0.1f, -1).normalized();
-  float h[9];
-  geometry.Homography(reference, point, normal, h);
-  for (const auto& [x, y] :
-       {std::pair{50.f, 40.f}, std::pair{200.f, 150.f}, std::pair{333.f, 21.f}}) {
-    const Eigen::Vector3f ray = reference.Ray(x, y);
+  const DepthPlane plane = PlaneAcross(reference, 200, 150, 6, normal);
+  const Eigen::Vector3f point = reference.Ray(200, 150) * 6;
+  const PatchWarp warp = geometry.Warp(plane, 200, 150);
+  for (const auto& [dx, dy] :
+       {std::pair{-150.f, -110.f}, std::pair{0.f, 0.f}, std::pair{133.f, -129.f}}) {
+    const Eigen::Vector3f ray = reference.Ray(200 + dx, 150 + dy);
     const Eigen::Vector3d in_reference =
         (ray * (normal.dot(point) / normal.dot(ray))).cast<double>();
     const Eigen::Vector3d in_source = b * (a.Inverse() * in_reference);
-    const float z = h[6] * x + h[7] * y + h[8];
-    EXPECT_NEAR((h[0] * x + h[1] * y + h[2]) / z,
-                source.fx * in_source.x() / in_source.z() + source.cx, 1e-2);
-    EXPECT_NEAR((h[3] * x + h[4] * y + h[5]) / z,
-                source.fy * in_source.y() / in_source.z() + source.cy, 1e-2);
+    const auto along = [&](int k) { return warp.at[k] + warp.right[k] * dx + warp.down[k] * dy; };
+    EXPECT_NEAR(along(0) / along(2), source.fx * in_source.x() / in_source.z() + source.cx, 1e-2);
+    EXPECT_NEAR(along(1) / along(2), source.fy * in_source.y() / in_source.z() + source.cy, 1e-2);
+  }
+}
+
+TEST(DepthPlane, KeepsDepthAndNormal) {
+  const PinholeCamera view = PinholeLevels(DistortedCamera(), {}, 400, 1)[0];
+  const Eigen::Vector3f normal = Eigen::Vector3f(0.4f, -0.3f, -1).normalized();
+  for (const auto& [x, y] : {std::pair{200, 150}, std::pair{3, 290}, std::pair{390, 10}}) {
+    const DepthPlane plane = PlaneAcross(view, x, y, 7, normal);
+    EXPECT_FLOAT_EQ(plane.depth(), 7);
+    EXPECT_LT((AwayNormal(view, x, y, plane).normalized() + normal).norm(), 1e-5);
+    // What the plane's neighbours see lies on it too.
+    const Eigen::Vector3f here =
+        view.Ray(static_cast<float>(x), static_cast<float>(y)) * plane.depth();
+    const Eigen::Vector3f there =
+        view.Ray(static_cast<float>(x + 9), static_cast<float>(y - 4)) / plane.At(9, -4);
+    EXPECT_NEAR(normal.dot(there - here), 0, 1e-4);
+    EXPECT_LT((AwayNormal(view, x, y, plane.MovedTo(0.2f)).normalized() + normal).norm(), 1e-5);
   }
 }
 

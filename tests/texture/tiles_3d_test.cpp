@@ -138,8 +138,7 @@ void CheckTile(const json& tile, const fs::path& out, std::vector<std::string>& 
     EXPECT_LE(child["geometricError"], tile["geometricError"]);
     const std::vector<double> inner = child["boundingVolume"]["box"];
     for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_LE(std::abs(inner[axis] - box[axis]) + inner[3 + 4 * axis],
-                box[3 + 4 * axis] + 1e-9);
+      EXPECT_LE(std::abs(inner[axis] - box[axis]) + inner[3 + 4 * axis], box[3 + 4 * axis] + 1e-9);
     }
     CheckTile(child, out, contents);
   }
@@ -189,8 +188,7 @@ TEST_F(Street, EveryTileShowsEachWallItsOwnPicture) {
       for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
         const aiVector3D& uv = mesh.mTextureCoords[0][v];  // assimp counts from the bottom
         const int x = std::min(static_cast<int>(uv.x * atlas.width_px), atlas.width_px - 1);
-        const int y =
-            std::min(static_cast<int>((1 - uv.y) * atlas.height_px), atlas.height_px - 1);
+        const int y = std::min(static_cast<int>((1 - uv.y) * atlas.height_px), atlas.height_px - 1);
         EXPECT_NEAR(atlas.Pixel(x, y)[0], shades[id], 3) << content << " " << id;
       }
     }

@@ -48,6 +48,9 @@ void Describe(OptionTable& table, TextureOptions& options) {
   table.Add("ground", options.ground, "Paint the ground too.");
   table.Add("orthophotos", options.orthophotos,
             "Write scaled facade pictures with world files and JSON beside the textures.");
+  table.Add("debug", options.debug,
+            "Leave pictures in debug/ that explain each facet: its candidates with what stands "
+            "before it, who paints what, light before and after, relief. Paints every facet anew.");
   table.Add("glb_max_px", options.glb_max_px, 64, 16384,
             "Longest side of the pictures inside model.glb, pixels.");
   table.Add("glb_quality", options.glb_quality, 10, 100,

@@ -26,6 +26,7 @@ struct TextureOptions {
   bool inpaint = true;
   bool ground = true;
   bool orthophotos = true;
+  bool debug = false;
   int glb_max_px = 4096;
   int glb_quality = 90;
 };

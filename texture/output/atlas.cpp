@@ -18,8 +18,8 @@ AtlasLayout PackAtlas(std::span<const ImageSize> pictures, int width_px) {
   int total_height_px = 0;
   for (size_t i = 0; i < pictures.size(); ++i) {
     assert(pictures[i].width_px > 0 && pictures[i].width_px + kBoth <= width_px);
-    boxes[i] = {static_cast<int>(i), pictures[i].width_px + kBoth, pictures[i].height_px + kBoth,
-                0, 0, 0};
+    boxes[i] = {
+        static_cast<int>(i), pictures[i].width_px + kBoth, pictures[i].height_px + kBoth, 0, 0, 0};
     total_height_px += boxes[i].h;
   }
   std::vector<stbrp_node> nodes(width_px);

@@ -93,8 +93,8 @@ ModelTile BuildTileTree(const Proxy& proxy, const TextureSet& textures, double t
   for (size_t b = 0; b < proxy.buildings.size(); ++b) {
     for (const Facet& facet : proxy.buildings[b].facets) {
       const auto texture = painted.find(facet.id);
-      facets.push_back({&facet, texture == painted.end() ? nullptr : texture->second,
-                        static_cast<int>(b)});
+      facets.push_back(
+          {&facet, texture == painted.end() ? nullptr : texture->second, static_cast<int>(b)});
     }
   }
   return MakeTile("r", std::move(facets), tile_texels);

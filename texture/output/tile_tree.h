@@ -23,7 +23,8 @@ struct ModelTile {
   std::vector<TiledFacet> facets;
   double scale = 1;    // by which pictures are made smaller
   double texel_m = 0;  // the largest texel after that, world units; 0 at full resolution
-  std::vector<ModelTile> children;  // all of its facets once, at a finer scale; none at full resolution
+  std::vector<ModelTile>
+      children;  // all of its facets once, at a finer scale; none at full resolution
 };
 
 // The size of a facet's picture in a tile; nothing painted: 0 x 0.

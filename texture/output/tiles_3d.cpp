@@ -65,7 +65,8 @@ struct TilePicture {
   std::string jpeg;              // empty: nothing is painted
 };
 
-TilePicture PictureOf(const ModelTile& tile, const fs::path& folder, const Tiles3dOptions& options) {
+TilePicture PictureOf(const ModelTile& tile, const fs::path& folder,
+                      const Tiles3dOptions& options) {
   TilePicture picture;
   std::vector<ImageSize> painted;
   for (const TiledFacet& facet : tile.facets) {
@@ -175,8 +176,7 @@ void WriteTiles3d(const TexturedModel& model, const Georef& georef, const fs::pa
   std::error_code error;
   fs::create_directories(out / "tiles", error);  // writing a file says what is wrong
   ParallelFor(tiles.size(), options.threads, [&](size_t i) {
-    WriteFile(out / "tiles" / (tiles[i]->name + ".glb"),
-              TileGlb(*tiles[i], frame, model, options));
+    WriteFile(out / "tiles" / (tiles[i]->name + ".glb"), TileGlb(*tiles[i], frame, model, options));
   });
   // Last, so that it names what is there.
   WriteFile(out / "tileset.json", TilesetOf(root, frame).dump(1) + "\n");

@@ -15,8 +15,8 @@ struct Tiles3dOptions {
   int threads = 1;
 };
 
-// The model as 3D Tiles 1.1 (OGC 22-025r4): `tileset.json` and a GLB per tile in `tiles/`, levels of
-// detail in which tiles replace each other, one picture a tile. What is shown is refined where a
+// The model as 3D Tiles 1.1 (OGC 22-025r4): `tileset.json` and a GLB per tile in `tiles/`, levels
+// of detail in which tiles replace each other, one picture a tile. What is shown is refined where a
 // texel is larger than a pixel of the screen, at the usual limit of 16 pixels of error. Facets stay
 // meshes of their own, named by their ids. Georeferenced models stand on the earth (EPSG:4978);
 // others at the origin, up being z. Throws Error: kBadInput where the model has no facet or a

@@ -133,6 +133,7 @@ std::string OptionsText(TextureOptions options) {
   const TextureOptions defaults;
   options.ground = defaults.ground;
   options.guided = defaults.guided;  // the keys say which photos are planned
+  options.debug = defaults.debug;
   options.glb_max_px = defaults.glb_max_px;
   options.glb_quality = defaults.glb_quality;
   OptionTable table("texture");

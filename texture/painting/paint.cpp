@@ -113,7 +113,7 @@ void KeepUsed(std::vector<RasterView>& views, std::span<const uint16_t> inside,
   views = std::move(kept);
 }
 
-Selected SelectPhotos(const PaintJob& job, const PaintedFacet& canvas) {
+Selected SelectPhotos(const PaintJob& job, const PaintedFacet& canvas, PaintRecord* record) {
   const auto& [facet, look, gains, scene, options] = job;
   Selected out;
   const int cell = CellSide(canvas.grid, options.cell_px, look.candidates.size());
@@ -139,6 +139,9 @@ Selected SelectPhotos(const PaintJob& job, const PaintedFacet& canvas) {
                              look.limits.clearance / out.raster.grid.texel};
   out.ownership.owner = SelectPictures(pictures, out.raster, select);
   DropBackground(out.raster.grid, out.raster.inside, pictures, out.ownership.owner);
+  if (record != nullptr) {
+    *record = {out.raster, std::move(photos), std::move(pictures), out.ownership.owner, {}};
+  }
   KeepUsed(out.views, out.raster.inside, out.ownership.owner);
   return out;
 }
@@ -224,6 +227,13 @@ void AlignChosen(const Selected& selected, const TextureOptions& options,
     shift.terms *= step;
     chosen[k].shift = shift;
   }
+}
+
+// The picture as the photos are, one beside the other.
+Image WithoutLight(const PaintedFacet& painted, std::vector<PhotoLayer> chosen,
+                   const Ownership& ownership) {
+  for (PhotoLayer& photo : chosen) photo.gain = Eigen::Vector3d::Ones();
+  return ComposePicture(painted.grid, painted.mask, chosen, ownership, /*blend=*/false).picture;
 }
 
 // Texels whose photo sees points of the cloud before the facet.
@@ -324,7 +334,7 @@ uint64_t PaintingBytes(const Facet& facet, const FacetLook& look, const PaintSce
 
 PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
                         std::span<const Eigen::Vector3d> gains, const PaintScene& scene,
-                        const TextureOptions& options) {
+                        const TextureOptions& options, PaintRecord* record) {
   PaintedFacet painted;
   if (look.candidates.empty()) return painted;
   painted.grid = GridToPaint(facet, look, scene.up, options);
@@ -337,13 +347,15 @@ PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
   }
 
   // 2. Which photo paints what.
-  const Selected selected = SelectPhotos({facet, look, gains, scene, options}, painted);
+  const Selected selected = SelectPhotos({facet, look, gains, scene, options}, painted, record);
   if (selected.views.empty()) return painted;
   for (const RasterView& view : selected.views) painted.photos.push_back(view.photo);
 
   // 3. Bring the chosen photos together on the facet's plane.
   std::vector<PhotoLayer> chosen = OpenChosen(selected, gains, scene);
   AlignChosen(selected, options, chosen, painted);
+
+  if (record != nullptr) record->unlit = WithoutLight(painted, chosen, selected.ownership);
 
   // 4. Paint, and fill what nobody shows.
   Composite composite =

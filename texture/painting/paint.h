@@ -12,6 +12,7 @@
 #include "texture/grid/grid.h"
 #include "texture/options/texture_options.h"
 #include "texture/painting/quality.h"
+#include "texture/selection/consensus.h"
 #include "texture/views/look.h"
 
 namespace stucco {
@@ -39,10 +40,20 @@ struct PaintedFacet {
 uint64_t PaintingBytes(const Facet& facet, const FacetLook& look, const PaintScene& scene,
                        const TextureOptions& options);
 
+// What a facet's picture was chosen from, for those who want to know why it looks as it does.
+struct PaintRecord {
+  FacetRaster raster;
+  std::vector<int> photos;              // candidates, best first; indices of the survey's photos
+  std::vector<RasterPicture> pictures;  // likewise, over the raster
+  std::vector<int> owner;               // by raster texel, which candidate paints it; -1: none
+  Image unlit;                          // the picture without gains, seams as they fall
+};
+
 // Paints one facet with its candidates: selection, alignment, composition, filling, measures.
-// `gains` are per photo of the survey. No picture where no texel could be painted.
+// `gains` are per photo of the survey. No picture where no texel could be painted. `record`, where
+// one is given, is filled in; it changes nothing.
 PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
                         std::span<const Eigen::Vector3d> gains, const PaintScene& scene,
-                        const TextureOptions& options);
+                        const TextureOptions& options, PaintRecord* record = nullptr);
 
 }  // namespace stucco
