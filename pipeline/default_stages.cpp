@@ -53,7 +53,7 @@ Stage DenseStage() {
   stage.inputs = {kCapturesFile, kSparseFolder};
   stage.opens_photos = true;
   // Photos (10 bytes a pixel) and depth maps (8) are cached, a quarter of the limit each.
-  stage.cost = {.cpu_s_per_megapixel = 14,
+  stage.cost = {.cpu_s_per_megapixel = 11,
                 .disk_mb_per_megapixel = 30,
                 .memory_mb = 60,
                 .memory_mb_per_photo = 0.18,
