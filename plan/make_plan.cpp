@@ -47,12 +47,11 @@ double PlanarReach(const Task& task) {
   return std::max(task.d_max_m, kTilted * task.site.safe_altitude_m);
 }
 
-void Link(const Task& task, const Obstacles& obstacles, std::vector<Hover>& hovers,
+void Link(const MatchSetting& setting, const Obstacles& obstacles, std::vector<Hover>& hovers,
           Progress& progress) {
-  const LinkReport report =
-      AddLinkPhotos({task.site, task.camera, task.threads}, obstacles, hovers, progress);
-  progress.Note(fmt::format("{} link photos, for which there are {} more stops", report.photos,
-                            report.stops));
+  const LinkReport report = AddLinkPhotos(setting, obstacles, hovers, progress);
+  progress.Note(
+      fmt::format("{} link photos, {} stops take nothing else", report.photos, report.stops));
 }
 
 std::vector<Hover> Cocapture(const Task& task, Progress& progress) {
@@ -64,14 +63,16 @@ std::vector<Hover> Cocapture(const Task& task, Progress& progress) {
   progress.Note(
       fmt::format("{} dipping points of {} candidates, optimised in {} rounds and {:.2f} s",
                   dipping.points, dipping.candidates, dipping.rounds, dipping.optimise_s));
+  std::vector<Hover> hovers = std::move(dipping.hovers);
+  const MatchSetting matches{task.site, task.camera, task.threads};
+  if (task.options.links) LinkFacades(matches, obstacles, hovers, progress);
   const PlanarOptions planar = {.grid = GridOf(task.options),
                                 .d_max_m = PlanarReach(task),
                                 .tau_r = task.options.reconstructability,
                                 .threads = task.threads};
-  std::vector<Hover> above = PlanarViews(task.site, task.camera, planar, dipping.hovers, progress);
-  std::vector<Hover> hovers = std::move(dipping.hovers);
+  std::vector<Hover> above = PlanarViews(task.site, task.camera, planar, hovers, progress);
   std::move(above.begin(), above.end(), std::back_inserter(hovers));
-  if (task.options.links) Link(task, obstacles, hovers, progress);
+  if (task.options.links) Link(matches, obstacles, hovers, progress);
   return hovers;
 }
 

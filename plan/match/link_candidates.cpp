@@ -26,14 +26,9 @@ constexpr double kSpare = 0.95;
 constexpr double kSteepest = -89 * kRadians;
 // A place nearer to the photo shows what it shows from where it does.
 constexpr double kApart_m = 2;
-
-Shot Looking(const Vector3d& from, const Vector3d& at) {
-  const Vector3d ray = (at - from).normalized();
-  return {.yaw_rad = std::atan2(ray.x(), ray.y()),
-          .pitch_rad = std::max(kSteepest, std::asin(std::clamp(ray.z(), -1.0, 1.0))),
-          .kind = ViewKind::kLink,
-          .targets = {}};
-}
+// Photos that a stop in passing costs, and one that the drone makes for it.
+constexpr double kColumnCost = 2.5;
+constexpr double kStopCost = 3;
 
 Vector3d Risen(const Vector3d& way, double rise_rad, double turn_rad) {
   const double elevation =
@@ -55,7 +50,7 @@ class Finder {
            (position - gaze_.middle - gaze_.distance_m * gaze_.way).norm() > kApart_m;
   }
   void Take(const Vector3d& position, LinkPlace place, int hover) {
-    found_.push_back({position, Looking(position, gaze_.middle), place, hover});
+    found_.push_back({position, LinkShot(gaze_.middle - position), place, hover});
   }
   void TakeIfFree(const Vector3d& position, LinkPlace place, int hover) {
     if (position.z() > obstacles_.site().CeilingAt(position.head<2>())) return;
@@ -70,6 +65,19 @@ class Finder {
 };
 
 }  // namespace
+
+double LinkCost(LinkPlace place) {
+  if (place == LinkPlace::kHover) return 1;
+  return 1 + (place == LinkPlace::kColumn ? kColumnCost : kStopCost);
+}
+
+Shot LinkShot(const Vector3d& way) {
+  const Vector3d ray = way.normalized();
+  return {.yaw_rad = std::atan2(ray.x(), ray.y()),
+          .pitch_rad = std::max(kSteepest, std::asin(std::clamp(ray.z(), -1.0, 1.0))),
+          .kind = ViewKind::kLink,
+          .targets = {}};
+}
 
 Gaze GazeOf(const SurfaceView& view, std::span<const Sight> sights, bool walls_only) {
   Gaze out;

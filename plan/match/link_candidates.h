@@ -29,6 +29,12 @@ enum class LinkPlace {
   kOwn,     // a stop of its own
 };
 
+// What a link photo costs, in photos, with the stop that it takes there.
+double LinkCost(LinkPlace place);
+
+// A link photo in this direction.
+Shot LinkShot(const Eigen::Vector3d& way);
+
 struct LinkCandidate {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Shot shot;

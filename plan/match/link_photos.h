@@ -11,18 +11,24 @@
 
 namespace stucco::plan {
 
-// What adding links came to.
+// Link photos (ViewKind::kLink) for the photos of facades among `hovers`, before there are any from
+// above (plan/match/facade_cover.h): what these are thinned out by then includes the links.
+// `hovers` gains shots and, at its end, hovers. Same result at any number of threads. Throws Error
+// (kInterrupted).
+void LinkFacades(const MatchSetting& setting, const Obstacles& obstacles,
+                 std::vector<Hover>& hovers, Progress& progress);
+
+// What the links of a plan come to.
 struct LinkReport {
   int photos = 0;
-  int stops = 0;  // that they add
+  int stops = 0;  // that they have to themselves
 };
 
-// Adds photos (ViewKind::kLink) between those that lack partners (plan/match/ties.h) and the
-// others, and between parts of the graph that hang together by one pair or not at all: about the
-// geometric mean in distance and half way in direction, at hovers that exist where one will do,
-// else in the column above one, which the drone passes anyway, else at places of their own.
-// Greedily, the photo first that serves most for what it costs. `hovers` gains shots and, at its
-// end, hovers. Same result at any number of threads. Throws Error (kInterrupted).
+// The same for all hovers of a plan, with links or without; besides, links for whatever lacks
+// partners (plan/match/ties.h), and between parts of the graph that hang together by one pair or
+// not at all, one by one, each time the one that serves most for what it costs. Then links that
+// nothing lacks go, and hovers that nothing is left of. Same result at any number of threads.
+// Throws Error (kInterrupted).
 LinkReport AddLinkPhotos(const MatchSetting& setting, const Obstacles& obstacles,
                          std::vector<Hover>& hovers, Progress& progress);
 

@@ -4,13 +4,18 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "site/facades.h"
 #include "site/site_of_plan.h"
 #include "survey/error.h"
+#include "survey/files.h"
 #include "survey/geometry2d.h"
 #include "tests/site/made_site.h"
+#include "tests/survey/temporary_folder.h"
 
 namespace stucco::plan {
 namespace {
@@ -117,6 +122,27 @@ TEST(MakePlan, WallsWithoutAStandingPlaceAreListed) {
     EXPECT_NEAR(unseen, i < 4 ? 0 : 6, 0.1) << facade.id;
     EXPECT_FALSE(facade.views.empty()) << facade.id;
   }
+}
+
+// By file name. What planning took is no part of the plan.
+std::map<std::string, std::string> FilesOf(const Site& site, int threads) {
+  PlanResult result = MakePlan(site, {}, threads, SilentProgress());
+  result.stats.planning_s = 0;
+  const test::TemporaryFolder folder;
+  WritePlanFolder(result, {}, folder.path());
+  std::map<std::string, std::string> out;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    out[entry.path().filename().string()] = ReadFile(entry.path());
+  }
+  return out;
+}
+
+TEST(MakePlan, FilesAreTheSameBytesAtAnyNumberOfThreads) {
+  const Site site = MadeSite(RandomTown(3, 2), {.safe_altitude_m = 25, .heights_m = {9, 14}});
+  const auto one = FilesOf(site, 1), two = FilesOf(site, 2);
+  ASSERT_GT(one.size(), 8u);
+  ASSERT_EQ(one.size(), two.size());
+  for (const auto& [name, bytes] : one) EXPECT_TRUE(two.at(name) == bytes) << name;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "plan/match/expected_matches.h"
 #include "plan/match/link_candidates.h"
 #include "plan/match/link_photos.h"
+#include "plan/match/linked_photos.h"
 #include "plan/planar/planar_views.h"
 #include "tests/site/made_site.h"
 
@@ -73,8 +74,12 @@ TEST_F(House, ItsFacadePhotosAreLooseWithoutLinksAndTiedWithThem) {
     if (h < before.size()) {
       EXPECT_EQ(hovers_[h].position, before[h].position);
     }
-    for (const Shot& shot : hovers_[h].shots) {
+    for (size_t s = 0; s < hovers_[h].shots.size(); ++s) {
+      const Shot& shot = hovers_[h].shots[s];
       if (shot.kind != ViewKind::kLink) continue;
+      Hover others = hovers_[h];
+      others.shots.erase(others.shots.begin() + static_cast<std::ptrdiff_t>(s));
+      EXPECT_FALSE(HasLinkLike(others, shot));
       ++links;
       EXPECT_TRUE(shot.targets.empty());
     }
@@ -92,6 +97,17 @@ TEST_F(House, LinksAreTheSameAtAnyNumberOfThreads) {
     EXPECT_EQ(one[h].position, two[h].position);
     EXPECT_EQ(one[h].shots.size(), two[h].shots.size());
   }
+}
+
+// What links were added for may have others by now.
+TEST_F(House, LinksThatNothingLacksGo) {
+  const int links = AddLinkPhotos(setting_, obstacles_, hovers_, progress_).photos;
+  const size_t stops = hovers_.size();
+  EXPECT_EQ(AddLinkPhotos(setting_, obstacles_, hovers_, progress_).photos, links);
+  hovers_.push_back({{0, -22, 14}, {LinkShot({0, 17, -10})}});
+  EXPECT_LE(AddLinkPhotos(setting_, obstacles_, hovers_, progress_).photos, links);
+  EXPECT_LE(hovers_.size(), stops);
+  EXPECT_EQ(Loose(), 0);
 }
 
 TEST_F(House, GivesUpWhereNoPlaceServes) {
