@@ -101,8 +101,8 @@ std::vector<Solid> CloseBuildings(const PlanarScene& scene, const PlaneTable& ta
 
 }  // namespace
 
-Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
-                    ProxyFindings& findings) {
+PlanarModel ModelCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
+                       ProxyFindings& findings) {
   PlanarScene scene = UnderstandCloud(input, options, threads, findings);
   std::optional<MapModel> mapped;
   if (options.use_map && options.solids && input.plan && input.georef.metric &&
@@ -114,7 +114,8 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   const auto views =
       ViewPlanes(scene, table.planes, table.planes.size() - scene.ground.size(), threads);
   auto facets = OpenFacets(scene, table, views, threads, findings);
-  Proxy proxy;
+  PlanarModel model;
+  Proxy& proxy = model.proxy;
   proxy.up = scene.up;
   proxy.metric = input.georef.metric;
   Building ground{.id = "G0", .watertight = false, .source = "cloud", .facets = {}};
@@ -148,6 +149,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
     proxy.buildings.insert(proxy.buildings.begin(),
                            std::make_move_iterator(mapped->buildings.begin()),
                            std::make_move_iterator(mapped->buildings.end()));
+    for (const auto& [id, detail] : mapped->details) model.details.emplace(id, Name(detail));
   }
   std::erase_if(proxy.buildings, [](const Building& building) { return building.facets.empty(); });
   if (proxy.buildings.empty()) {
@@ -156,7 +158,12 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
                 "Lower proxy.level_of_detail or proxy.min_area, or look at dense/cloud.ply.");
   }
   for (Building& building : proxy.buildings) AssignIds(building);
-  return proxy;
+  return model;
+}
+
+Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
+                    ProxyFindings& findings) {
+  return ModelCloud(input, options, threads, findings).proxy;
 }
 
 }  // namespace stucco

@@ -322,7 +322,7 @@ std::string_view Name(SolidDetail detail) {
     case SolidDetail::kFlatTop:
       return "LoD1.2";
     case SolidDetail::kFromMap:
-      return "extruded from the plan";
+      return "extrusion";
   }
   return "";
 }
@@ -346,10 +346,11 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
       100 * place.raised_inside, 100 * place.raised_outside));
   OutlineMap found = Moved(map, place.survey_from_map);
   auto outcomes = CloseAll(survey, found, {scene, input, options, threads});
-  MapModel model{.buildings = {}, .outlines = std::move(found.buildings)};
+  MapModel model{.buildings = {}, .outlines = std::move(found.buildings), .details = {}};
   for (size_t b = 0; b < outcomes.size(); ++b) {
     Report(model.outlines[b].id, outcomes[b], model.outlines[b].to_capture, findings);
     if (outcomes[b].solid.facets.empty()) continue;
+    model.details[model.outlines[b].id] = outcomes[b].detail;
     model.buildings.push_back({.id = model.outlines[b].id,
                                .watertight = true,
                                .source = "map",
