@@ -11,10 +11,13 @@
 #include "proxy/facets/facets.h"
 #include "proxy/facets/plane_view.h"
 #include "proxy/map/map_solids.h"
+#include "proxy/map/outlines.h"
+#include "proxy/map/wall_facets.h"
 #include "proxy/scene/ground.h"
 #include "proxy/scene/scene.h"
 #include "proxy/solids/solid.h"
 #include "proxy/solids/soundness.h"
+#include "proxy/solids/written_check.h"
 #include "survey/error.h"
 #include "survey/parallel.h"
 
@@ -79,10 +82,20 @@ std::vector<std::vector<Facet>> OpenFacets(const PlanarScene& scene, const Plane
   return facets;
 }
 
+// A solid that is none in the files stays open.
+void RequireSoundAsWritten(const Eigen::Vector3d& up, Solid& solid) {
+  const Eigen::Matrix3d upright_from_world = UprightFromWorld(up);
+  const auto fault =
+      FindFaultAsWritten(Turned(solid.facets, upright_from_world), upright_from_world.transpose());
+  if (!fault) return;
+  solid.why_not = *fault;
+  solid.facets.clear();
+}
+
 // Closes each building where its planes and points allow it; empty solids otherwise.
 std::vector<Solid> CloseBuildings(const PlanarScene& scene, const PlaneTable& table,
                                   const std::vector<PlaneView>& views, const ProxyOptions& options,
-                                  int threads) {
+                                  bool metric, int threads) {
   std::vector<Solid> solids(scene.buildings.size());
   ParallelFor(solids.size(), threads, [&](size_t b) {
     std::vector<const PlaneView*> own;
@@ -91,9 +104,11 @@ std::vector<Solid> CloseBuildings(const PlanarScene& scene, const PlaneTable& ta
     }
     const Plane* ground = GroundBelow(scene.samples, scene.up, scene.ground, scene.buildings[b]);
     solids[b] = CloseOrExplain([&] {
-      return CloseBuilding(
-          scene, own, ground,
-          {.max_planes = options.max_planes, .least_support = options.solid_support});
+      Solid solid =
+          CloseBuilding(scene, own, ground,
+                        {.max_planes = options.max_planes, .least_support = options.solid_support});
+      if (metric && !solid.facets.empty()) RequireSoundAsWritten(scene.up, solid);
+      return solid;
     });
   });
   return solids;
@@ -129,7 +144,7 @@ PlanarModel ModelCloud(const ProxyInput& input, const ProxyOptions& options, int
   }
   proxy.buildings.push_back(std::move(ground));
   if (options.solids) {
-    auto solids = CloseBuildings(scene, table, views, options, threads);
+    auto solids = CloseBuildings(scene, table, views, options, input.georef.metric, threads);
     for (size_t b = 0; b < solids.size(); ++b) {
       Building& building = proxy.buildings[b];
       building.watertight = !solids[b].facets.empty();
