@@ -12,6 +12,7 @@
 #include "proxy/facets/plane_view.h"
 #include "proxy/map/map_solids.h"
 #include "proxy/map/outlines.h"
+#include "proxy/map/stable_ids.h"
 #include "proxy/map/wall_facets.h"
 #include "proxy/scene/ground.h"
 #include "proxy/scene/scene.h"
@@ -172,7 +173,9 @@ PlanarModel ModelCloud(const ProxyInput& input, const ProxyOptions& options, int
                 "the planes in the dense cloud are too small or too thin for a single facet",
                 "Lower proxy.level_of_detail or proxy.min_area, or look at dense/cloud.ply.");
   }
-  for (Building& building : proxy.buildings) AssignIds(building);
+  for (Building& building : proxy.buildings) {
+    building.source == "map" ? AssignIdsByPlace(building) : AssignIds(building);
+  }
   return model;
 }
 
