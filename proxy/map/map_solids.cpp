@@ -48,6 +48,7 @@ struct BuildingEvidence {
   Samples near;               // on and around the building
   std::optional<double> top;  // where its points say that it ends; a level roof's height
   double map_top = 0;
+  bool walls_seen = true;  // false: a scan from above, without photos and walls
 };
 
 // Height of a level top: the middle of what lies above the footprint, else where its walls end.
@@ -107,7 +108,20 @@ Standing StandingOf(const BuildingEvidence& evidence) {
 struct Attempt {
   FittedBuilding building;
   RoofCells cells;
+  bool walls_seen = true;
 };
+
+// From above nobody sees walls: samples look upright there only because they lie on both sides of
+// an edge.
+void ForgetWalls(std::vector<Facet>& facets) {
+  for (Facet& facet : facets) {
+    if (facet.facet_class != FacetClass::kWall) continue;
+    facet.seen = facet.rms = 0;
+    facet.inferred = 1;
+    facet.support = 0;
+    if (facet.source == "planes") facet.source = "extruded";
+  }
+}
 
 // The facets of a solid that stays one when its corners are written.
 Solid SolidOf(const Attempt& attempt, const Samples& near, const Tolerances& tolerances,
@@ -116,7 +130,8 @@ Solid SolidOf(const Attempt& attempt, const Samples& near, const Tolerances& tol
   const auto faces =
       ExtrudeCells(attempt.cells.arrangement, attempt.cells.lines, attempt.cells.labels,
                    attempt.cells.roofs, attempt.building.ground);
-  const auto upright = FacetsOf(faces, attempt.building, near, tolerances, normal_angle_deg);
+  auto upright = FacetsOf(faces, attempt.building, near, tolerances, normal_angle_deg);
+  if (!attempt.walls_seen) ForgetWalls(upright);
   if (const auto fault = FindFaultAsWritten(upright, world_from_upright)) {
     solid.why_not = *fault;
     return solid;
@@ -194,7 +209,7 @@ class BuildingCloser {
  private:
   Attempt AttemptOf(SolidDetail detail, const BuildingEvidence& evidence, const MapBuilding& mapped,
                     const std::vector<int>& planes) const {
-    Attempt attempt{.building = evidence.fitted, .cells = {}};
+    Attempt attempt{.building = evidence.fitted, .cells = {}, .walls_seen = evidence.walls_seen};
     const double lowest = evidence.fitted.ground + kRaised_m;
     if (detail == SolidDetail::kFull || detail == SolidDetail::kCoarse) {
       attempt.cells = LabelRoof(evidence.fitted, evidence.roof, planes, tolerances_);
@@ -262,6 +277,7 @@ Outcome CloseOne(const UprightSurvey& survey, const BuildingCloser& closer,
   evidence.near = SubsetOf(survey.samples, survey.bins.In(BoundsOf(fitted.building, kAround_m)));
   evidence.top = TopOf(evidence);
   evidence.map_top = mapped.z_m.to_m + plan_to_survey_m;
+  evidence.walls_seen = !survey.samples.camera_centers.empty() || fitted.held > 0;
   outcome.planes = evidence.roof.planes.size();
   outcome.standing = StandingOf(evidence);
   const bool wanted = outcome.standing == Standing::kStands ||

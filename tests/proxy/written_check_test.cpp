@@ -67,13 +67,13 @@ TEST(FindFaultAsWritten, SeesWhatMillimetresPinchOff) {
 }
 
 TEST(FindFaultAsWritten, SeesWhatSinglePrecisionPinchesOff) {
-  // Far from the origin floats are 8 mm apart.
-  const double x = 100000;
+  // A thousand kilometres from the origin floats are 6 cm apart.
+  const double x = 1e6;
   const auto neck =
       Prism({{x, 0}, {x + 4, 2}, {x + 8, 0}, {x + 8, 5}, {x + 4.0, 2.01}, {x, 5}}, 0, 4);
   EXPECT_EQ(FindFaultAsWritten(neck, kLevel), std::nullopt);
-  Eigen::Matrix3d turned;  // what is 2.01 m apart in y is far away in it, too
-  turned = Eigen::AngleAxisd(0.8, Vector3d::UnitZ());
+  // Along the axes x is whole and y near; turned, neither is.
+  const Eigen::Matrix3d turned = Eigen::AngleAxisd(0.8, Vector3d::UnitZ()).toRotationMatrix();
   EXPECT_THAT(FindFaultAsWritten(neck, turned), Optional(HasSubstr("in single precision")));
 }
 
@@ -89,8 +89,8 @@ TEST(FindFault, SeesABentFacet) {
 }
 
 TEST(FindFault, SeesATurnedSliver) {
-  // A roof whose edge of 9 mm is 5 mm off: within the tolerance of planarity, but a steep triangle.
-  auto box = Prism({{0, 0}, {8, 0}, {8, 5}, {4, 5.004}, {0, 5}}, 0, 4);
+  // An ear of the roof, 4 mm deep, is 5 mm off: within the tolerance of planarity, and yet steep.
+  auto box = Prism({{0, 0}, {8, 0}, {8, 5}, {4.1, 5}, {4, 5.004}, {3.9, 5}, {0, 5}}, 0, 4);
   for (Facet& facet : box) {
     for (Vector3d& p : facet.outer) {
       if (p == Vector3d(4, 5.004, 4)) p.z() += 0.005;
