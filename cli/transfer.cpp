@@ -11,6 +11,8 @@
 #include "pipeline/engine/engine.h"
 #include "pipeline/verbs/export.h"
 #include "pipeline/verbs/import.h"
+#include "pipeline/verbs/import_scan.h"
+#include "survey/error.h"
 
 namespace stucco {
 namespace {
@@ -62,6 +64,32 @@ int ImportPoses(const Program& program, const std::string& model) {
   return 0;
 }
 
+int ImportTown(const Program& program, const ScanRequest& request) {
+  const CommonOptions& common = program.common;
+  if (!IsCloud(request.cloud)) {
+    throw Error(
+        ErrorKind::kUsage,
+        fmt::format("{}: --map goes with a PLY cloud, and this is none", request.cloud.string()),
+        "leave out --map to import camera poses");
+  }
+  const ScanImportReport report = ImportScan(common.survey, request, program.table, RealPlatform());
+  const std::string next = fmt::format("stucco run {} --until proxy", ShellWord(common.survey));
+  if (common.json) {
+    const Json json = {{"points", report.points},
+                       {"buildings", report.buildings},
+                       {"reached", report.reached},
+                       {"notes", report.notes},
+                       {"next", next}};
+    PrintJson(json);
+  } else if (!common.quiet) {
+    std::cout << fmt::format("Imported {} points as dense, and {} footprints as the plan.\n",
+                             report.points, report.buildings);
+    for (const std::string& note : report.notes) std::cout << "  " << note << "\n";
+    std::cout << "Next: " << next << "\n";
+  }
+  return 0;
+}
+
 std::string FormatHelp() {
   std::string text = "One of";
   for (const ExportFormat& format : ExportFormats()) {
@@ -80,6 +108,7 @@ void AddImport(CLI::App& app, Program& program) {
                     "stucco import castle ~/colmap/sparse/0 && stucco run castle\n"
                     "stucco import castle block.xml     (BlocksExchange)\n"
                     "stucco import castle scan.ply      (in the frame of the poses)\n"
+                    "stucco import town laser.ply --map town.gpkg --crs EPSG:25832\n"
                     "stucco calib castle --force        (back to our own poses)",
                     kTransferGroup});
   AddSurveyArgument(verb, program);
@@ -90,8 +119,29 @@ void AddImport(CLI::App& app, Program& program) {
                   "contents")
       ->type_name("PATH")
       ->required();
-  verb.callback([&program, model] {
-    program.action = [&program, model] {
+  const std::string group = "A scan from above, without photos";
+  auto scan = std::make_shared<ScanRequest>();
+  CLI::Option* map =
+      verb.add_option("--map", scan->map,
+                      "Building footprints (any format that plan reads): the PLY cloud and the map "
+                      "become a survey without photos")
+          ->type_name("FILE")
+          ->group(group);
+  verb.add_option("--crs", scan->crs, "Coordinate system of the cloud; default: --map-crs")
+      ->type_name("EPSG:n")
+      ->needs(map)
+      ->group(group);
+  verb.add_option("--map-crs", scan->map_crs,
+                  "Coordinate system of a map that names none; default: --crs")
+      ->type_name("EPSG:n")
+      ->needs(map)
+      ->group(group);
+  verb.callback([&program, model, scan] {
+    program.action = [&program, model, scan] {
+      if (!scan->map.empty()) {
+        scan->cloud = *model;
+        return ImportTown(program, *scan);
+      }
       return IsCloud(*model) ? ImportPly(program, *model) : ImportPoses(program, *model);
     };
   });
@@ -101,23 +151,27 @@ void AddExport(CLI::App& app, Program& program) {
   CLI::App& verb = AddVerb(app, {"export", "Write a result in another program's format",
                                  "stucco export castle --format glb -o castle.glb\n"
                                  "stucco export castle --format colmap-txt -o colmap\n"
-                                 "stucco export castle --format blocksexchange -o castle.xml",
+                                 "stucco export castle --format blocksexchange -o castle.xml\n"
+                                 "stucco export town --format cityjson --crs EPSG:25832 -o t.json",
                                  kTransferGroup});
   AddSurveyArgument(verb, program);
-  auto format = std::make_shared<std::string>();
-  auto out = std::make_shared<std::string>();
-  auto overwrite = std::make_shared<bool>(false);
-  verb.add_option("-f,--format", *format, FormatHelp())->type_name("FORMAT")->required();
-  verb.add_option("-o,--out", *out, "File or folder to write")->type_name("PATH")->required();
-  verb.add_flag("--overwrite", *overwrite, "Replace what is there");
-  verb.callback([&program, format, out, overwrite] {
-    program.action = [&program, format, out, overwrite] {
-      ExportSurvey(program.common.survey, *format, *out, *overwrite, program.table);
+  auto request = std::make_shared<ExportRequest>();
+  verb.add_option("-f,--format", request->format, FormatHelp())->type_name("FORMAT")->required();
+  verb.add_option("-o,--out", request->out, "File or folder to write")
+      ->type_name("PATH")
+      ->required();
+  verb.add_flag("--overwrite", request->overwrite, "Replace what is there");
+  verb.add_option("--crs", request->crs,
+                  "Coordinate system of the corners, for cityjson; default: the survey's own frame")
+      ->type_name("EPSG:n");
+  verb.callback([&program, request] {
+    program.action = [&program, request] {
+      ExportSurvey(program.common.survey, *request, program.table);
       if (program.common.json) {
-        const Json json = {{"format", *format}, {"out", *out}};
+        const Json json = {{"format", request->format}, {"out", request->out.string()}};
         PrintJson(json);
       } else if (!program.common.quiet) {
-        std::cout << "Wrote " << *out << "\n";
+        std::cout << "Wrote " << request->out.string() << "\n";
       }
       return 0;
     };

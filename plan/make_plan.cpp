@@ -17,6 +17,7 @@
 #include "plan/match/expected_matches.h"
 #include "plan/match/link_photos.h"
 #include "plan/path/flights.h"
+#include "plan/plan_of_map.h"
 #include "plan/planar/planar_views.h"
 #include "plan/safety/error_budget.h"
 #include "plan/safety/warnings.h"
@@ -153,6 +154,7 @@ void AddViews(const Site& site, const FlightPlan& path, Plan& plan) {
   }
 }
 
+// What is known of the facades once it is known which views are meant for them.
 void AddFacades(const Task& task, const std::vector<Intervals>& unobservable,
                 const std::vector<Hover>& hovers, Plan& plan) {
   const std::vector<FacadeReport> reports =
@@ -169,12 +171,10 @@ void AddFacades(const Task& task, const std::vector<Intervals>& unobservable,
     }
   }
   for (size_t i = 0; i < task.site.facades.size(); ++i) {
-    const Facade& facade = task.site.facades[i];
-    PlannedFacade planned{
-        facade.id,           facade.a,         facade.b, facade.z_m, facade.top_known,
-        std::move(meant[i]), reports[i].meant, {}};
+    PlannedFacade& planned = plan.facades[i];
+    planned.views = std::move(meant[i]);
+    planned.predicted = reports[i].meant;
     if (task.options.method == "cocapture") planned.unobservable_m = unobservable[i];
-    plan.facades.push_back(std::move(planned));
   }
 }
 
@@ -185,24 +185,10 @@ PlannedPace PaceOf(const PlanOptions& options) {
 }
 
 Plan DescribeSite(const Task& task) {
-  const Site& site = task.site;
-  Plan plan;
+  Plan plan = PlanOfMap(task.site);
   plan.method = task.options.method;
-  plan.crs = site.crs;
-  plan.origin = site.origin;
   plan.camera = task.camera.camera;
-  plan.d_min_m = site.d_min_m;
   plan.d_max_m = task.d_max_m;
-  plan.safe_altitude_m = site.safe_altitude_m;
-  plan.min_altitude_m = site.min_altitude_m;
-  plan.home_m = site.home;
-  for (const Footprint& footprint : site.footprints) {
-    plan.footprints.push_back({footprint.building, footprint.outline.rings, footprint.z_m,
-                               footprint.blocked_to_m, footprint.is_obstacle});
-  }
-  for (const Polygon& polygon : site.no_fly) {
-    for (const Ring& ring : polygon.rings) plan.no_fly_m.push_back(ring);
-  }
   return plan;
 }
 

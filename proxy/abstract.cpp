@@ -11,10 +11,14 @@
 #include "proxy/facets/facets.h"
 #include "proxy/facets/plane_view.h"
 #include "proxy/map/map_solids.h"
+#include "proxy/map/outlines.h"
+#include "proxy/map/stable_ids.h"
+#include "proxy/map/wall_facets.h"
 #include "proxy/scene/ground.h"
 #include "proxy/scene/scene.h"
 #include "proxy/solids/solid.h"
 #include "proxy/solids/soundness.h"
+#include "proxy/solids/written_check.h"
 #include "survey/error.h"
 #include "survey/parallel.h"
 
@@ -79,10 +83,20 @@ std::vector<std::vector<Facet>> OpenFacets(const PlanarScene& scene, const Plane
   return facets;
 }
 
+// A solid that is none in the files stays open.
+void RequireSoundAsWritten(const Eigen::Vector3d& up, Solid& solid) {
+  const Eigen::Matrix3d upright_from_world = UprightFromWorld(up);
+  const auto fault =
+      FindFaultAsWritten(Turned(solid.facets, upright_from_world), upright_from_world.transpose());
+  if (!fault) return;
+  solid.why_not = *fault;
+  solid.facets.clear();
+}
+
 // Closes each building where its planes and points allow it; empty solids otherwise.
 std::vector<Solid> CloseBuildings(const PlanarScene& scene, const PlaneTable& table,
                                   const std::vector<PlaneView>& views, const ProxyOptions& options,
-                                  int threads) {
+                                  bool metric, int threads) {
   std::vector<Solid> solids(scene.buildings.size());
   ParallelFor(solids.size(), threads, [&](size_t b) {
     std::vector<const PlaneView*> own;
@@ -91,9 +105,11 @@ std::vector<Solid> CloseBuildings(const PlanarScene& scene, const PlaneTable& ta
     }
     const Plane* ground = GroundBelow(scene.samples, scene.up, scene.ground, scene.buildings[b]);
     solids[b] = CloseOrExplain([&] {
-      return CloseBuilding(
-          scene, own, ground,
-          {.max_planes = options.max_planes, .least_support = options.solid_support});
+      Solid solid =
+          CloseBuilding(scene, own, ground,
+                        {.max_planes = options.max_planes, .least_support = options.solid_support});
+      if (metric && !solid.facets.empty()) RequireSoundAsWritten(scene.up, solid);
+      return solid;
     });
   });
   return solids;
@@ -101,8 +117,8 @@ std::vector<Solid> CloseBuildings(const PlanarScene& scene, const PlaneTable& ta
 
 }  // namespace
 
-Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
-                    ProxyFindings& findings) {
+PlanarModel ModelCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
+                       ProxyFindings& findings) {
   PlanarScene scene = UnderstandCloud(input, options, threads, findings);
   std::optional<MapModel> mapped;
   if (options.use_map && options.solids && input.plan && input.georef.metric &&
@@ -114,7 +130,8 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   const auto views =
       ViewPlanes(scene, table.planes, table.planes.size() - scene.ground.size(), threads);
   auto facets = OpenFacets(scene, table, views, threads, findings);
-  Proxy proxy;
+  PlanarModel model;
+  Proxy& proxy = model.proxy;
   proxy.up = scene.up;
   proxy.metric = input.georef.metric;
   Building ground{.id = "G0", .watertight = false, .source = "cloud", .facets = {}};
@@ -128,7 +145,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   }
   proxy.buildings.push_back(std::move(ground));
   if (options.solids) {
-    auto solids = CloseBuildings(scene, table, views, options, threads);
+    auto solids = CloseBuildings(scene, table, views, options, input.georef.metric, threads);
     for (size_t b = 0; b < solids.size(); ++b) {
       Building& building = proxy.buildings[b];
       building.watertight = !solids[b].facets.empty();
@@ -148,6 +165,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
     proxy.buildings.insert(proxy.buildings.begin(),
                            std::make_move_iterator(mapped->buildings.begin()),
                            std::make_move_iterator(mapped->buildings.end()));
+    for (const auto& [id, detail] : mapped->details) model.details.emplace(id, Name(detail));
   }
   std::erase_if(proxy.buildings, [](const Building& building) { return building.facets.empty(); });
   if (proxy.buildings.empty()) {
@@ -155,8 +173,15 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
                 "the planes in the dense cloud are too small or too thin for a single facet",
                 "Lower proxy.level_of_detail or proxy.min_area, or look at dense/cloud.ply.");
   }
-  for (Building& building : proxy.buildings) AssignIds(building);
-  return proxy;
+  for (Building& building : proxy.buildings) {
+    building.source == "map" ? AssignIdsByPlace(building) : AssignIds(building);
+  }
+  return model;
+}
+
+Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
+                    ProxyFindings& findings) {
+  return ModelCloud(input, options, threads, findings).proxy;
 }
 
 }  // namespace stucco

@@ -10,6 +10,7 @@
 #include "exchange/nerfstudio.h"
 #include "pipeline/engine/settings.h"
 #include "pipeline/engine/shell.h"
+#include "pipeline/verbs/internal/city_in_crs.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
 #include "survey/files.h"
@@ -23,6 +24,8 @@ namespace stucco {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr char kCityJsonFile[] = "proxy/proxy.city.json";
 
 const ExportFormat& Format(const std::string& name) {
   const std::vector<ExportFormat>& formats = ExportFormats();
@@ -112,6 +115,18 @@ void ExportTiles(const fs::path& survey, const fs::path& out, int threads) {
   WriteTiles3d({proxy, textures, survey / "texture"}, georef, out, options);
 }
 
+void ExportCityJson(const fs::path& survey, const fs::path& out, const std::string& crs) {
+  if (crs.empty()) {
+    CopyFile(survey / kCityJsonFile, out);
+    return;
+  }
+  const CityFrame frame{ReadGeoref(survey / kGeorefFile), ReadProxy(survey / kFacetsFile).up};
+  const std::string text = CityInCrs(ReadFile(survey / kCityJsonFile), frame, crs);
+  std::error_code error;
+  if (!out.parent_path().empty()) fs::create_directories(out.parent_path(), error);
+  WriteFileAtomically(out, text);
+}
+
 }  // namespace
 
 const std::vector<ExportFormat>& ExportFormats() {
@@ -120,6 +135,7 @@ const std::vector<ExportFormat>& ExportFormats() {
       {"colmap-bin", "folder with cameras.bin, images.bin, points3D.bin", "calib"},
       {"blocksexchange", "file: BlocksExchange XML 2.1 with poses, lenses and tie points", "calib"},
       {"nerfstudio", "folder with transforms.json and sparse_pc.ply", "calib"},
+      {"cityjson", "file: the planar model as CityJSON 2.0; with --crs in that system", "proxy"},
       {"obj", "folder with model.obj, its .mtl and its textures", "texture"},
       {"glb", "file: textured model as binary glTF", "texture"},
       {"3dtiles", "folder with tileset.json: textured model as 3D Tiles 1.1, with levels of detail",
@@ -128,26 +144,33 @@ const std::vector<ExportFormat>& ExportFormats() {
   return formats;
 }
 
-void ExportSurvey(const fs::path& survey, const std::string& format, const fs::path& out,
-                  bool overwrite, const StageTable& table) {
-  const ExportFormat& chosen = Format(format);
+void ExportSurvey(const fs::path& survey, const ExportRequest& request, const StageTable& table) {
+  const ExportFormat& chosen = Format(request.format);
+  const auto prepare = [&](const fs::path& made) {
+    RequireMade(survey, made, chosen.stage);
+    RequireFree(request.out, request.overwrite);
+  };
+  if (!request.crs.empty() && chosen.name != "cityjson") {
+    throw Error(ErrorKind::kUsage, fmt::format("--crs: is no choice for {}", chosen.name),
+                "leave it out, or take --format cityjson");
+  }
   if (chosen.stage == "calib") {
-    RequireMade(survey, kSparseFolder, chosen.stage);
-    RequireFree(out, overwrite);
-    ExportPoses(survey, format, out, LoadSettings(survey, table, {}).photos);
-  } else if (format == "3dtiles") {
-    RequireMade(survey, kTexturesFile, chosen.stage);
-    RequireFree(out, overwrite);
-    ExportTiles(survey, out, ResolvedThreads(LoadSettings(survey, table, {}).run));
-  } else if (format == "obj") {
-    RequireMade(survey, "texture/model.obj", chosen.stage);
-    RequireFree(out, overwrite);
-    CopyObj(survey / "texture", out);
+    prepare(kSparseFolder);
+    ExportPoses(survey, chosen.name, request.out, LoadSettings(survey, table, {}).photos);
+  } else if (chosen.name == "3dtiles") {
+    prepare(kTexturesFile);
+    ExportTiles(survey, request.out, ResolvedThreads(LoadSettings(survey, table, {}).run));
+  } else if (chosen.name == "obj") {
+    prepare("texture/model.obj");
+    CopyObj(survey / "texture", request.out);
+  } else if (chosen.name == "cityjson") {
+    prepare(kCityJsonFile);
+    ExportCityJson(survey, request.out, request.crs);
   } else {
-    const fs::path file = format == "glb" ? fs::path("texture/model.glb") : fs::path(kCloudFile);
-    RequireMade(survey, file, chosen.stage);
-    RequireFree(out, overwrite);
-    CopyFile(survey / file, out);
+    const fs::path file =
+        chosen.name == "glb" ? fs::path("texture/model.glb") : fs::path(kCloudFile);
+    prepare(file);
+    CopyFile(survey / file, request.out);
   }
 }
 

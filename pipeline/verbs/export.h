@@ -18,10 +18,18 @@ struct ExportFormat {
 
 const std::vector<ExportFormat>& ExportFormats();
 
-// Writes a survey's result in another program's format to `out`: a file for "blocksexchange", "glb"
-// and "ply", a folder for the others. Throws Error: kUsage for an unknown format, kBadInput when
-// the stage has not run or `out` exists already (unless `overwrite`).
-void ExportSurvey(const std::filesystem::path& survey, const std::string& format,
-                  const std::filesystem::path& out, bool overwrite, const StageTable& table);
+// What is exported, and whereto.
+struct ExportRequest {
+  std::string format;
+  std::filesystem::path out;
+  bool overwrite = false;
+  std::string crs = {};  // "EPSG:2056", for "cityjson" only; empty: the survey's own frame
+};
+
+// Writes a survey's result in another program's format: a file for "blocksexchange", "glb", "ply"
+// and "cityjson", a folder for the others. Throws Error: kUsage for an unknown format or coordinate
+// system, kBadInput when the stage has not run or `out` exists already (unless `overwrite`).
+void ExportSurvey(const std::filesystem::path& survey, const ExportRequest& request,
+                  const StageTable& table);
 
 }  // namespace stucco

@@ -38,12 +38,15 @@ Eigen::Vector3d Mean(const std::vector<Eigen::Vector3d>& points) {
 
 void FillMissing(Samples& samples, const GridIndex& index, double radius, int threads) {
   const Eigen::Vector3d mean_center = Mean(samples.camera_centers);
+  const bool scanned = samples.camera_centers.empty();
   ForEachSample(samples.size(), threads, [&](size_t i) {
     if (samples.normals[i].squaredNorm() > 0.5) return;
     Eigen::Vector3d normal = PlaneNormal(samples, index, i, radius);
     const Eigen::Vector3d* eye = samples.EyeOf(i);
-    if (normal.dot((eye != nullptr ? *eye : mean_center) - samples.positions[i]) < 0)
-      normal = -normal;
+    const Eigen::Vector3d towards =
+        scanned ? Eigen::Vector3d::UnitZ()
+                : Eigen::Vector3d((eye != nullptr ? *eye : mean_center) - samples.positions[i]);
+    if (normal.dot(towards) < 0) normal = -normal;
     samples.normals[i] = normal;
   });
 }

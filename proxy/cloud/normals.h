@@ -10,8 +10,8 @@
 namespace stucco {
 
 // Fills missing normals from the plane of the neighbours, towards the camera that sees the sample
-// (samples without a camera: towards the mean camera), then averages each normal with those of its
-// neighbours that point within 45 degrees of it: noise falls, edges stay. Returns how well the
+// (without one: the mean camera; in a survey without photos: z), then averages each normal with
+// those of neighbours within 45 degrees of it: noise falls, edges stay. Returns how well the
 // neighbours agree, in [0, 1]: the order in which regions are grown from samples.
 std::vector<double> SmoothNormals(Samples& samples, const GridIndex& index, double radius,
                                   int threads);

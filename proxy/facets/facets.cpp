@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 
+#include "proxy/facets/facet_letter.h"
 #include "proxy/facets/outline.h"
 
 namespace stucco {
@@ -39,20 +40,6 @@ FacetClass ClassOf(PlaneRole role) {
     default:
       return FacetClass::kRoof;
   }
-}
-
-char LetterOf(FacetClass facet_class) {
-  switch (facet_class) {
-    case FacetClass::kWall:
-      return 'W';
-    case FacetClass::kRoof:
-      return 'R';
-    case FacetClass::kGround:
-      return 'G';
-    case FacetClass::kOuterFloor:
-      return 'O';  // F is a facade of the map
-  }
-  return 'O';
 }
 
 }  // namespace

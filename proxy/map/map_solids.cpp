@@ -10,7 +10,6 @@
 #include <numbers>
 #include <numeric>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include "proxy/map/closer_look.h"
@@ -18,6 +17,7 @@
 #include "proxy/map/wall_facets.h"
 #include "proxy/solids/closed_check.h"
 #include "proxy/solids/soundness.h"
+#include "proxy/solids/written_check.h"
 #include "survey/median.h"
 #include "survey/parallel.h"
 
@@ -48,6 +48,7 @@ struct BuildingEvidence {
   Samples near;               // on and around the building
   std::optional<double> top;  // where its points say that it ends; a level roof's height
   double map_top = 0;
+  bool walls_seen = true;  // false: a scan from above, without photos and walls
 };
 
 // Height of a level top: the middle of what lies above the footprint, else where its walls end.
@@ -107,19 +108,32 @@ Standing StandingOf(const BuildingEvidence& evidence) {
 struct Attempt {
   FittedBuilding building;
   RoofCells cells;
+  bool walls_seen = true;
 };
 
-// The facets of a solid that stays one when its corners are written in millimetres.
+// From above nobody sees walls: samples look upright there only because they lie on both sides of
+// an edge.
+void ForgetWalls(std::vector<Facet>& facets) {
+  for (Facet& facet : facets) {
+    if (facet.facet_class != FacetClass::kWall) continue;
+    facet.seen = facet.rms = 0;
+    facet.inferred = 1;
+    facet.support = 0;
+    if (facet.source == "planes") facet.source = "extruded";
+  }
+}
+
+// The facets of a solid that stays one when its corners are written.
 Solid SolidOf(const Attempt& attempt, const Samples& near, const Tolerances& tolerances,
               const Eigen::Matrix3d& world_from_upright, double normal_angle_deg) {
-  constexpr double kWritten_m = 0.001;
   Solid solid;
   const auto faces =
       ExtrudeCells(attempt.cells.arrangement, attempt.cells.lines, attempt.cells.labels,
                    attempt.cells.roofs, attempt.building.ground);
-  const auto upright = FacetsOf(faces, attempt.building, near, tolerances, normal_angle_deg);
-  if (const auto as_written = FindOpening(Rounded(upright, kWritten_m))) {
-    solid.why_not = "in millimetres " + *as_written;
+  auto upright = FacetsOf(faces, attempt.building, near, tolerances, normal_angle_deg);
+  if (!attempt.walls_seen) ForgetWalls(upright);
+  if (const auto fault = FindFaultAsWritten(upright, world_from_upright)) {
+    solid.why_not = *fault;
     return solid;
   }
   solid.facets = Turned(upright, world_from_upright);
@@ -145,6 +159,13 @@ FittedBuilding AsMapped(FittedBuilding building, const MapBuilding& mapped) {
   return building;
 }
 
+// The finest solid that is sound, and why none that is finer is; facets are empty where none is.
+struct Closed {
+  Solid solid;
+  SolidDetail detail = SolidDetail::kFull;
+  std::string not_finer;  // "full: in millimetres crosses itself"; empty: nothing finer was tried
+};
+
 class BuildingCloser {
  public:
   BuildingCloser(const Tolerances& tolerances, const Eigen::Vector3d& up,
@@ -153,9 +174,7 @@ class BuildingCloser {
         options_(options),
         world_from_upright_(UprightFromWorld(up).transpose()) {}
 
-  // The finest solid that is sound, and its name; facets are empty where none is.
-  std::pair<Solid, SolidDetail> Close(const BuildingEvidence& evidence,
-                                      const MapBuilding& mapped) const {
+  Closed Close(const BuildingEvidence& evidence, const MapBuilding& mapped) const {
     std::vector<int> all, large;
     const double area = AreaOf(evidence.fitted.building);
     for (size_t p = 0; p < evidence.roof.planes.size(); ++p) {
@@ -165,21 +184,24 @@ class BuildingCloser {
       const bool is_large = evidence.roof.planes[p].area > kLarge * area;
       if (is_large && large.size() < kFew) large.push_back(int(p));
     }
-    Solid solid;
+    Closed closed;
     for (const SolidDetail detail :
          {SolidDetail::kFull, SolidDetail::kCoarse, SolidDetail::kFlatTop, SolidDetail::kFromMap}) {
       if (detail == SolidDetail::kFull && all.empty()) continue;
       if (detail == SolidDetail::kCoarse && (large.empty() || large.size() == all.size())) continue;
       if (detail == SolidDetail::kFlatTop && !evidence.top) continue;
-      solid = CloseOrExplain([&] {
+      closed.detail = detail;
+      closed.solid = CloseOrExplain([&] {
         const Attempt attempt =
             AttemptOf(detail, evidence, mapped, detail == SolidDetail::kFull ? all : large);
         return SolidOf(attempt, evidence.near, tolerances_, world_from_upright_,
                        options_.normal_angle_deg);
       });
-      if (solid.why_not.empty()) return {std::move(solid), detail};
+      if (closed.solid.why_not.empty()) break;
+      closed.not_finer += fmt::format("{}{}: {}", closed.not_finer.empty() ? "" : "; ",
+                                      Name(detail), closed.solid.why_not);
     }
-    return {std::move(solid), SolidDetail::kFromMap};
+    return closed;
   }
 
   const ProxyOptions& options() const { return options_; }
@@ -187,7 +209,7 @@ class BuildingCloser {
  private:
   Attempt AttemptOf(SolidDetail detail, const BuildingEvidence& evidence, const MapBuilding& mapped,
                     const std::vector<int>& planes) const {
-    Attempt attempt{.building = evidence.fitted, .cells = {}};
+    Attempt attempt{.building = evidence.fitted, .cells = {}, .walls_seen = evidence.walls_seen};
     const double lowest = evidence.fitted.ground + kRaised_m;
     if (detail == SolidDetail::kFull || detail == SolidDetail::kCoarse) {
       attempt.cells = LabelRoof(evidence.fitted, evidence.roof, planes, tolerances_);
@@ -208,21 +230,22 @@ class BuildingCloser {
 // What became of one building of the map.
 struct Outcome {
   Standing standing = Standing::kStands;
-  SolidDetail detail = SolidDetail::kFull;
-  Solid solid;
+  Closed closed;
   size_t planes = 0;  // of its roof, found
 };
 
 std::string NoteOf(const std::string& id, const Outcome& outcome) {
   size_t walls = 0, seen = 0, roofs = 0;
-  for (const Facet& facet : outcome.solid.facets) {
+  for (const Facet& facet : outcome.closed.solid.facets) {
     const bool wall = facet.facet_class == FacetClass::kWall;
     walls += wall;
     seen += wall && facet.seen > 0;
     roofs += facet.facet_class == FacetClass::kRoof;
   }
-  return fmt::format("{}: closed, {}: {} walls ({} seen), {} roofs from {} planes", id,
-                     Name(outcome.detail), walls, seen, roofs, outcome.planes);
+  const std::string& not_finer = outcome.closed.not_finer;
+  return fmt::format("{}: closed, {}: {} walls ({} seen), {} roofs from {} planes{}", id,
+                     Name(outcome.closed.detail), walls, seen, roofs, outcome.planes,
+                     not_finer.empty() ? "" : ", because " + not_finer);
 }
 
 void Report(const std::string& id, const Outcome& outcome, bool to_capture,
@@ -232,9 +255,9 @@ void Report(const std::string& id, const Outcome& outcome, bool to_capture,
         id + ": not built, or demolished: the cloud shows the ground where the map has it");
   } else if (outcome.standing == Standing::kUnseen && !to_capture) {
     findings.notes.push_back(id + ": not seen, and not asked for: left out");
-  } else if (outcome.solid.facets.empty()) {
+  } else if (outcome.closed.solid.facets.empty()) {
     findings.warnings.push_back(
-        fmt::format("{}: left out, it does not close: {}", id, outcome.solid.why_not));
+        fmt::format("{}: left out, it does not close: {}", id, outcome.closed.not_finer));
   } else {
     findings.notes.push_back(NoteOf(id, outcome));
     if (outcome.standing == Standing::kUnseen) {
@@ -254,11 +277,12 @@ Outcome CloseOne(const UprightSurvey& survey, const BuildingCloser& closer,
   evidence.near = SubsetOf(survey.samples, survey.bins.In(BoundsOf(fitted.building, kAround_m)));
   evidence.top = TopOf(evidence);
   evidence.map_top = mapped.z_m.to_m + plan_to_survey_m;
+  evidence.walls_seen = !survey.samples.camera_centers.empty() || fitted.held > 0;
   outcome.planes = evidence.roof.planes.size();
   outcome.standing = StandingOf(evidence);
   const bool wanted = outcome.standing == Standing::kStands ||
                       (outcome.standing == Standing::kUnseen && mapped.to_capture);
-  if (wanted) std::tie(outcome.solid, outcome.detail) = closer.Close(evidence, mapped);
+  if (wanted) outcome.closed = closer.Close(evidence, mapped);
   return outcome;
 }
 
@@ -322,7 +346,7 @@ std::string_view Name(SolidDetail detail) {
     case SolidDetail::kFlatTop:
       return "LoD1.2";
     case SolidDetail::kFromMap:
-      return "extruded from the plan";
+      return "extrusion";
   }
   return "";
 }
@@ -346,14 +370,15 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
       100 * place.raised_inside, 100 * place.raised_outside));
   OutlineMap found = Moved(map, place.survey_from_map);
   auto outcomes = CloseAll(survey, found, {scene, input, options, threads});
-  MapModel model{.buildings = {}, .outlines = std::move(found.buildings)};
+  MapModel model{.buildings = {}, .outlines = std::move(found.buildings), .details = {}};
   for (size_t b = 0; b < outcomes.size(); ++b) {
     Report(model.outlines[b].id, outcomes[b], model.outlines[b].to_capture, findings);
-    if (outcomes[b].solid.facets.empty()) continue;
+    if (outcomes[b].closed.solid.facets.empty()) continue;
+    model.details[model.outlines[b].id] = outcomes[b].closed.detail;
     model.buildings.push_back({.id = model.outlines[b].id,
                                .watertight = true,
                                .source = "map",
-                               .facets = std::move(outcomes[b].solid.facets)});
+                               .facets = std::move(outcomes[b].closed.solid.facets)});
   }
   return model;
 }

@@ -176,6 +176,32 @@ void Refine(const std::vector<Segment2d>& traces, const std::vector<Segment2d>& 
   }
 }
 
+// The motion that brings the facades onto what stands upright, or nothing where they do not match.
+std::optional<Motion> MotionOnto(const std::vector<Segment2d>& traces,
+                                 const std::vector<Segment2d>& facades) {
+  const auto shift = FindShift(traces, facades);
+  if (!shift) return std::nullopt;
+  Motion motion;
+  motion.shift = *shift;
+  for (const Segment2d& facade : facades) motion.center += (facade.a + facade.b) / 2;
+  motion.center /= static_cast<double>(facades.size());
+  Refine(traces, facades, motion);
+  return motion;
+}
+
+double LengthOf(const std::vector<Segment2d>& lines) {
+  double length = 0;
+  for (const Segment2d& line : lines) length += (line.b - line.a).norm();
+  return length;
+}
+
+// No photos, and walls hardly anywhere: chimneys and the edges of roofs match any map somewhere.
+bool IsScanFromAbove(const Samples& upright, const std::vector<Segment2d>& traces,
+                     const std::vector<Segment2d>& facades) {
+  constexpr double kFewWalls = 0.25;  // of the facades, by length
+  return upright.camera_centers.empty() && LengthOf(traces) < kFewWalls * LengthOf(facades);
+}
+
 // Cells of a metre that the cloud shows, raised above the ground or not.
 struct RaisedCells {
   int seen = 0;
@@ -247,19 +273,16 @@ MapRegistration RegisterMap(const UprightSurvey& survey, const OutlineMap& map) 
   MapRegistration found;
   const std::vector<Segment2d> traces = WallTraces(upright);
   const std::vector<Segment2d> facades = FacadesInCloud(upright, map);
-  const auto shift = FindShift(traces, facades);
-  if (!shift) {
-    found.refused = "what stands upright in the cloud is not where the map has walls";
-    return found;
+  if (!IsScanFromAbove(upright, traces, facades)) {
+    const auto motion = MotionOnto(traces, facades);
+    if (!motion) {
+      found.refused = "what stands upright in the cloud is not where the map has walls";
+      return found;
+    }
+    found.survey_from_map = motion->Transform();
+    found.turn_rad = motion->turn_rad;
+    found.shift_m = motion->shift;
   }
-  Motion motion;
-  motion.shift = *shift;
-  for (const Segment2d& facade : facades) motion.center += (facade.a + facade.b) / 2;
-  motion.center /= static_cast<double>(facades.size());
-  Refine(traces, facades, motion);
-  found.survey_from_map = motion.Transform();
-  found.turn_rad = motion.turn_rad;
-  found.shift_m = motion.shift;
   std::vector<MapBuilding> buildings;
   buildings.reserve(map.buildings.size());
   for (const MapBuilding& building : map.buildings) {

@@ -38,7 +38,7 @@ std::vector<Segment2d> WallTraces(const Samples& upright);
 // shift and turn (prior: 0.3 degrees, against half a metre that each facade may be off by itself).
 // Refused when fewer than half of the facades within the cloud, or of what stands upright, find one
 // another, or when the footprints are not what is raised above the ground: a map of another town
-// finds some walls anywhere.
+// finds some walls anywhere. A scan without photos and walls lies where it says: it is not moved.
 MapRegistration RegisterMap(const UprightSurvey& survey, const OutlineMap& map);
 
 // Height of the lowest ground next to a building; nothing where the cloud shows too little of it.

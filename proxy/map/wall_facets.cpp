@@ -144,20 +144,4 @@ std::vector<Facet> Turned(std::vector<Facet> facets, const Eigen::Matrix3d& rota
   return facets;
 }
 
-std::vector<Facet> Rounded(std::vector<Facet> facets, double step) {
-  const auto round = [&](std::vector<Eigen::Vector3d>& ring) {
-    for (auto& p : ring) p = (p / step).array().round() * step;
-    // As in files: corners that fell together are one.
-    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-    while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-  };
-  for (Facet& facet : facets) {
-    round(facet.outer);
-    for (auto& hole : facet.holes) round(hole);
-    std::erase_if(facet.holes, [](const auto& hole) { return hole.size() < 3; });
-  }
-  std::erase_if(facets, [](const Facet& facet) { return facet.outer.size() < 3; });
-  return facets;
-}
-
 }  // namespace stucco

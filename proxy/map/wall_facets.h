@@ -18,8 +18,7 @@ std::vector<Facet> FacetsOf(const std::vector<ExtrudedFace>& faces, const Fitted
                             const Samples& near, const Tolerances& tolerances,
                             double normal_angle_deg);
 
-// The same facets turned and, where `step` is not 0, with corners rounded to multiples of it.
+// The same facets turned about the origin.
 std::vector<Facet> Turned(std::vector<Facet> facets, const Eigen::Matrix3d& rotation);
-std::vector<Facet> Rounded(std::vector<Facet> facets, double step);
 
 }  // namespace stucco

@@ -120,7 +120,7 @@ Json GeometryOf(const Building& building, const Eigen::Vector3d& up, bool semant
 
 }  // namespace
 
-std::string CityJsonText(const Proxy& proxy) {
+std::string CityJsonText(const Proxy& proxy, const std::map<std::string, std::string>& details) {
   const Eigen::Matrix3d turned_from_world =
       Eigen::Quaterniond::FromTwoVectors(proxy.up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   VertexTable table(proxy, turned_from_world);
@@ -133,10 +133,12 @@ std::string CityJsonText(const Proxy& proxy) {
       continue;
     }
     const std::string part = building.id + "-1";
-    objects[building.id] = {
-        {"type", "Building"},
-        {"attributes", {{"watertight", building.watertight}, {"source", building.source}}},
-        {"children", Json::array({part})}};
+    Json attributes = {{"watertight", building.watertight}, {"source", building.source}};
+    const auto detail = details.find(building.id);
+    if (detail != details.end()) attributes["detail"] = detail->second;
+    objects[building.id] = {{"type", "Building"},
+                            {"attributes", std::move(attributes)},
+                            {"children", Json::array({part})}};
     objects[part] = {{"type", "BuildingPart"},
                      {"parents", Json::array({building.id})},
                      {"geometry", Json::array({GeometryOf(building, proxy.up, true, table)})}};

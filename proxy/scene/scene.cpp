@@ -110,12 +110,13 @@ void FindUp(const std::vector<Plane>& planes, const ProxyInput& input, const Pro
   if (georef.up && georef.up->allFinite() && georef.up->norm() > 0) {
     // Gimbals are good to about a degree, and positions of a few metres from a short flight tilt
     // the frame by more; walls are better, but only near what sensors say. RTK and surveyed points
-    // need no help.
+    // need no help, nor does a scan, which has no cameras: its coordinate system knows up.
     constexpr double kGimbal_deg = 3;
     constexpr double kPositions_deg = 5;
     const Eigen::Vector3d given = georef.up->normalized();
     const bool exact =
-        georef.frame == "enu" && (georef.source == "rtk" || georef.source == kGroundControlSource);
+        georef.frame == "enu" &&
+        (georef.source == "rtk" || georef.source == kGroundControlSource || input.photos.empty());
     const double tolerance_deg = georef.frame == "enu" ? kPositions_deg : kGimbal_deg;
     scene.up = exact ? given : RefineUp(planes, given, tolerance_deg);
     findings.notes.push_back(fmt::format(

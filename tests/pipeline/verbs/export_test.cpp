@@ -5,11 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "pipeline/engine/fingerprint.h"
 #include "survey/colmap_io.h"
+#include "survey/coordinate_system.h"
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/georef.h"
+#include "survey/proxy.h"
 #include "survey/survey_folder.h"
 #include "tests/pipeline/fake_survey.h"
 #include "tests/pipeline/verbs/imported.h"
@@ -28,7 +32,7 @@ class ExportTest : public testing::Test {
     WriteFile(fake.survey / file, text);
   }
   void Export(const std::string& format, bool overwrite = false) {
-    ExportSurvey(fake.survey, format, out, overwrite, fake.table);
+    ExportSurvey(fake.survey, {format, out, overwrite}, fake.table);
   }
   Error Refused(const std::string& format) {
     try {
@@ -105,6 +109,63 @@ TEST_F(ExportTest, PosesComeBackAsTheyWere) {
   Export("nerfstudio");
   EXPECT_THAT(FilesBelow(out), ElementsAre("georef.json", "sparse_pc.ply", "transforms.json"));
   EXPECT_THAT(ReadFile(out / "transforms.json"), HasSubstr("\"../../photos/p1.jpg\""));
+}
+
+TEST_F(ExportTest, CityJsonLiesWhereItsSystemSays) {
+  Georef georef;
+  georef.frame = "enu";
+  georef.metric = true;
+  georef.origin_latitude_deg = 47.4;
+  georef.origin_longitude_deg = 8.5;
+  georef.origin_height_m = 400;
+  Proxy proxy;
+  proxy.up = -Eigen::Vector3d::UnitY();  // the file is turned so that this is z
+  fs::create_directories(fake.survey / "calib");
+  fs::create_directories(fake.survey / "proxy");
+  WriteGeoref(georef, fake.survey / kGeorefFile);
+  WriteProxy(proxy, fake.survey / kFacetsFile);
+  const std::string text =
+      R"({"type":"CityJSON","version":"2.0","transform":{"scale":[0.001,0.001,0.001],)"
+      R"("translate":[10,20,30]},"metadata":{"title":"local"},"CityObjects":{"B1":)"
+      R"({"type":"Building","attributes":{"detail":"full"}}},"vertices":[[0,0,0],[1500,-2500,1]]})";
+  Write("proxy/proxy.city.json", text);
+  Export("cityjson");
+  EXPECT_EQ(ReadFile(out), text);
+  ExportSurvey(fake.survey, {"cityjson", out, true, "EPSG:2056"}, fake.table);
+  const auto city = nlohmann::json::parse(ReadFile(out));
+  EXPECT_EQ(city["metadata"]["referenceSystem"], "https://www.opengis.net/def/crs/EPSG/0/2056");
+  EXPECT_EQ(city["CityObjects"]["B1"]["attributes"]["detail"], "full");
+  // (11.5, 17.5, 30.001) of the file is (11.5, -30.001, 17.5) of the survey.
+  Eigen::Vector3d corner;
+  for (int i = 0; i < 3; ++i) {
+    corner[i] = city["vertices"][1][i].get<double>() * city["transform"]["scale"][i].get<double>() +
+                city["transform"]["translate"][i].get<double>();
+  }
+  const std::vector<Eigen::Vector2d> in_map = {corner.head<2>()};
+  const Geodetic place = GeodeticFromCrs("EPSG:2056", in_map, "test").front();
+  const Eigen::Vector3d back =
+      EnuFromGeodetic(georef, place.latitude_deg, place.longitude_deg, corner.z());
+  EXPECT_LT((back - Eigen::Vector3d(11.5, -30.001, 17.5)).norm(), 2e-4);
+}
+
+TEST_F(ExportTest, RefusesSystemsThatNoModelIsWrittenIn) {
+  const auto refusal = [&](const std::string& format, const std::string& crs) {
+    try {
+      ExportSurvey(fake.survey, {format, out, false, crs}, fake.table);
+    } catch (const Error& e) {
+      EXPECT_FALSE(fs::exists(out));
+      return e;
+    }
+    return Error(ErrorKind::kInterrupted, "was not refused");
+  };
+  fs::create_directories(fake.survey / "calib");
+  Write("proxy/proxy.city.json", "{}");
+  WriteGeoref({}, fake.survey / kGeorefFile);
+  WriteProxy({}, fake.survey / kFacetsFile);
+  EXPECT_EQ(refusal("cityjson", "EPSG:4326").kind(), ErrorKind::kUsage);
+  EXPECT_EQ(refusal("cityjson", "/etc/passwd").kind(), ErrorKind::kUsage);
+  EXPECT_THAT(refusal("cityjson", "EPSG:2056").what(), HasSubstr("no positions"));
+  EXPECT_THAT(refusal("glb", "EPSG:2056").what(), HasSubstr("no choice for glb"));
 }
 
 TEST_F(ExportTest, AnUnknownFormatGetsASuggestion) {

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "proxy/abstract.h"
+#include "proxy/cloud/normals.h"
+#include "proxy/solids/closed_check.h"
+#include "tests/proxy/map_scene.h"
+#include "tests/proxy/scene.h"
+
+namespace stucco {
+namespace {
+
+using testing::Captured;
+using testing::MapEntry;
+using testing::Rectangle;
+
+// What a scan from above shows: no walls, no photos, no normals.
+Captured Scanned(const std::vector<testing::House>& houses, double spacing) {
+  testing::CaptureOptions options{.spacing = spacing, .noise = 0.02};
+  options.hide = {"wall", "gable", "south", "north", "east", "west"};
+  Captured captured = testing::Capture(houses, {testing::GroundSquare(25)}, options);
+  captured.photos.clear();
+  captured.cloud.views.clear();
+  captured.cloud.normals.clear();
+  return captured;
+}
+
+struct Made {
+  PlanarModel model;
+  ProxyFindings findings;
+};
+
+Made Make(const Captured& captured, const std::vector<MapEntry>& map) {
+  Made made;
+  Georef georef = testing::MapGeoref();
+  georef.source = "file";
+  ProxyInput input = testing::InputOf(captured, georef);
+  input.plan = testing::PlanOf(map);
+  made.model = ModelCloud(input, {}, 2, made.findings);
+  return made;
+}
+
+TEST(MapScan, ARoofAloneBecomesAClosedHouseOnItsFootprint) {
+  const Captured captured = Scanned({testing::GableHouse()}, 0.3);
+  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 3}});
+  const Building* house = testing::Find(made.model.proxy, "B0001");
+  ASSERT_NE(house, nullptr);
+  EXPECT_EQ(made.model.details.at("B0001"), "full");
+  EXPECT_EQ(FindOpening(house->facets), std::nullopt);
+  ASSERT_EQ(house->facets.size(), 7u);
+  EXPECT_NEAR(testing::VolumeOf(*house), 744, 10);
+  for (const Facet& facet : house->facets) {
+    if (facet.facet_class == FacetClass::kWall) {
+      EXPECT_EQ(facet.seen, 0);
+      EXPECT_EQ(facet.inferred, 1);
+      EXPECT_EQ(facet.source, "footprint");
+      EXPECT_EQ(std::abs(facet.normal.z()), 0);
+    } else if (facet.facet_class == FacetClass::kRoof) {
+      EXPECT_GT(facet.seen, 0.8);
+    }
+  }
+}
+
+TEST(MapScan, UpIsTheCoordinateSystems) {
+  // A single lean-to: its slope is no reason to tilt the world.
+  testing::House shed;
+  shed.polygons = {{"roof", {{-6, -4, 4}, {6, -4, 4}, {6, 4, 4.4}, {-6, 4, 4.4}}}};
+  const Made made = Make(Scanned({shed}, 0.25), {{"B0001", {Rectangle(-6, -4, 6, 4)}, 3}});
+  EXPECT_EQ(made.model.proxy.up, Eigen::Vector3d::UnitZ());
+}
+
+TEST(MapScan, AMapOfAnotherPlaceIsRefused) {
+  const Captured captured = Scanned({testing::GableHouse()}, 0.3);
+  const std::vector<MapEntry> map = {{"B0001", {Rectangle(-6, -4, 6, 4)}, 3}};
+  const Made made = Make(captured, testing::Displaced(map, 0, {10, 10}));
+  EXPECT_EQ(testing::Find(made.model.proxy, "B0001"), nullptr);
+  EXPECT_TRUE(std::ranges::any_of(made.findings.warnings, [](const std::string& warning) {
+    return warning.find("map gives no shape") != std::string::npos;
+  }));
+}
+
+TEST(MapScan, NormalsWithoutPhotosPointUp) {
+  const Captured captured = Scanned({testing::GableHouse()}, 0.3);
+  Samples samples = ThinCloud(StreamOf(captured.cloud), {}, 100000, 0);
+  const GridIndex index(samples.positions, 0.9);
+  SmoothNormals(samples, index, 0.9, 1);
+  const auto up = std::ranges::count_if(samples.normals, [](const auto& n) { return n.z() > 0.5; });
+  EXPECT_GT(static_cast<double>(up), 0.98 * static_cast<double>(samples.size()));
+}
+
+}  // namespace
+}  // namespace stucco
