@@ -48,15 +48,16 @@ std::array<int, 3> At(const Image& image, int x, int y) {
 }
 
 TEST(CandidateSheet, ShowsWhatStandsBeforeAFacetAndWhatIsBeyond) {
-  const std::vector<SurveyPhoto> photos = {testing::LookFrom("a.jpg", {0, -5, 0}, {0, 0, 0}, {40, 30, 50}),
-                                           testing::LookFrom("b.jpg", {1, -5, 0}, {0, 0, 0}, {40, 30, 50})};
+  const std::vector<SurveyPhoto> photos = {
+      testing::LookFrom("a.jpg", {0, -5, 0}, {0, 0, 0}, {40, 30, 50}),
+      testing::LookFrom("b.jpg", {1, -5, 0}, {0, 0, 0}, {40, 30, 50})};
   const Image sheet = CandidateSheet(MadeRecord(), photos);
   // Cells of 316 x 334 pixels; pictures of 300 x 200 that begin at (8, 8).
   ASSERT_EQ(sheet.width_px, 4 * 316);
   ASSERT_EQ(sheet.height_px, 334);
   EXPECT_EQ(At(sheet, 150, 150), (std::array{100, 100, 100}));
-  EXPECT_GT(At(sheet, 150, 10)[2], At(sheet, 150, 10)[0] + 50);          // beyond
-  EXPECT_GT(At(sheet, 316 + 60, 100)[0], At(sheet, 316 + 60, 100)[1]);   // behind
+  EXPECT_GT(At(sheet, 150, 10)[2], At(sheet, 150, 10)[0] + 50);         // beyond
+  EXPECT_GT(At(sheet, 316 + 60, 100)[0], At(sheet, 316 + 60, 100)[1]);  // behind
   EXPECT_EQ(At(sheet, 316 + 250, 100), (std::array{200, 200, 200}));
   EXPECT_EQ(At(sheet, 2 * 316 + 100, 100), (std::array{255, 255, 255}));  // no third candidate
 }
@@ -79,8 +80,8 @@ TEST(OwnerMap, GivesEachPhotoAColourAndDrawsTheSeam) {
 TEST(ReliefMap, TellsBeforeFromBehind) {
   PaintedFacet painted;
   EXPECT_TRUE(ReliefMap(painted).data.empty());
-  painted.grid.relief = std::make_shared<Relief>(
-      Relief{0.1, 4, 2, 0.05, 0.6, {0, 0.6f, 0.3f, -0.6f, 0, 0, 0, 0}});
+  painted.grid.relief =
+      std::make_shared<Relief>(Relief{0.1, 4, 2, 0.05, 0.6, {0, 0.6f, 0.3f, -0.6f, 0, 0, 0, 0}});
   const Image map = ReliefMap(painted);
   ASSERT_EQ(map.width_px, 1600);
   EXPECT_EQ(At(map, 200, 200), (std::array{255, 255, 255}));

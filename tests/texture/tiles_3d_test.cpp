@@ -18,6 +18,7 @@
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/image.h"
+#include "tests/texture/khronos.h"
 #include "tests/texture/synthetic.h"
 #include "texture/output/tile_tree.h"
 
@@ -192,6 +193,16 @@ TEST_F(Street, EveryTileShowsEachWallItsOwnPicture) {
         EXPECT_NEAR(atlas.Pixel(x, y)[0], shades[id], 3) << content << " " << id;
       }
     }
+  }
+}
+
+TEST_F(Street, KhronosValidatorFindsNothingInTheTiles) {
+  Write();
+  for (const auto& entry : fs::recursive_directory_iterator(out_)) {
+    if (entry.path().extension() != ".glb") continue;
+    const auto findings = testing::KhronosFindings(entry.path());
+    if (!findings) GTEST_SKIP() << "the Khronos validator is not installed";
+    EXPECT_EQ(*findings, "") << entry.path();
   }
 }
 

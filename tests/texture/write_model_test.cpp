@@ -14,6 +14,7 @@
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/image.h"
+#include "tests/texture/khronos.h"
 #include "tests/texture/synthetic.h"
 #include "texture/output/orthophoto.h"
 
@@ -151,6 +152,13 @@ TEST_F(Model, GlbIsValidAndEmbedsItsPictures) {
         material.contains("extensions") && material["extensions"].contains("KHR_materials_unlit");
   }
   EXPECT_EQ(unlit, gltf["materials"].size());
+}
+
+TEST_F(Model, KhronosValidatorFindsNothingInTheGlb) {
+  WriteGlb(proxy_, textures_, folder_.path(), {4096, 90});
+  const auto findings = testing::KhronosFindings(folder_.path() / "model.glb");
+  if (!findings) GTEST_SKIP() << "the Khronos validator is not installed";
+  EXPECT_EQ(*findings, "");
 }
 
 TEST_F(Model, GlbReadsBackYUpWithTextureCoordinates) {

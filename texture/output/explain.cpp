@@ -146,8 +146,8 @@ Image BeforeAndAfterLight(const PaintRecord& record, const PaintedFacet& painted
   const cv::Mat before = Fitted(Wrap(record.unlit), side);
   const cv::Mat after = Fitted(Wrap(painted.picture), side);
   cv::Mat both;
-  cv::hconcat(std::vector<cv::Mat>{before, cv::Mat(before.rows, kMargin_px, CV_8UC3, kPaper), after},
-              both);
+  cv::hconcat(
+      std::vector<cv::Mat>{before, cv::Mat(before.rows, kMargin_px, CV_8UC3, kPaper), after}, both);
   return ToImage(both);
 }
 

@@ -32,8 +32,8 @@ inline constexpr int kLightSide_px = 1200;
 // highest; its scale is written below. Empty where the facet has no relief.
 Image ReliefMap(const PaintedFacet& painted);
 
-// Writes these as candidates.jpg, owners.png, light.jpg and relief.png into `folder`, which is made.
-// Throws Error (kOutOfResource) when the disk is full.
+// Writes these as candidates.jpg, owners.png, light.jpg and relief.png into `folder`, which is
+// made. Throws Error (kOutOfResource) when the disk is full.
 void WriteExplanation(const PaintRecord& record, const PaintedFacet& painted,
                       std::span<const SurveyPhoto> photos, const std::filesystem::path& folder);
 
