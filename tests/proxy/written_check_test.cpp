@@ -66,17 +66,6 @@ TEST(FindFaultAsWritten, SeesWhatMillimetresPinchOff) {
               Optional(HasSubstr("in millimetres a ring passes a corner twice")));
 }
 
-TEST(FindFaultAsWritten, SeesWhatSinglePrecisionPinchesOff) {
-  // A thousand kilometres from the origin floats are 6 cm apart.
-  const double x = 1e6;
-  const auto neck =
-      Prism({{x, 0}, {x + 4, 2}, {x + 8, 0}, {x + 8, 5}, {x + 4.0, 2.01}, {x, 5}}, 0, 4);
-  EXPECT_EQ(FindFaultAsWritten(neck, kLevel), std::nullopt);
-  // Along the axes x is whole and y near; turned, neither is.
-  const Eigen::Matrix3d turned = Eigen::AngleAxisd(0.8, Vector3d::UnitZ()).toRotationMatrix();
-  EXPECT_THAT(FindFaultAsWritten(neck, turned), Optional(HasSubstr("in single precision")));
-}
-
 TEST(FindFault, SeesABentFacet) {
   auto box = Prism({{0, 0}, {8, 0}, {8, 5}, {0, 5}}, 0, 4);
   for (Facet& facet : box) {
