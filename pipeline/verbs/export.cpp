@@ -135,12 +135,12 @@ const std::vector<ExportFormat>& ExportFormats() {
       {"colmap-bin", "folder with cameras.bin, images.bin, points3D.bin", "calib"},
       {"blocksexchange", "file: BlocksExchange XML 2.1 with poses, lenses and tie points", "calib"},
       {"nerfstudio", "folder with transforms.json and sparse_pc.ply", "calib"},
-      {"cityjson", "file: the planar model as CityJSON 2.0; with --crs in that system", "proxy"},
       {"obj", "folder with model.obj, its .mtl and its textures", "texture"},
       {"glb", "file: textured model as binary glTF", "texture"},
       {"3dtiles", "folder with tileset.json: textured model as 3D Tiles 1.1, with levels of detail",
        "texture"},
-      {"ply", "file: dense point cloud", "dense"}};
+      {"ply", "file: dense point cloud", "dense"},
+      {"cityjson", "file: the planar model as CityJSON 2.0; with --crs in that system", "proxy"}};
   return formats;
 }
 

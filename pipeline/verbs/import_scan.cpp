@@ -90,12 +90,17 @@ void MoveCloud(const ScanRequest& request, const std::string& crs, double metres
   in_map.reserve(cloud.size());
   for (const Eigen::Vector3d& p : cloud.positions) in_map.emplace_back(p.head<2>());
   const std::vector<Geodetic> places = GeodeticFromCrs(crs, in_map, request.cloud.string());
+  const bool degrees = IsCrsGeographic(crs);
   for (size_t i = 0; i < cloud.size(); ++i) {
     Eigen::Vector3d& p = cloud.positions[i];
     const Eigen::Vector3d in_file = p;
     p = EnuFromGeodetic(georef, places[i].latitude_deg, places[i].longitude_deg,
                         in_file.z() * metres_per_unit);
-    if (p.allFinite()) continue;
+    // Metres that were taken for degrees become some place, too.
+    if (p.allFinite() && std::abs(places[i].latitude_deg) <= 90 &&
+        (!degrees || std::abs(in_file.y()) <= 90)) {
+      continue;
+    }
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: point {} at ({:.0f}, {:.0f}) has no place in {}",
                             request.cloud.string(), i, in_file.x(), in_file.y(), crs),

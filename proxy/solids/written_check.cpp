@@ -11,16 +11,14 @@
 #include <utility>
 
 #include "proxy/solids/closed_check.h"
-#include "survey/triangulate.h"
 
 namespace stucco {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr double kWritten_m = 0.001;       // proxy/output/cityjson
-constexpr double kPlanar_m = 0.01;         // val3dity's planarity_d2p_tol
-constexpr double kCosOfDeviation = 0.939;  // 20 degrees: its planarity_n_tol
+constexpr double kWritten_m = 0.001;  // proxy/output/cityjson
+constexpr double kPlanar_m = 0.01;    // val3dity's planarity_d2p_tol
 
 // Moves every corner by `move`; what falls together becomes one.
 template <typename Move>
@@ -52,17 +50,6 @@ bool IsFlat(const Facet& facet, const Points& ring) {
   });
 }
 
-// A sliver that rounding turned away from its facet.
-bool HasTurnedTriangle(const Facet& facet) {
-  const FacetTriangles shape = TriangulateFacet(facet);
-  return std::ranges::any_of(shape.triangles, [&](const auto& t) {
-    const Eigen::Vector3d& a = shape.vertices[t[0]];
-    const Eigen::Vector3d normal =
-        (shape.vertices[t[1]] - a).cross(shape.vertices[t[2]] - a).normalized();
-    return !(normal.dot(facet.normal) >= kCosOfDeviation);
-  });
-}
-
 std::optional<std::string> FindRingFault(const Facet& facet, const Points& ring) {
   if (PassesTwice(ring)) return "a ring passes a corner twice";
   if (!IsFlat(facet, ring)) return "a facet is not planar";
@@ -82,7 +69,6 @@ std::optional<std::string> FindFault(const std::vector<Facet>& facets) {
     for (const Points& hole : facet.holes) {
       if (auto fault = FindRingFault(facet, hole)) return fault;
     }
-    if (HasTurnedTriangle(facet)) return "a facet has a triangle that is turned away from it";
   }
   return FindOpening(facets);
 }

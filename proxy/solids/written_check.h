@@ -13,9 +13,9 @@ namespace stucco {
 
 // Why facets do not bound a solid by the rules of val3dity (Ledoux, "val3dity: validation of 3D GIS
 // primitives according to the international standards", 2018), or nothing: no ring passes a corner
-// twice, corners lie within a centimetre of their facet's plane and the triangles of a facet within
-// 20 degrees of it, and the surface is closed, 2-manifold, outward and does not cross itself
-// (closed_check.h). Metres.
+// twice, corners lie within a centimetre of their facet's plane, and the surface is closed,
+// 2-manifold, outward and does not cross itself (closed_check.h). Slivers that rounding turned away
+// from their facet are let pass (its rule 204). Metres.
 std::optional<std::string> FindFault(const std::vector<Facet>& facets);
 
 // The same facets with corners rounded to multiples of `step` (metres, above 0). As in files,

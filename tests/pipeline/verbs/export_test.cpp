@@ -131,9 +131,9 @@ TEST_F(ExportTest, CityJsonLiesWhereItsSystemSays) {
   Write("proxy/proxy.city.json", text);
   Export("cityjson");
   EXPECT_EQ(ReadFile(out), text);
-  ExportSurvey(fake.survey, {"cityjson", out, true, "EPSG:2056"}, fake.table);
+  ExportSurvey(fake.survey, {"cityjson", out, true, "EPSG:25832"}, fake.table);
   const auto city = nlohmann::json::parse(ReadFile(out));
-  EXPECT_EQ(city["metadata"]["referenceSystem"], "https://www.opengis.net/def/crs/EPSG/0/2056");
+  EXPECT_EQ(city["metadata"]["referenceSystem"], "https://www.opengis.net/def/crs/EPSG/0/25832");
   EXPECT_EQ(city["CityObjects"]["B1"]["attributes"]["detail"], "full");
   // (11.5, 17.5, 30.001) of the file is (11.5, -30.001, 17.5) of the survey.
   Eigen::Vector3d corner;
@@ -142,7 +142,7 @@ TEST_F(ExportTest, CityJsonLiesWhereItsSystemSays) {
                 city["transform"]["translate"][i].get<double>();
   }
   const std::vector<Eigen::Vector2d> in_map = {corner.head<2>()};
-  const Geodetic place = GeodeticFromCrs("EPSG:2056", in_map, "test").front();
+  const Geodetic place = GeodeticFromCrs("EPSG:25832", in_map, "test").front();
   const Eigen::Vector3d back =
       EnuFromGeodetic(georef, place.latitude_deg, place.longitude_deg, corner.z());
   EXPECT_LT((back - Eigen::Vector3d(11.5, -30.001, 17.5)).norm(), 2e-4);
