@@ -59,7 +59,7 @@ class Cover {
   // The stop on top, if it is worth what the queue says; else puts it back.
   bool IsBest(const Queued& top);
   void LookFromNext();
-  void Take(uint32_t stop);
+  void Take(uint32_t number);
 
   LinkedPhotos& photos_;
   std::vector<CoverStop> stops_;
