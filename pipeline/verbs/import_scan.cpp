@@ -141,19 +141,25 @@ void PublishPlan(const fs::path& survey, const ScanRequest& request, const Plan&
   }
 }
 
+struct Scan {
+  fs::path file;
+  PointCloud cloud;  // in the frame of `georef`
+  Georef georef;
+};
+
 // All that the stages before proxy would have made, of no photo.
-void PublishStages(const fs::path& survey, const ScanRequest& request, const PointCloud& cloud,
-                   const Georef& georef, const Platform& platform,
+void PublishStages(const fs::path& survey, const Scan& scan, const Platform& platform,
                    std::vector<std::string>& notes) {
-  const auto publish = [&](const std::string& stage, const fs::path& source, const auto& write) {
-    for (std::string& note : PublishImport(survey, stage, source, platform, write)) {
+  const auto& [file, cloud, georef] = scan;
+  const auto publish = [&](const std::string& stage, const auto& write) {
+    for (std::string& note : PublishImport(survey, stage, file, platform, write)) {
       if (std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
     }
   };
-  publish("ingest", request.cloud, [&](const fs::path& out) {
+  publish("ingest", [&](const fs::path& out) {
     WriteCaptures({}, out / fs::path(kCapturesFile).filename());
   });
-  publish("calib", request.cloud, [&](const fs::path& out) {
+  publish("calib", [&](const fs::path& out) {
     WriteColmapBinary({}, out / "sparse/0");
     WriteColmapText({}, out / "sparse/0");
     WriteGeoref(georef, out / fs::path(kGeorefFile).filename());
@@ -161,7 +167,7 @@ void PublishStages(const fs::path& survey, const ScanRequest& request, const Poi
     calibration.findings.push_back("no photos: a scan with a map was imported");
     WriteCalibration(calibration, out / fs::path(kCalibrationFile).filename());
   });
-  publish("dense", request.cloud,
+  publish("dense",
           [&](const fs::path& out) { WritePly(cloud, out / fs::path(kCloudFile).filename()); });
 }
 
@@ -187,15 +193,15 @@ ScanImportReport ImportScan(const fs::path& survey, const ScanRequest& request,
   const std::string crs = CloudCrs(request);
   RequireNoPhotos(survey, table);
   const Plan plan = ReadMapAsPlan(request);
-  PointCloud cloud = ReadScan(request.cloud);
+  Scan scan{request.cloud, ReadScan(request.cloud), {}};
   const CrsUnits units = UnitsOfCrs(crs);
   const double metres_per_unit = units.vertical_m.value_or(units.horizontal_m);
-  const Georef georef = FrameOf(plan, cloud, metres_per_unit);
-  MoveCloud(request, crs, metres_per_unit, georef, cloud);
+  scan.georef = FrameOf(plan, scan.cloud, metres_per_unit);
+  MoveCloud(request, crs, metres_per_unit, scan.georef, scan.cloud);
   ScanImportReport report;
-  report.points = cloud.size();
+  report.points = scan.cloud.size();
   report.buildings = plan.footprints.size();
-  report.reached = BuildingsInCloud(plan, georef, cloud);
+  report.reached = BuildingsInCloud(plan, scan.georef, scan.cloud);
   if (report.reached == 0) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: none of the {} footprints of {} lies in the cloud",
@@ -209,7 +215,7 @@ ScanImportReport ImportScan(const fs::path& survey, const ScanRequest& request,
   }
   InitWaitingSurvey(survey, table);
   PublishPlan(survey, request, plan, platform, report.notes);
-  PublishStages(survey, request, cloud, georef, platform, report.notes);
+  PublishStages(survey, scan, platform, report.notes);
   return report;
 }
 

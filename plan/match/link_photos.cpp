@@ -9,7 +9,6 @@
 #include "plan/match/facade_cover.h"
 #include "plan/match/link_candidates.h"
 #include "plan/match/linked_photos.h"
-#include "plan/match/needless_links.h"
 #include "survey/error.h"
 #include "survey/parallel.h"
 
@@ -194,7 +193,6 @@ LinkReport AddLinkPhotos(const MatchSetting& setting, const Obstacles& obstacles
   Linker linker(obstacles, photos, progress);
   linker.ServeLonePhotos();
   linker.TieParts();
-  DropLinks(NeedlessLinks(photos), photos, hovers);
   progress.Advance();
   return ReportOf(hovers);
 }

@@ -26,9 +26,8 @@ struct LinkReport {
 
 // The same for all hovers of a plan, with links or without; besides, links for whatever lacks
 // partners (plan/match/ties.h), and between parts of the graph that hang together by one pair or
-// not at all, one by one, each time the one that serves most for what it costs. Then links that
-// nothing lacks go, and hovers that nothing is left of. Same result at any number of threads.
-// Throws Error (kInterrupted).
+// not at all, one by one, each time the one that serves most for what it costs. Same result at any
+// number of threads. Throws Error (kInterrupted).
 LinkReport AddLinkPhotos(const MatchSetting& setting, const Obstacles& obstacles,
                          std::vector<Hover>& hovers, Progress& progress);
 
