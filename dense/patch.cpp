@@ -179,9 +179,10 @@ struct DerivativeSums {
 };
 
 template <typename Fetch>
-__attribute__((always_inline)) inline DerivativeSums SumDerivatives(
-    const Fetch& fetch, const ReferencePatch& patch, const PackedImage& source,
-    const PatchWarp& warp, const std::array<float, 3>& epipole) {
+__attribute__((always_inline)) inline DerivativeSums SumDerivatives(const Fetch& fetch,
+                                                                    const ReferencePatch& patch,
+                                                                    const PackedImage& source,
+                                                                    const PatchWarp& warp) {
   DerivativeSums sums;
   for (int i = 0; i < kPatchSamples; i += 8) {
     Floats dx, dy, weights, weighted;
@@ -190,8 +191,8 @@ __attribute__((always_inline)) inline DerivativeSums SumDerivatives(
     Load(patch.weights + i, weights);
     Load(patch.weighted + i, weighted);
     const Sampled at = Sample(fetch, source, warp, dx, dy);
-    const Floats d = (at.to_right * (epipole[0] - at.u * epipole[2]) +
-                      at.to_down * (epipole[1] - at.v * epipole[2])) *
+    const Floats d = (at.to_right * (warp.nearer[0] - at.u * warp.nearer[2]) +
+                      at.to_down * (warp.nearer[1] - at.v * warp.nearer[2])) *
                      at.inverse_z;
     const Floats by[3] = {d, d * dx, d * dy};
     const Floats weighted_value = weights * at.value;
@@ -213,11 +214,12 @@ __attribute__((always_inline)) inline DerivativeSums SumDerivatives(
 }
 
 template <typename Fetch>
-__attribute__((always_inline)) inline void AddStepBy(
-    const Fetch& fetch, const ReferencePatch& patch, const PackedImage& source,
-    const PatchWarp& warp, const std::array<float, 3>& epipole, StepSums& sums) {
+__attribute__((always_inline)) inline void AddStepBy(const Fetch& fetch,
+                                                     const ReferencePatch& patch,
+                                                     const PackedImage& source,
+                                                     const PatchWarp& warp, StepSums& sums) {
   if (patch.variance < kLeastVariance || !IsInside(warp, source)) return;
-  const DerivativeSums of = SumDerivatives(fetch, patch, source, warp, epipole);
+  const DerivativeSums of = SumDerivatives(fetch, patch, source, warp);
   const float mean = Sum(of.value);
   const float variance = Sum(of.value_square) - mean * mean;
   if (variance < kLeastVariance) return;
@@ -259,10 +261,8 @@ __attribute__((target("avx2"))) float CostByGathers(const ReferencePatch& patch,
 
 __attribute__((target("avx2"))) void AddStepByGathers(const ReferencePatch& patch,
                                                       const PackedImage& source,
-                                                      const PatchWarp& warp,
-                                                      const std::array<float, 3>& epipole,
-                                                      StepSums& sums) {
-  AddStepBy(Gathers(), patch, source, warp, epipole, sums);
+                                                      const PatchWarp& warp, StepSums& sums) {
+  AddStepBy(Gathers(), patch, source, warp, sums);
 }
 
 #endif
@@ -278,8 +278,8 @@ float CostByLoads(const ReferencePatch& patch, const PackedImage& source, const 
 }
 
 void AddStepByLoads(const ReferencePatch& patch, const PackedImage& source, const PatchWarp& warp,
-                    const std::array<float, 3>& epipole, StepSums& sums) {
-  AddStepBy(Loads(), patch, source, warp, epipole, sums);
+                    StepSums& sums) {
+  AddStepBy(Loads(), patch, source, warp, sums);
 }
 
 const PatchCode& Fastest() {
@@ -303,8 +303,8 @@ float PatchCost(const ReferencePatch& patch, const PackedImage& source, const Pa
 }
 
 void AddStep(const ReferencePatch& patch, const PackedImage& source, const PatchWarp& warp,
-             const std::array<float, 3>& epipole, StepSums& sums) {
-  Fastest().add_step(patch, source, warp, epipole, sums);
+             StepSums& sums) {
+  Fastest().add_step(patch, source, warp, sums);
 }
 
 }  // namespace stucco

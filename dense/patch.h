@@ -25,11 +25,13 @@ struct ReferencePatch {
 ReferencePatch MakeReferencePatch(const PackedImage& image, int x, int y);
 
 // Takes a pixel's surroundings into a source: the offset (dx, dy) from the pixel goes to the
-// homogeneous source pixel at + right * dx + down * dy.
+// homogeneous source pixel at + right * dx + down * dy, which moves by `nearer` as the plane's
+// inverse depth there grows by one (the epipole).
 struct PatchWarp {
   std::array<float, 3> at{};
   std::array<float, 3> right{};
   std::array<float, 3> down{};
+  std::array<float, 3> nearer{};
 };
 
 // 1 - weighted normalised cross-correlation between the reference patch and where the warp takes it
@@ -47,16 +49,14 @@ struct StepSums {
   std::array<float, 3> slope{};   // half the gradient of the squared residuals
 };
 
-// Adds a source's part; nothing where the cost would be kNoMatch. `epipole` is the source pixel,
-// homogeneous, that the warp moves towards as the inverse depth grows.
+// Adds a source's part; nothing where the cost would be kNoMatch.
 void AddStep(const ReferencePatch& patch, const PackedImage& source, const PatchWarp& warp,
-             const std::array<float, 3>& epipole, StepSums& sums);
+             StepSums& sums);
 
 // The code for the above that this processor can run, the fastest first. All give the same bits.
 struct PatchCode {
   float (*cost)(const ReferencePatch&, const PackedImage&, const PatchWarp&);
-  void (*add_step)(const ReferencePatch&, const PackedImage&, const PatchWarp&,
-                   const std::array<float, 3>& epipole, StepSums&);
+  void (*add_step)(const ReferencePatch&, const PackedImage&, const PatchWarp&, StepSums&);
 };
 std::vector<PatchCode> PatchCodes();
 

@@ -418,10 +418,8 @@ class LevelMatcher {
     StepSums sums;
     for (int i = 0; i < search.selection.count; ++i) {
       const int source = search.selection.sources[i];
-      const SourceGeometry& geometry = geometry_[source];
       AddStep(search.patch, input_.sources[source]->images[level_],
-              geometry.Warp(search.best, x, y),
-              {geometry.epipole.x(), geometry.epipole.y(), geometry.epipole.z()}, sums);
+              geometry_[source].Warp(search.best, x, y), sums);
     }
     Eigen::Matrix3f square;
     square << sums.square[0], sums.square[1], sums.square[2],  //

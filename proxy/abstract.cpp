@@ -85,6 +85,7 @@ std::vector<std::vector<Facet>> OpenFacets(const PlanarScene& scene, const Plane
 
 // A solid that is none in the files stays open.
 void RequireSoundAsWritten(const Eigen::Vector3d& up, Solid& solid) {
+  if (solid.facets.empty()) return;
   const Eigen::Matrix3d upright_from_world = UprightFromWorld(up);
   const auto fault =
       FindFaultAsWritten(Turned(solid.facets, upright_from_world), upright_from_world.transpose());
@@ -96,7 +97,7 @@ void RequireSoundAsWritten(const Eigen::Vector3d& up, Solid& solid) {
 // Closes each building where its planes and points allow it; empty solids otherwise.
 std::vector<Solid> CloseBuildings(const PlanarScene& scene, const PlaneTable& table,
                                   const std::vector<PlaneView>& views, const ProxyOptions& options,
-                                  bool metric, int threads) {
+                                  int threads) {
   std::vector<Solid> solids(scene.buildings.size());
   ParallelFor(solids.size(), threads, [&](size_t b) {
     std::vector<const PlaneView*> own;
@@ -105,14 +106,51 @@ std::vector<Solid> CloseBuildings(const PlanarScene& scene, const PlaneTable& ta
     }
     const Plane* ground = GroundBelow(scene.samples, scene.up, scene.ground, scene.buildings[b]);
     solids[b] = CloseOrExplain([&] {
-      Solid solid =
-          CloseBuilding(scene, own, ground,
-                        {.max_planes = options.max_planes, .least_support = options.solid_support});
-      if (metric && !solid.facets.empty()) RequireSoundAsWritten(scene.up, solid);
-      return solid;
+      return CloseBuilding(
+          scene, own, ground,
+          {.max_planes = options.max_planes, .least_support = options.solid_support});
     });
   });
   return solids;
+}
+
+// The ground last; facets that are open.
+std::vector<Building> OpenBuildings(const PlaneTable& table, size_t buildings,
+                                    std::vector<std::vector<Facet>> facets) {
+  std::vector<Building> open;
+  for (size_t b = 0; b < buildings; ++b) {
+    open.push_back({.id = ClusterId(b), .watertight = false, .source = "cloud", .facets = {}});
+  }
+  open.push_back({.id = "G0", .watertight = false, .source = "cloud", .facets = {}});
+  for (size_t p = 0; p < facets.size(); ++p) {
+    Building& building = table.building[p] < 0 ? open.back() : open[table.building[p]];
+    for (Facet& facet : facets[p]) building.facets.push_back(std::move(facet));
+  }
+  return open;
+}
+
+// Buildings take their solids, where they close. Beside the map's buildings stand trees: with
+// `mapped`, what does not close is none.
+void TakeSolids(std::vector<Solid> solids, bool mapped, std::vector<Building>& buildings,
+                ProxyFindings& findings) {
+  for (size_t b = 0; b < solids.size(); ++b) {
+    Building& building = buildings[b];
+    building.watertight = !solids[b].facets.empty();
+    if (building.watertight) {
+      building.facets = std::move(solids[b].facets);
+      findings.notes.push_back(fmt::format("{}: closed, points cover {:.0f} % of it", building.id,
+                                           100 * solids[b].support));
+      continue;
+    }
+    findings.notes.push_back(building.id + (mapped ? ": left out" : ": open facets") +
+                             ", because as a solid " + solids[b].why_not);
+    if (mapped) building.facets.clear();
+  }
+}
+
+bool GoesByMap(const ProxyInput& input, const ProxyOptions& options) {
+  return options.use_map && options.solids && input.plan && input.georef.metric &&
+         input.georef.frame == "enu";
 }
 
 }  // namespace
@@ -121,10 +159,7 @@ PlanarModel ModelCloud(const ProxyInput& input, const ProxyOptions& options, int
                        ProxyFindings& findings) {
   PlanarScene scene = UnderstandCloud(input, options, threads, findings);
   std::optional<MapModel> mapped;
-  if (options.use_map && options.solids && input.plan && input.georef.metric &&
-      input.georef.frame == "enu") {
-    mapped = BuildFromMap(scene, input, options, threads, findings);
-  }
+  if (GoesByMap(input, options)) mapped = BuildFromMap(scene, input, options, threads, findings);
   if (mapped) scene.buildings = OffTheMap(scene, mapped->outlines, findings);
   const PlaneTable table = TableOf(scene);
   const auto views =
@@ -134,32 +169,12 @@ PlanarModel ModelCloud(const ProxyInput& input, const ProxyOptions& options, int
   Proxy& proxy = model.proxy;
   proxy.up = scene.up;
   proxy.metric = input.georef.metric;
-  Building ground{.id = "G0", .watertight = false, .source = "cloud", .facets = {}};
-  for (size_t b = 0; b < scene.buildings.size(); ++b) {
-    proxy.buildings.push_back(
-        {.id = ClusterId(b), .watertight = false, .source = "cloud", .facets = {}});
-  }
-  for (size_t p = 0; p < facets.size(); ++p) {
-    Building& building = table.building[p] < 0 ? ground : proxy.buildings[table.building[p]];
-    for (Facet& facet : facets[p]) building.facets.push_back(std::move(facet));
-  }
-  proxy.buildings.push_back(std::move(ground));
+  proxy.buildings = OpenBuildings(table, scene.buildings.size(), std::move(facets));
   if (options.solids) {
-    auto solids = CloseBuildings(scene, table, views, options, input.georef.metric, threads);
-    for (size_t b = 0; b < solids.size(); ++b) {
-      Building& building = proxy.buildings[b];
-      building.watertight = !solids[b].facets.empty();
-      if (building.watertight) {
-        building.facets = std::move(solids[b].facets);
-        findings.notes.push_back(fmt::format("{}: closed, points cover {:.0f} % of it", building.id,
-                                             100 * solids[b].support));
-      } else {
-        findings.notes.push_back(building.id + (mapped ? ": left out" : ": open facets") +
-                                 ", because as a solid " + solids[b].why_not);
-        // Beside the map's buildings stand trees: what does not close is none.
-        if (mapped) building.facets.clear();
-      }
-    }
+    auto solids = CloseBuildings(scene, table, views, options, threads);
+    ParallelFor(proxy.metric ? solids.size() : 0, threads,
+                [&](size_t b) { RequireSoundAsWritten(scene.up, solids[b]); });
+    TakeSolids(std::move(solids), mapped.has_value(), proxy.buildings, findings);
   }
   if (mapped) {
     proxy.buildings.insert(proxy.buildings.begin(),

@@ -93,7 +93,7 @@ FacetFiles PaintNew(const Work& work, size_t i) {
     if (look.grid->relief) key.push_back(EncodeRelief(*look.grid->relief).png);
   }
   return UnpackFiles(ComputeUnit(work.context, "facet", HashParts(key), [&] {
-    PaintedFacet painted = PaintFacet(facet, look, work.gains, work.scene, work.options);
+    PaintedFacet painted = PaintFacet({facet, look, work.gains, work.scene, work.options});
     // What stands before the facet is not the facet, neither to be compared nor to be taken.
     for (size_t texel = 0; texel < painted.in_front.size(); ++texel) {
       if (painted.in_front[texel]) painted.labels[texel] = 255;

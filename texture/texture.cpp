@@ -57,7 +57,7 @@ std::vector<TexturedFacet> PaintAll(const Painting& painting, const TextureInput
     context.ThrowIfCancelled();
     const std::string key = FilesKey(*facets[i], painting.looks[i], input, painting.gains, options);
     const auto paint = [&](PaintRecord* record) {
-      return PaintFacet(*facets[i], painting.looks[i], painting.gains, scene, options, record);
+      return PaintFacet({*facets[i], painting.looks[i], painting.gains, scene, options}, record);
     };
     FacetFiles files = UnpackFiles(ComputeUnit(context, "texture_facet", key, [&] {
       const PaintedFacet painted = paint(nullptr);

@@ -38,6 +38,7 @@ struct SourceGeometry {
       warp.down[row] = infinite(row, 1) + epipole[row] * plane.down;
       warp.at[row] = infinite(row, 0) * px + infinite(row, 1) * py + infinite(row, 2) +
                      epipole[row] * plane.inverse_depth;
+      warp.nearer[row] = epipole[row];
     }
     return warp;
   }

@@ -133,14 +133,15 @@ TEST(PatchCost, HasTheSameBitsWhateverTheProcessorCan) {
     const int x = 5 + k % 54;
     const int y = 5 + k * 7 % 54;
     const ReferencePatch patch = MakeReferencePatch(image, x, y);
-    const PatchWarp warp = WarpOf(h, x, y);
+    PatchWarp warp = WarpOf(h, x, y);
+    warp.nearer = {3, 1, 0.1f};
     const float cost = codes.back().cost(patch, image, warp);
     StepSums sums;
-    codes.back().add_step(patch, image, warp, {3, 1, 0.1f}, sums);
+    codes.back().add_step(patch, image, warp, sums);
     for (const PatchCode& code : codes) {
       EXPECT_EQ(code.cost(patch, image, warp), cost) << k;
       StepSums same;
-      code.add_step(patch, image, warp, {3, 1, 0.1f}, same);
+      code.add_step(patch, image, warp, same);
       EXPECT_EQ(same.square, sums.square) << k;
       EXPECT_EQ(same.slope, sums.slope) << k;
     }
@@ -163,14 +164,13 @@ TEST(AddStep, LeadsToTheTruePlane) {
   const auto smooth = [](double x, double y) { return Waves(0.4 * x, 0.4 * y); };
   const PackedImage reference = Make([&](double x, double y) { return 64 + smooth(x, y) / 2; });
   const PackedImage source = Make([&](double x, double y) { return smooth(x + 1, y); });
-  constexpr std::array<float, 3> kEpipole = {3, 0, 0};
   for (const auto& [shift, right, down] :
        {std::array{0.1f, 0.0f, 0.0f}, std::array{-0.08f, 0.0f, 0.0f}, std::array{0.0f, 0.01f, 0.0f},
         std::array{0.03f, -0.006f, 0.008f}}) {
     const std::array<float, 3> plane = {-1.0f / 3 + shift, right, down};
-    PatchWarp warp{{30 + 3 * plane[0], 30, 1}, {1 + 3 * right, 0, 0}, {3 * down, 1, 0}};
+    PatchWarp warp{{30 + 3 * plane[0], 30, 1}, {1 + 3 * right, 0, 0}, {3 * down, 1, 0}, {3, 0, 0}};
     StepSums sums;
-    AddStep(MakeReferencePatch(reference, 30, 30), source, warp, kEpipole, sums);
+    AddStep(MakeReferencePatch(reference, 30, 30), source, warp, sums);
     Eigen::Matrix3d square;
     square << sums.square[0], sums.square[1], sums.square[2], sums.square[1], sums.square[3],
         sums.square[4], sums.square[2], sums.square[4], sums.square[5];
@@ -188,8 +188,8 @@ TEST(AddStep, AddsNothingWhereNothingMatches) {
   const ReferencePatch patch = MakeReferencePatch(image, 30, 30);
   const float outside[9] = {1, 0, 40, 0, 1, 0, 0, 0, 1};
   StepSums sums;
-  AddStep(patch, flat, WarpOf(kIdentity, 30, 30), {1, 0, 0}, sums);
-  AddStep(patch, image, WarpOf(outside, 30, 30), {1, 0, 0}, sums);
+  AddStep(patch, flat, WarpOf(kIdentity, 30, 30), sums);
+  AddStep(patch, image, WarpOf(outside, 30, 30), sums);
   EXPECT_EQ(sums.square, StepSums().square);
   EXPECT_EQ(sums.slope, StepSums().slope);
 }

@@ -42,6 +42,7 @@ std::pair<std::vector<TiledFacet>, std::vector<TiledFacet>> Halve(
   const auto key_of = [&](size_t i) { return several ? facets[i].building : static_cast<int>(i); };
   for (size_t i = 0; i < facets.size(); ++i) boxes[key_of(i)].extend(BoxOf(facets[i]));
   std::vector<int> keys;
+  keys.reserve(boxes.size());
   for (const auto& [key, box] : boxes) keys.push_back(key);
   SortAlong(boxes, keys);
   keys.resize(keys.size() / 2);

@@ -37,15 +37,6 @@ constexpr int kPatchFillSide = 512;
 constexpr double kMostPatchFilled = 0.5;  // of the facet: beyond, copies would be invention
 constexpr uint32_t kFillSeed = 20260101;
 
-// What is to be painted from what.
-struct PaintJob {
-  const Facet& facet;
-  const FacetLook& look;
-  std::span<const Eigen::Vector3d> gains;  // by photo of the survey
-  const PaintScene& scene;
-  const TextureOptions& options;
-};
-
 struct Selected {
   FacetRaster raster;
   std::vector<RasterView> views;  // of the used photos, most painted first
@@ -332,9 +323,8 @@ uint64_t PaintingBytes(const Facet& facet, const FacetLook& look, const PaintSce
                                kBytesPerPhotoPixel * photo_px);
 }
 
-PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
-                        std::span<const Eigen::Vector3d> gains, const PaintScene& scene,
-                        const TextureOptions& options, PaintRecord* record) {
+PaintedFacet PaintFacet(const PaintJob& job, PaintRecord* record) {
+  const auto& [facet, look, gains, scene, options] = job;
   PaintedFacet painted;
   if (look.candidates.empty()) return painted;
   painted.grid = GridToPaint(facet, look, scene.up, options);
@@ -347,14 +337,13 @@ PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
   }
 
   // 2. Which photo paints what.
-  const Selected selected = SelectPhotos({facet, look, gains, scene, options}, painted, record);
+  const Selected selected = SelectPhotos(job, painted, record);
   if (selected.views.empty()) return painted;
   for (const RasterView& view : selected.views) painted.photos.push_back(view.photo);
 
   // 3. Bring the chosen photos together on the facet's plane.
   std::vector<PhotoLayer> chosen = OpenChosen(selected, gains, scene);
   AlignChosen(selected, options, chosen, painted);
-
   if (record != nullptr) record->unlit = WithoutLight(painted, chosen, selected.ownership);
 
   // 4. Paint, and fill what nobody shows.

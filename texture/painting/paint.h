@@ -49,11 +49,18 @@ struct PaintRecord {
   Image unlit;                          // the picture without gains, seams as they fall
 };
 
-// Paints one facet with its candidates: selection, alignment, composition, filling, measures.
-// `gains` are per photo of the survey. No picture where no texel could be painted. `record`, where
-// one is given, is filled in; it changes nothing.
-PaintedFacet PaintFacet(const Facet& facet, const FacetLook& look,
-                        std::span<const Eigen::Vector3d> gains, const PaintScene& scene,
-                        const TextureOptions& options, PaintRecord* record = nullptr);
+// What is to be painted from what. Keeps references.
+struct PaintJob {
+  const Facet& facet;
+  const FacetLook& look;
+  std::span<const Eigen::Vector3d> gains;  // by photo of the survey
+  const PaintScene& scene;
+  const TextureOptions& options;
+};
+
+// Paints one facet with its candidates: selection, alignment, composition, filling, measures. No
+// picture where no texel could be painted. `record`, where one is given, is filled in; it changes
+// nothing.
+PaintedFacet PaintFacet(const PaintJob& job, PaintRecord* record = nullptr);
 
 }  // namespace stucco
