@@ -172,16 +172,16 @@ class CheckArchitectureTest(unittest.TestCase):
         self.assert_problem("proxy/a.h", "stucco::Scene", "calib/a.h")
 
     def test_folders_and_files_do_not_include_each_other_in_circles(self):
-        self.include("texture/internal/b.h", '"texture/c.h"')
-        self.include("texture/b.cpp", '"texture/internal/b.h"', '"texture/deep/d.h"')
-        self.include("texture/deep/d.cpp", '"texture/deep/d.h"', '"survey/e.h"')
-        self.include("tests/texture/deep/d_test.cpp", '"texture/b.h"')
+        self.include("dense/internal/b.h", '"dense/c.h"')
+        self.include("dense/b.cpp", '"dense/internal/b.h"', '"dense/deep/d.h"')
+        self.include("dense/deep/d.cpp", '"dense/deep/d.h"', '"survey/e.h"')
+        self.include("tests/dense/deep/d_test.cpp", '"dense/b.h"')
         self.assert_clean()
-        self.include("texture/c.cpp", '"texture/b.h"')
-        self.assert_problem("files that include each other in a circle: texture/b, texture/c")
-        self.include("texture/c.cpp", '"texture/c.h"')
-        self.include("texture/deep/internal/f.h", '"texture/c.h"')
-        self.assert_problem("folders that include each other in a circle: texture, texture/deep")
+        self.include("dense/c.cpp", '"dense/b.h"')
+        self.assert_problem("files that include each other in a circle: dense/b, dense/c")
+        self.include("dense/c.cpp", '"dense/c.h"')
+        self.include("dense/deep/internal/f.h", '"dense/c.h"')
+        self.assert_problem("folders that include each other in a circle: dense, dense/deep")
 
     def write_module(self, module, headers):
         (self.root / module).mkdir(exist_ok=True)
