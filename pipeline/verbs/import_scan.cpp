@@ -150,9 +150,8 @@ struct Scan {
 // All that the stages before proxy would have made, of no photo.
 void PublishStages(const fs::path& survey, const Scan& scan, const Platform& platform,
                    std::vector<std::string>& notes) {
-  const auto& [file, cloud, georef] = scan;
   const auto publish = [&](const std::string& stage, const auto& write) {
-    for (std::string& note : PublishImport(survey, stage, file, platform, write)) {
+    for (std::string& note : PublishImport(survey, stage, scan.file, platform, write)) {
       if (std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
     }
   };
@@ -162,13 +161,14 @@ void PublishStages(const fs::path& survey, const Scan& scan, const Platform& pla
   publish("calib", [&](const fs::path& out) {
     WriteColmapBinary({}, out / "sparse/0");
     WriteColmapText({}, out / "sparse/0");
-    WriteGeoref(georef, out / fs::path(kGeorefFile).filename());
+    WriteGeoref(scan.georef, out / fs::path(kGeorefFile).filename());
     Calibration calibration;
     calibration.findings.push_back("no photos: a scan with a map was imported");
     WriteCalibration(calibration, out / fs::path(kCalibrationFile).filename());
   });
-  publish("dense",
-          [&](const fs::path& out) { WritePly(cloud, out / fs::path(kCloudFile).filename()); });
+  publish("dense", [&](const fs::path& out) {
+    WritePly(scan.cloud, out / fs::path(kCloudFile).filename());
+  });
 }
 
 PointCloud ReadScan(const fs::path& path) {
