@@ -138,8 +138,19 @@ __attribute__((always_inline)) inline float Sum(const Floats& of) {
   return sum;
 }
 
-__attribute__((always_inline)) inline void Load(const float* from, Floats& to) {
-  std::memcpy(&to, from, sizeof to);
+// Eight samples of the window and what the reference weighs them with.
+struct Lanes {
+  Floats dx, dy;
+  Floats weights, weighted;
+};
+
+__attribute__((always_inline)) inline Lanes LanesAt(const ReferencePatch& patch, int first) {
+  Lanes lanes;
+  std::memcpy(&lanes.dx, kOffsets.x + first, sizeof lanes.dx);
+  std::memcpy(&lanes.dy, kOffsets.y + first, sizeof lanes.dy);
+  std::memcpy(&lanes.weights, patch.weights + first, sizeof lanes.weights);
+  std::memcpy(&lanes.weighted, patch.weighted + first, sizeof lanes.weighted);
+  return lanes;
 }
 
 // Both of the following take a way to fetch the words at eight places. They are inlined into what
@@ -154,11 +165,7 @@ __attribute__((always_inline)) inline float CostBy(const Fetch& fetch, const Ref
   Floats squares = {};
   Floats product = {};
   for (int i = 0; i < kPatchSamples; i += 8) {
-    Floats dx, dy, weights, weighted;
-    Load(kOffsets.x + i, dx);
-    Load(kOffsets.y + i, dy);
-    Load(patch.weights + i, weights);
-    Load(patch.weighted + i, weighted);
+    const auto [dx, dy, weights, weighted] = LanesAt(patch, i);
     const Sampled at = Sample(fetch, source, warp, dx, dy);
     sum += weights * at.value;
     squares += weights * at.value * at.value;
@@ -185,11 +192,7 @@ __attribute__((always_inline)) inline DerivativeSums SumDerivatives(const Fetch&
                                                                     const PatchWarp& warp) {
   DerivativeSums sums;
   for (int i = 0; i < kPatchSamples; i += 8) {
-    Floats dx, dy, weights, weighted;
-    Load(kOffsets.x + i, dx);
-    Load(kOffsets.y + i, dy);
-    Load(patch.weights + i, weights);
-    Load(patch.weighted + i, weighted);
+    const auto [dx, dy, weights, weighted] = LanesAt(patch, i);
     const Sampled at = Sample(fetch, source, warp, dx, dy);
     const Floats d = (at.to_right * (warp.nearer[0] - at.u * warp.nearer[2]) +
                       at.to_down * (warp.nearer[1] - at.v * warp.nearer[2])) *
