@@ -155,8 +155,8 @@ bool GoesByMap(const ProxyInput& input, const ProxyOptions& options) {
 
 }  // namespace
 
-PlanarModel ModelCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
-                       ProxyFindings& findings) {
+PlanarModel AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
+                          ProxyFindings& findings) {
   PlanarScene scene = UnderstandCloud(input, options, threads, findings);
   std::optional<MapModel> mapped;
   if (GoesByMap(input, options)) mapped = BuildFromMap(scene, input, options, threads, findings);
@@ -192,11 +192,6 @@ PlanarModel ModelCloud(const ProxyInput& input, const ProxyOptions& options, int
     building.source == "map" ? AssignIdsByPlace(building) : AssignIds(building);
   }
   return model;
-}
-
-Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
-                    ProxyFindings& findings) {
-  return ModelCloud(input, options, threads, findings).proxy;
 }
 
 }  // namespace stucco

@@ -21,11 +21,7 @@ struct PlanarModel {
 // The planar model of what the cloud shows: every building closed where its planes close and agree
 // with the points, else its seen facets, open; the ground apart as "G0". Throws Error
 // (kStageFailed) when the cloud shows no plane.
-PlanarModel ModelCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
-                       ProxyFindings& findings);
-
-// The same without details.
-Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
-                    ProxyFindings& findings);
+PlanarModel AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
+                          ProxyFindings& findings);
 
 }  // namespace stucco

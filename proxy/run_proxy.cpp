@@ -67,7 +67,7 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
     findings.notes.push_back(fmt::format("run.memory_limit_gb allows {} points of max_points {}",
                                          affordable.max_points, options.max_points));
   }
-  auto [proxy, details] = ModelCloud(input, affordable, context.threads, findings);
+  auto [proxy, details] = AbstractCloud(input, affordable, context.threads, findings);
   for (const auto& note : findings.notes) progress.Note(note);
   for (const auto& warning : findings.warnings) progress.Warn(warning);
   context.ThrowIfCancelled();

@@ -39,7 +39,7 @@ Made Make(const Captured& captured, const std::vector<MapEntry>& map) {
   georef.source = "file";
   ProxyInput input = testing::InputOf(captured, georef);
   input.plan = testing::PlanOf(map);
-  made.model = ModelCloud(input, {}, 2, made.findings);
+  made.model = AbstractCloud(input, {}, 2, made.findings);
   return made;
 }
 

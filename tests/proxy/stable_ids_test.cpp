@@ -94,7 +94,7 @@ std::map<std::string, Vector3d> Places(uint64_t seed) {
   input.plan =
       testing::PlanOf({{"B0001", {{{-8, -5}, {8, -5}, {8, 0}, {0, 0}, {0, 5}, {-8, 5}}}, 8}});
   ProxyFindings findings;
-  const Proxy proxy = AbstractCloud(input, {}, 2, findings);
+  const Proxy proxy = AbstractCloud(input, {}, 2, findings).proxy;
   std::map<std::string, Vector3d> places;
   const Building* building = testing::Find(proxy, "B0001");
   if (building == nullptr) return places;
