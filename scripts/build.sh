@@ -9,6 +9,8 @@ preset=${1:-dev}
 launcher=
 if command -v ccache >/dev/null 2>&1; then
   launcher=-DCMAKE_CXX_COMPILER_LAUNCHER=ccache
+  # What it asks for before it caches units that use precompiled headers.
+  export CCACHE_SLOPPINESS="pch_defines,time_macros,${CCACHE_SLOPPINESS-}"
 fi
 cmake --preset "$preset" $launcher >&2
 cmake --build --preset "$preset" ${1:+--target "$@"} >&2
