@@ -119,9 +119,10 @@ std::vector<Building> OpenBuildings(const PlaneTable& table, size_t buildings,
                                     std::vector<std::vector<Facet>> facets) {
   std::vector<Building> open;
   for (size_t b = 0; b < buildings; ++b) {
-    open.push_back({.id = ClusterId(b), .watertight = false, .source = "cloud", .facets = {}});
+    open.push_back(
+        {.id = ClusterId(b), .watertight = false, .source = "cloud", .detail = {}, .facets = {}});
   }
-  open.push_back({.id = "G0", .watertight = false, .source = "cloud", .facets = {}});
+  open.push_back({.id = "G0", .watertight = false, .source = "cloud", .detail = {}, .facets = {}});
   for (size_t p = 0; p < facets.size(); ++p) {
     Building& building = table.building[p] < 0 ? open.back() : open[table.building[p]];
     for (Facet& facet : facets[p]) building.facets.push_back(std::move(facet));
@@ -155,8 +156,8 @@ bool GoesByMap(const ProxyInput& input, const ProxyOptions& options) {
 
 }  // namespace
 
-PlanarModel AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
-                          ProxyFindings& findings) {
+Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
+                    ProxyFindings& findings) {
   PlanarScene scene = UnderstandCloud(input, options, threads, findings);
   std::optional<MapModel> mapped;
   if (GoesByMap(input, options)) mapped = BuildFromMap(scene, input, options, threads, findings);
@@ -165,8 +166,7 @@ PlanarModel AbstractCloud(const ProxyInput& input, const ProxyOptions& options, 
   const auto views =
       ViewPlanes(scene, table.planes, table.planes.size() - scene.ground.size(), threads);
   auto facets = OpenFacets(scene, table, views, threads, findings);
-  PlanarModel model;
-  Proxy& proxy = model.proxy;
+  Proxy proxy;
   proxy.up = scene.up;
   proxy.metric = input.georef.metric;
   proxy.buildings = OpenBuildings(table, scene.buildings.size(), std::move(facets));
@@ -180,7 +180,6 @@ PlanarModel AbstractCloud(const ProxyInput& input, const ProxyOptions& options, 
     proxy.buildings.insert(proxy.buildings.begin(),
                            std::make_move_iterator(mapped->buildings.begin()),
                            std::make_move_iterator(mapped->buildings.end()));
-    for (const auto& [id, detail] : mapped->details) model.details.emplace(id, Name(detail));
   }
   std::erase_if(proxy.buildings, [](const Building& building) { return building.facets.empty(); });
   if (proxy.buildings.empty()) {
@@ -191,7 +190,7 @@ PlanarModel AbstractCloud(const ProxyInput& input, const ProxyOptions& options, 
   for (Building& building : proxy.buildings) {
     building.source == "map" ? AssignIdsByPlace(building) : AssignIds(building);
   }
-  return model;
+  return proxy;
 }
 
 }  // namespace stucco

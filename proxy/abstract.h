@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <map>
-#include <string>
-
 #include "proxy/cloud/input.h"
 #include "proxy/options/findings.h"
 #include "proxy/options/proxy_options.h"
@@ -12,16 +9,10 @@
 
 namespace stucco {
 
-struct PlanarModel {
-  Proxy proxy;
-  // By the ids of buildings made from a map: "full", "coarse" ... (Name() in map/map_solids.h).
-  std::map<std::string, std::string> details;
-};
-
 // The planar model of what the cloud shows: every building closed where its planes close and agree
 // with the points, else its seen facets, open; the ground apart as "G0". Throws Error
 // (kStageFailed) when the cloud shows no plane.
-PlanarModel AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
-                          ProxyFindings& findings);
+Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
+                    ProxyFindings& findings);
 
 }  // namespace stucco

@@ -67,7 +67,7 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
     findings.notes.push_back(fmt::format("run.memory_limit_gb allows {} points of max_points {}",
                                          affordable.max_points, options.max_points));
   }
-  auto [proxy, details] = AbstractCloud(input, affordable, context.threads, findings);
+  Proxy proxy = AbstractCloud(input, affordable, context.threads, findings);
   for (const auto& note : findings.notes) progress.Note(note);
   for (const auto& warning : findings.warnings) progress.Warn(warning);
   context.ThrowIfCancelled();
@@ -79,7 +79,7 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
   NameAfterPlan(input.plan, input.georef, progress, proxy);
   WriteProxy(proxy, context.out / "facets.json");
   WriteFile(context.out / "proxy.obj", ObjText(proxy));
-  WriteFile(context.out / "proxy.city.json", CityJsonText(proxy, details));
+  WriteFile(context.out / "proxy.city.json", CityJsonText(proxy));
   progress.Advance();
 }
 

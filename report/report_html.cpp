@@ -12,9 +12,9 @@ std::string ReportHtml(const SurveyData& data, const std::vector<FacetRow>& rows
   std::string html = internal::PageBegin("Facade report");
   for (const auto section :
        {internal::AttentionSection, internal::SummarySection, internal::FacadeTableSection,
-        internal::PhotosSection, internal::PlacementSection, internal::CalibrationSection,
-        internal::GroundControlSection, internal::VerdictRulesSection, internal::FilesSection,
-        internal::StagesSection, internal::FacadeDialogs}) {
+        internal::BuildingsSection, internal::PhotosSection, internal::PlacementSection,
+        internal::CalibrationSection, internal::GroundControlSection, internal::VerdictRulesSection,
+        internal::FilesSection, internal::StagesSection, internal::FacadeDialogs}) {
     html += section(page) + "\n";
   }
   return html + internal::PageEnd();

@@ -157,6 +157,7 @@ static void Fields(Archive& archive, T& building) {
   archive.Required("id", building.id);
   archive.Required("watertight", building.watertight);
   archive.Required("source", building.source);
+  archive.Optional("detail", building.detail);
   archive.Required("facets", building.facets);
 }
 

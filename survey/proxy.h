@@ -42,6 +42,9 @@ struct Building {
   std::string id;  // "C0001": a cluster of the cloud; "B0001": a building of the map
   bool watertight = false;
   std::string source;  // "cloud", "map"
+  // How much of a building of the map the cloud showed: "full", "coarse", "LoD1.2", "extrusion"
+  // (Name() in proxy/map/map_solids.h says what they mean); empty: it is not made from the map.
+  std::string detail;
   std::vector<Facet> facets;
 };
 

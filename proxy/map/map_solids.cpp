@@ -370,14 +370,14 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
       100 * place.raised_inside, 100 * place.raised_outside));
   OutlineMap found = Moved(map, place.survey_from_map);
   auto outcomes = CloseAll(survey, found, {scene, input, options, threads});
-  MapModel model{.buildings = {}, .outlines = std::move(found.buildings), .details = {}};
+  MapModel model{.buildings = {}, .outlines = std::move(found.buildings)};
   for (size_t b = 0; b < outcomes.size(); ++b) {
     Report(model.outlines[b].id, outcomes[b], model.outlines[b].to_capture, findings);
     if (outcomes[b].closed.solid.facets.empty()) continue;
-    model.details[model.outlines[b].id] = outcomes[b].closed.detail;
     model.buildings.push_back({.id = model.outlines[b].id,
                                .watertight = true,
                                .source = "map",
+                               .detail = std::string(Name(outcomes[b].closed.detail)),
                                .facets = std::move(outcomes[b].closed.solid.facets)});
   }
   return model;

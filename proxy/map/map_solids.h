@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <map>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,7 +29,6 @@ std::string_view Name(SolidDetail detail);
 struct MapModel {
   std::vector<Building> buildings;    // in the map's order
   std::vector<MapBuilding> outlines;  // of all buildings of the map, where the survey shows them
-  std::map<std::string, SolidDetail> details;  // by the ids of `buildings`
 };
 
 // Closes every building of the map that stands: its outline fitted to the walls (outline_fit.h),

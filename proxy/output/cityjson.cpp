@@ -120,7 +120,7 @@ Json GeometryOf(const Building& building, const Eigen::Vector3d& up, bool semant
 
 }  // namespace
 
-std::string CityJsonText(const Proxy& proxy, const std::map<std::string, std::string>& details) {
+std::string CityJsonText(const Proxy& proxy) {
   const Eigen::Matrix3d turned_from_world =
       Eigen::Quaterniond::FromTwoVectors(proxy.up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   VertexTable table(proxy, turned_from_world);
@@ -134,8 +134,7 @@ std::string CityJsonText(const Proxy& proxy, const std::map<std::string, std::st
     }
     const std::string part = building.id + "-1";
     Json attributes = {{"watertight", building.watertight}, {"source", building.source}};
-    const auto detail = details.find(building.id);
-    if (detail != details.end()) attributes["detail"] = detail->second;
+    if (!building.detail.empty()) attributes["detail"] = building.detail;
     objects[building.id] = {{"type", "Building"},
                             {"attributes", std::move(attributes)},
                             {"children", Json::array({part})}};

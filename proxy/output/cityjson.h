@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <map>
 #include <string>
 
 #include "survey/proxy.h"
@@ -12,9 +11,7 @@ namespace stucco {
 // CityJSON 2.0 (https://www.cityjson.org/specs/2.0.1/): each building with one BuildingPart, whose
 // geometry is a Solid when it is watertight and a MultiSurface otherwise, with semantic surfaces
 // that carry facet id, facade id and figures; the ground as LandUse. The frame is turned so that up
-// is z. No reference system is stated: coordinates are local. `details` are attributes of buildings
-// by their ids (PlanarModel::details).
-std::string CityJsonText(const Proxy& proxy,
-                         const std::map<std::string, std::string>& details = {});
+// is z. No reference system is stated: coordinates are local.
+std::string CityJsonText(const Proxy& proxy);
 
 }  // namespace stucco

@@ -26,6 +26,7 @@ std::string SummarySection(const PageContent& page);
 std::string SiteMap(const PageContent& page);  // an <svg>, part of the summary
 std::string FacadeTableSection(const PageContent& page);
 std::string FacadeDialogs(const PageContent& page);
+std::string BuildingsSection(const PageContent& page);
 std::string PhotosSection(const PageContent& page);
 std::string PlacementSection(const PageContent& page);  // how surely photos are placed
 std::string CalibrationSection(const PageContent& page);

@@ -142,7 +142,7 @@ Proxy TruthOf(const Town& town, const FacadeIds& facades, const GroundGrid& grid
     proxy.buildings.push_back(TruthOf(house, SolidOf(house), facades[i]));
     MarkBuried(town, grid, proxy.buildings.back());
   }
-  proxy.buildings.push_back({"G0", false, "model", GroundFacets(town, grid)});
+  proxy.buildings.push_back({"G0", false, "model", "", GroundFacets(town, grid)});
   if (const auto problem = FindProblem(proxy)) {
     throw Error(ErrorKind::kStageFailed, fmt::format("the truth is not sound: {}", *problem));
   }

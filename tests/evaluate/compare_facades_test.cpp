@@ -199,7 +199,8 @@ TEST(CompareFacades, ANearHouseBehindTheOnlookerIsLeftOut) {
   neighbour.back() = true;
   Survey survey = MadeSurvey("narrow", scene, {.left_out = neighbour});
   KeepSouth(survey);
-  survey.truth.buildings.push_back({.id = "B0002", .watertight = true, .source = "", .facets = {}});
+  survey.truth.buildings.push_back(
+      {.id = "B0002", .watertight = true, .source = "", .detail = "", .facets = {}});
   ExpectEqual(Compare(survey, scene)[0]);
 }
 

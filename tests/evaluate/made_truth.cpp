@@ -38,7 +38,7 @@ Building MadeBox(const std::string& id, const Vector3d& low, const Vector3d& hig
   const std::vector<Vector3d> foot = {corner(false, false, false), corner(true, false, false),
                                       corner(true, true, false), corner(false, true, false)};
   const Vector3d rise(0, 0, high.z() - low.z());
-  Building building{.id = id, .watertight = true, .source = "cloud", .facets = {}};
+  Building building{.id = id, .watertight = true, .source = "cloud", .detail = {}, .facets = {}};
   std::vector<Vector3d> top;
   for (size_t i = 0; i < 4; ++i) {
     const Vector3d &a = foot[i], &b = foot[(i + 1) % 4];
@@ -64,7 +64,7 @@ Proxy MadeTruth() {
     ground.area -= building.facets.back().area;
   }
   truth.buildings.push_back(
-      {.id = "G0", .watertight = false, .source = "cloud", .facets = {ground}});
+      {.id = "G0", .watertight = false, .source = "cloud", .detail = {}, .facets = {ground}});
   return truth;
 }
 

@@ -35,7 +35,7 @@ Georef Metric() {
 Proxy Abstract(const Captured& captured, const Georef& georef = Metric(),
                const ProxyOptions& options = {}, int threads = 1) {
   ProxyFindings findings;
-  const Proxy proxy = AbstractCloud(InputOf(captured, georef), options, threads, findings).proxy;
+  const Proxy proxy = AbstractCloud(InputOf(captured, georef), options, threads, findings);
   EXPECT_EQ(FindProblem(proxy), std::nullopt);
   return proxy;
 }
@@ -286,8 +286,7 @@ TEST(AbstractCloud, AFewPointsMakeACoarserModelAndSaySo) {
   const Captured captured =
       Capture({testing::BoxHouse(14, 12, 9)}, {testing::GroundSquare(24)}, {.noise = 0.02});
   ProxyFindings findings;
-  const Proxy proxy =
-      AbstractCloud(InputOf(captured, Metric()), {.max_points = 6000}, 1, findings).proxy;
+  const Proxy proxy = AbstractCloud(InputOf(captured, Metric()), {.max_points = 6000}, 1, findings);
   EXPECT_EQ(FindProblem(proxy), std::nullopt);
   ASSERT_EQ(proxy.buildings.size(), 2u);
   EXPECT_TRUE(proxy.buildings[0].watertight);
@@ -367,7 +366,7 @@ TEST(AbstractCloud, ASphereIsAtMostOpenFacets) {
   }
   ProxyFindings findings;
   try {
-    const Proxy proxy = AbstractCloud({StreamOf(cloud), {}, Metric()}, {}, 1, findings).proxy;
+    const Proxy proxy = AbstractCloud({StreamOf(cloud), {}, Metric()}, {}, 1, findings);
     EXPECT_EQ(FindProblem(proxy), std::nullopt);
     for (const Building& building : proxy.buildings) {
       if (building.watertight) {

@@ -33,14 +33,15 @@ Proxy Model(bool watertight) {
   Proxy proxy;
   proxy.metric = true;
   const Vector3d x = 4 * Vector3d::UnitX(), z = 3 * Vector3d::UnitZ(), y = 5 * Vector3d::UnitY();
-  Building building{.id = "B0001", .watertight = watertight, .source = "cloud", .facets = {}};
+  Building building{
+      .id = "B0001", .watertight = watertight, .source = "cloud", .detail = {}, .facets = {}};
   building.facets = {Square("B0001/W00", FacetClass::kWall, {100, 0, 0}, x, z),
                      Square("B0001/R0", FacetClass::kRoof, {100, 0, 3}, x, y)};
   building.facets[0].holes = {{{101, 0, 1}, {101, 0, 2}, {102, 0, 2}, {102, 0, 1}}};
   proxy.buildings = {building,
                      {.id = "G0",
                       .watertight = false,
-                      .source = "cloud",
+                      .source = "cloud", .detail = {},
                       .facets = {Square("G0", FacetClass::kGround, {90, -9, 0}, 20 * x, 20 * y)}}};
   return proxy;
 }

@@ -29,7 +29,7 @@ Captured Scanned(const std::vector<testing::House>& houses, double spacing) {
 }
 
 struct Made {
-  PlanarModel model;
+  Proxy proxy;
   ProxyFindings findings;
 };
 
@@ -39,16 +39,16 @@ Made Make(const Captured& captured, const std::vector<MapEntry>& map) {
   georef.source = "file";
   ProxyInput input = testing::InputOf(captured, georef);
   input.plan = testing::PlanOf(map);
-  made.model = AbstractCloud(input, {}, 2, made.findings);
+  made.proxy = AbstractCloud(input, {}, 2, made.findings);
   return made;
 }
 
 TEST(MapScan, ARoofAloneBecomesAClosedHouseOnItsFootprint) {
   const Captured captured = Scanned({testing::GableHouse()}, 0.3);
   const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 3}});
-  const Building* house = testing::Find(made.model.proxy, "B0001");
+  const Building* house = testing::Find(made.proxy, "B0001");
   ASSERT_NE(house, nullptr);
-  EXPECT_EQ(made.model.details.at("B0001"), "full");
+  EXPECT_EQ(house->detail, "full");
   EXPECT_EQ(FindOpening(house->facets), std::nullopt);
   ASSERT_EQ(house->facets.size(), 7u);
   EXPECT_NEAR(testing::VolumeOf(*house), 744, 10);
@@ -69,14 +69,14 @@ TEST(MapScan, UpIsTheCoordinateSystems) {
   testing::House shed;
   shed.polygons = {{"roof", {{-6, -4, 4}, {6, -4, 4}, {6, 4, 4.4}, {-6, 4, 4.4}}}};
   const Made made = Make(Scanned({shed}, 0.25), {{"B0001", {Rectangle(-6, -4, 6, 4)}, 3}});
-  EXPECT_EQ(made.model.proxy.up, Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(made.proxy.up, Eigen::Vector3d::UnitZ());
 }
 
 TEST(MapScan, AMapOfAnotherPlaceIsRefused) {
   const Captured captured = Scanned({testing::GableHouse()}, 0.3);
   const std::vector<MapEntry> map = {{"B0001", {Rectangle(-6, -4, 6, 4)}, 3}};
   const Made made = Make(captured, testing::Displaced(map, 0, {10, 10}));
-  EXPECT_EQ(testing::Find(made.model.proxy, "B0001"), nullptr);
+  EXPECT_EQ(testing::Find(made.proxy, "B0001"), nullptr);
   EXPECT_TRUE(std::ranges::any_of(made.findings.warnings, [](const std::string& warning) {
     return warning.find("map gives no shape") != std::string::npos;
   }));

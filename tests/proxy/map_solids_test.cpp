@@ -37,7 +37,7 @@ Made Make(const Captured& captured, const std::vector<MapEntry>& map,
   Made made;
   ProxyInput input = testing::InputOf(captured, testing::MapGeoref());
   input.plan = testing::PlanOf(map);
-  made.proxy = AbstractCloud(input, options, 2, made.findings).proxy;
+  made.proxy = AbstractCloud(input, options, 2, made.findings);
   EXPECT_EQ(FindProblem(made.proxy), std::nullopt);
   return made;
 }
@@ -266,7 +266,7 @@ TEST(MapSolids, RefusesAMapOfAnotherTown) {
   // The same as without any map.
   ProxyFindings findings;
   const Proxy without =
-      AbstractCloud(testing::InputOf(captured, testing::MapGeoref()), {}, 2, findings).proxy;
+      AbstractCloud(testing::InputOf(captured, testing::MapGeoref()), {}, 2, findings);
   ASSERT_EQ(with.proxy.buildings.size(), without.buildings.size());
   for (size_t b = 0; b < without.buildings.size(); ++b) {
     EXPECT_EQ(with.proxy.buildings[b].id, without.buildings[b].id);

@@ -260,7 +260,7 @@ TEST_F(CreasesTest, TakeNoSlopeFarAwayForTheFootOfAWall) {
 }
 
 TEST(AssignIds, GivesEachClassItsLetterByFallingArea) {
-  Building building{.id = "B0012", .source = "cloud", .facets = {}};
+  Building building{.id = "B0012", .source = "cloud", .detail = {}, .facets = {}};
   const auto add = [&](FacetClass facet_class, double area) {
     Facet facet;
     facet.facet_class = facet_class;

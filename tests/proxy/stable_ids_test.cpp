@@ -45,7 +45,7 @@ Facet Roof(const Vector3d& middle, double half) {
 }
 
 TEST(AssignIdsByPlace, PartsOfAFacadeCountAlongTheWall) {
-  Building building{.id = "B0012", .source = "map", .facets = {}};
+  Building building{.id = "B0012", .source = "map", .detail = {}, .facets = {}};
   // Along the north side the building on the left is to walk west.
   building.facets = {Wall({4, 8}, {0, 8}, 0, "B0012/F02"), Wall({2, 5}, {4, 5}, 3, ""),
                      Wall({10, 8}, {4, 8}, 0, "B0012/F02"), Wall({0, 0}, {10, 0}, 3, "B0012/F00"),
@@ -94,7 +94,7 @@ std::map<std::string, Vector3d> Places(uint64_t seed) {
   input.plan =
       testing::PlanOf({{"B0001", {{{-8, -5}, {8, -5}, {8, 0}, {0, 0}, {0, 5}, {-8, 5}}}, 8}});
   ProxyFindings findings;
-  const Proxy proxy = AbstractCloud(input, {}, 2, findings).proxy;
+  const Proxy proxy = AbstractCloud(input, {}, 2, findings);
   std::map<std::string, Vector3d> places;
   const Building* building = testing::Find(proxy, "B0001");
   if (building == nullptr) return places;

@@ -92,6 +92,25 @@ TEST_F(Report, TablesAndDialogsAreClosed) {
   }
 }
 
+TEST_F(Report, SaysWhatEachBuildingIsMadeFrom) {
+  MadeSurvey made = MakeSurvey({.buildings = 4});
+  const char* details[] = {"full", "extrusion", "coarse", ""};
+  for (int i = 0; i < 4; ++i) {
+    made.proxy.buildings[i].watertight = i < 3;
+    made.proxy.buildings[i].detail = details[i];
+    if (i < 3) made.proxy.buildings[i].source = "map";
+  }
+  WriteSurvey(made, folder_.path());
+  Run();
+  const std::string page = Content(Page());
+  EXPECT_TRUE(Has(page, "3 of 4 buildings closed."));
+  for (const char* form : {"every roof plane that was found", "only its large roof planes",
+                           "the map's outline and height", "open: only facets"}) {
+    EXPECT_EQ(CountOf(page, form), 1U) << form;
+  }
+  EXPECT_EQ(CountOf(page, "<td class=\"num\">93 %</td>"), 4U);
+}
+
 TEST_F(Report, NamesFacadesAsThePlanDoes) {
   MadeSurvey made = MakeSurvey();
   made.proxy.buildings[0].facets[0].planned_facades = {"B0007/F01"};

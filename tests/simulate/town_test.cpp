@@ -77,7 +77,7 @@ TEST_P(Towns, SolidsAreClosedAndTruthIsSound) {
       proxy.buildings.push_back(TruthOf(house, solid, facades));
       EXPECT_TRUE(proxy.buildings.back().watertight);
     }
-    proxy.buildings.push_back({"G0", false, "model", GroundFacets(town, MakeGroundGrid(town))});
+    proxy.buildings.push_back({"G0", false, "model", "", GroundFacets(town, MakeGroundGrid(town))});
     ASSERT_FALSE(FindProblem(proxy)) << "seed " << seed << " " << *FindProblem(proxy);
     if (seed == 50 && GetParam() == "terrain") break;  // thousands of facets each
   }

@@ -41,12 +41,12 @@ Proxy MakeProxy() {
   Proxy proxy;
   proxy.metric = true;
   proxy.up = {0, 0.6, 0.8};
-  proxy.buildings.push_back({"B0001", true, "cloud", {MakeWall()}});
+  proxy.buildings.push_back({"B0001", true, "cloud", "coarse", {MakeWall()}});
   Facet ground;
   ground.id = "G0";
   ground.facet_class = FacetClass::kGround;
   ground.outer = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  proxy.buildings.push_back({"G0", false, "map", {ground}});
+  proxy.buildings.push_back({"G0", false, "map", "", {ground}});
   return proxy;
 }
 
@@ -63,6 +63,7 @@ TEST(Proxy, ReadsBackWhatItWrote) {
   EXPECT_TRUE(read.buildings[0].watertight);
   EXPECT_FALSE(read.buildings[1].watertight);
   EXPECT_EQ(read.buildings[0].source, "cloud");
+  EXPECT_EQ(read.buildings[0].detail, "coarse");
   ASSERT_EQ(read.buildings[0].facets.size(), 1u);
   const Facet& wall = read.buildings[0].facets[0];
   const Facet expected = MakeWall();

@@ -35,7 +35,7 @@ Facet MakeWall(double width, double height) {
 Proxy MakeProxy(const std::vector<Facet>& facets) {
   Proxy proxy;
   proxy.metric = true;
-  proxy.buildings = {{"B0001", false, "cloud", facets}};
+  proxy.buildings = {{"B0001", false, "cloud", "", facets}};
   return proxy;
 }
 

@@ -40,7 +40,8 @@ class Street : public ::testing::Test {
   explicit Street(int num_painted = 6) {
     fs::create_directories(folder_.path() / "textures");
     for (int i = 0; i <= num_painted; ++i) {
-      if (i % 2 == 0) proxy_.buildings.push_back({fmt::format("B{:04}", i / 2), false, "map", {}});
+      if (i % 2 == 0)
+        proxy_.buildings.push_back({fmt::format("B{:04}", i / 2), false, "map", "", {}});
       Facet wall = MakeWall(5, 5);
       wall.id = fmt::format("{}/W{:02}", proxy_.buildings.back().id, i % 2);
       for (auto& corner : wall.outer) corner.x() += 6 * i;

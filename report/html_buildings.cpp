@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include "report/internal/html_sections.h"
+#include "survey/escape.h"
+#include "survey/numbers.h"
+
+namespace stucco::internal {
+namespace {
+
+// What a building's model holds, in words.
+std::string FormOf(const Building& building) {
+  if (!building.watertight) return "open: only facets that photos showed; the rest was not seen";
+  if (building.detail == "full") return "every roof plane that was found";
+  if (building.detail == "coarse") return "only its large roof planes: all of them did not close";
+  if (building.detail == "LoD1.2") return "a level top at the height that points show";
+  if (building.detail == "extrusion") return "the map's outline and height: nothing showed better";
+  return "closed from what photos showed";
+}
+
+struct Surface {
+  int facets = 0;
+  double area = 0;
+  double seen = 0;  // of the area
+};
+
+Surface SurfaceOf(const Building& building) {
+  Surface out;
+  for (const Facet& facet : building.facets) {
+    if (facet.facet_class == FacetClass::kGround) continue;  // the floor that closes a solid
+    ++out.facets;
+    out.area += facet.area;
+    out.seen += facet.area * facet.seen;
+  }
+  return out;
+}
+
+std::string Row(const Building& building) {
+  const Surface surface = SurfaceOf(building);
+  return fmt::format(
+      "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td>"
+      "<td>{}</td><td>{}</td></tr>",
+      IsolatedHtml(building.id), surface.facets,
+      surface.area > 0 ? Percent(surface.seen / surface.area) : "-",
+      building.source == "map" ? "on the map" : "found in the photos", FormOf(building));
+}
+
+}  // namespace
+
+std::string BuildingsSection(const PageContent& page) {
+  if (!page.data.proxy) return "";
+  std::string rows;
+  int buildings = 0;
+  int closed = 0;
+  for (const Building& building : page.data.proxy->buildings) {
+    if (building.id == "G0") continue;
+    ++buildings;
+    closed += building.watertight ? 1 : 0;
+    rows += Row(building);
+  }
+  if (buildings == 0) return "";
+  return fmt::format(
+      "<section aria-labelledby=\"buildings\"><h2 id=\"buildings\">Buildings</h2>"
+      "<p>{} of {} closed.</p><details{}><summary>All of them</summary><div class=\"scroll\">"
+      "<table class=\"plain\"><thead><tr><th scope=\"col\">Building</th>"
+      "<th scope=\"col\" class=\"num\">Facets</th><th scope=\"col\" class=\"num\">Surface with "
+      "points</th><th scope=\"col\"></th><th scope=\"col\">Model</th></tr></thead><tbody>{}"
+      "</tbody></table></div></details></section>",
+      closed, Count(buildings, "building", "buildings"), buildings <= 12 ? " open" : "", rows);
+}
+
+}  // namespace stucco::internal
