@@ -30,6 +30,10 @@ double MatchWeight(double angle_rad) {
   return 1 - 1 / (1 + std::exp(-kMatchSlope * (angle_rad - kMatchAngle)));
 }
 
+double ScaleWeight(double distance_m, double other_m) {
+  return std::min(distance_m, other_m) / std::max(distance_m, other_m);
+}
+
 double GoodPair(double distance_m, double d_max_m) {
   return ParallaxWeight(2 * kGoodIncidence) * ResolutionWeight(distance_m, d_max_m) *
          MatchWeight(2 * kGoodIncidence) * std::cos(kGoodIncidence);

@@ -14,6 +14,10 @@ double ResolutionWeight(double distance_m, double d_max_m);
 // w3: still alike enough to be matched. Half at pi/4.
 double MatchWeight(double angle_rad);
 
+// w4: photos at these distances show a patch so alike in scale. Smith et al. have none, as their
+// photos are all about as far away; ours are not (dips, link photos).
+double ScaleWeight(double distance_m, double other_m);
+
 // One good pair at this distance: rays 17.3 degrees apart, the normal between them. Thresholds are
 // multiples of it (Zhou et al., "Offsite Aerial Path Planning for Efficient Urban Scene
 // Reconstruction", 2020).

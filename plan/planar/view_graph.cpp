@@ -89,8 +89,7 @@ ViewGraph::Ray ViewGraph::RayTo(uint32_t sample, const Eigen::Vector3d& position
   const Eigen::Vector3d way = position - view_.samples[sample].position;
   const double distance = way.norm();
   const Eigen::Vector3f unit = (way / distance).cast<float>();
-  return {unit.x(), unit.y(), unit.z(), static_cast<float>(ResolutionWeight(distance, d_max_m_)),
-          0};
+  return {unit.x(), unit.y(), unit.z(), static_cast<float>(distance), 0};
 }
 
 double ViewGraph::ShareOf(uint32_t sample, const Ray& ray, int shots, uint32_t self) const {
@@ -99,16 +98,20 @@ double ViewGraph::ShareOf(uint32_t sample, const Ray& ray, int shots, uint32_t s
     return r.x * normal.x() + r.y * normal.y() + r.z * normal.z();
   };
   const float own = facing(ray);
+  const auto reach = static_cast<float>(d_max_m_);
   double sum = 0;
   for (const Ray& other : rays_[sample]) {
     if (other.hover_and_shots >> kShotBits == self) continue;
     const float cosine = ray.x * other.x + ray.y * other.y + ray.z * other.z;
-    const float pair = AngleWeight(cosine) * std::min(ray.closeness, other.closeness) *
-                       std::min(own, facing(other));
+    // w2 and w4, as plan/planar/reconstructability.h has them.
+    const float farther = std::max(ray.distance_m, other.distance_m);
+    const float nearer = std::min(ray.distance_m, other.distance_m);
+    const float clear = std::max(0.0F, 1 - farther / reach) * nearer / farther;
+    const float pair = AngleWeight(cosine) * clear * std::min(own, facing(other));
     sum += static_cast<float>(other.hover_and_shots & kMostShots) * pair;
   }
   const double among_themselves =
-      0.5 * (shots - 1) * kAngleTable[0] * static_cast<double>(ray.closeness * own);
+      0.5 * (shots - 1) * kAngleTable[0] * ResolutionWeight(ray.distance_m, d_max_m_) * own;
   return shots * (sum + among_themselves);
 }
 

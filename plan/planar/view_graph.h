@@ -60,8 +60,8 @@ class ViewGraph {
  private:
   // One hover as a sample has it.
   struct Ray {
-    float x, y, z;    // unit, from the sample to the hover
-    float closeness;  // w2
+    float x, y, z;  // unit, from the sample to the hover
+    float distance_m;
     uint32_t hover_and_shots;
   };
   Ray RayTo(uint32_t sample, const Eigen::Vector3d& position) const;

@@ -10,8 +10,8 @@
 
 namespace stucco::plan {
 
-// The definition, which the planner sums up faster: w1 w2 w3 cos(t) of one pair of cameras at c and
-// d; 0 where one of them is behind the surface.
+// The definition, which the planner sums up faster: w1 w2 w3 w4 cos(t) of one pair of cameras at c
+// and d; 0 where one of them is behind the surface.
 inline double PairReconstructability(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
                                      const Eigen::Vector3d& c, const Eigen::Vector3d& d,
                                      double d_max_m) {
@@ -24,7 +24,7 @@ inline double PairReconstructability(const Eigen::Vector3d& point, const Eigen::
   const double cosine = std::min(to_c.dot(normal), to_d.dot(normal));
   if (!(cosine > 0)) return 0;
   return ParallaxWeight(angle) * ResolutionWeight(std::max(c_distance, d_distance), d_max_m) *
-         MatchWeight(angle) * cosine;
+         MatchWeight(angle) * ScaleWeight(c_distance, d_distance) * cosine;
 }
 
 }  // namespace stucco::plan
