@@ -41,7 +41,8 @@ Proxy Model(bool watertight) {
   proxy.buildings = {building,
                      {.id = "G0",
                       .watertight = false,
-                      .source = "cloud", .detail = {},
+                      .source = "cloud",
+                      .detail = {},
                       .facets = {Square("G0", FacetClass::kGround, {90, -9, 0}, 20 * x, 20 * y)}}};
   return proxy;
 }

@@ -63,7 +63,7 @@ TEST(AssignIdsByPlace, PartsOfAFacadeCountAlongTheWall) {
 }
 
 TEST(AssignIdsByPlace, RoofsKeepTheirsWhateverTheirSize) {
-  Building small_first{.id = "B0001", .source = "map", .facets = {}};
+  Building small_first{.id = "B0001", .source = "map", .detail = {}, .facets = {}};
   small_first.facets = {Roof({0, 4, 6}, 1), Roof({0, -4, 6}, 3), Roof({9, 0, 6}, 2)};
   Building large_first = small_first;
   std::reverse(large_first.facets.begin(), large_first.facets.end());

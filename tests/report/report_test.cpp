@@ -100,6 +100,7 @@ TEST_F(Report, SaysWhatEachBuildingIsMadeFrom) {
     made.proxy.buildings[i].detail = details[i];
     if (i < 3) made.proxy.buildings[i].source = "map";
   }
+  for (Facet& facet : made.proxy.buildings[1].facets) facet.seen = 0.37;
   WriteSurvey(made, folder_.path());
   Run();
   const std::string page = Content(Page());
@@ -108,7 +109,7 @@ TEST_F(Report, SaysWhatEachBuildingIsMadeFrom) {
                            "the map's outline and height", "open: only facets"}) {
     EXPECT_EQ(CountOf(page, form), 1U) << form;
   }
-  EXPECT_EQ(CountOf(page, "<td class=\"num\">93 %</td>"), 4U);
+  EXPECT_EQ(CountOf(page, "<td class=\"num\">37 %</td><td>on the map</td>"), 1U);
 }
 
 TEST_F(Report, NamesFacadesAsThePlanDoes) {

@@ -12,6 +12,7 @@
 #include "texture/painting/patch_fill.h"
 #include "texture/relief/find_relief.h"
 #include "texture/selection/background.h"
+#include "texture/selection/foliage.h"
 #include "texture/selection/select.h"
 #include "texture/views/plan_prior.h"
 
@@ -122,8 +123,13 @@ Selected SelectPhotos(const PaintJob& job, const PaintedFacet& canvas, PaintReco
     pictures.push_back(MakeRasterPicture(out.views.back(), out.raster.grid, canvas.grid.texel,
                                          gains[candidate.photo], scene));
     for (float& cost : pictures.back().cost) cost += prior[pictures.size() - 1];
+  }
+  if (facet.facet_class == FacetClass::kWall) {
+    DropFoliage(out.raster.grid, out.raster.inside, pictures);
+  }
+  for (size_t p = 0; p < pictures.size(); ++p) {
     for (size_t i = 0; i < out.raster.grid.size(); ++i) {
-      out.views.back().texels[i].sight = pictures.back().sight[i];
+      out.views[p].texels[i].sight = pictures[p].sight[i];
     }
   }
   const SelectOptions select{kCellSplit, options.photo_cost, options.seam_cost, options.min_region,

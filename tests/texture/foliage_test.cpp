@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/selection/foliage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace stucco {
+namespace {
+
+constexpr int kSide = 40;
+constexpr int kCrown = 14;  // the upper left corner, so many texels wide and high
+
+using Rgb = std::array<float, 3>;
+
+TexelGrid Raster() {
+  TexelGrid raster;
+  raster.width = kSide;
+  raster.height = kSide;
+  return raster;
+}
+
+size_t At(int x, int y) {
+  return static_cast<size_t>(y) * kSide + x;
+}
+
+// A grey wall with what covers its corner: `colour` in shades between `darkest` and 1, drawn anew
+// from `seed`.
+RasterPicture Wall(Rgb colour, float darkest, uint32_t seed, int crown = kCrown) {
+  RasterPicture picture;
+  picture.sight.assign(kSide * kSide, Sight::kFree);
+  picture.cost.assign(kSide * kSide, 0.1f);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> shade(darkest, 1);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const bool covered = x < crown && y < crown;
+      const float bright = covered ? shade(random) : 1;
+      for (const float value : covered ? colour : Rgb{120, 118, 115}) {
+        picture.rgb.push_back(bright * value);
+      }
+    }
+  }
+  return picture;
+}
+
+constexpr Rgb kLeaf = {110, 150, 40};
+
+std::vector<RasterPicture> Dropped(std::vector<RasterPicture> pictures) {
+  DropFoliage(Raster(), std::vector<uint16_t>(kSide * kSide, 1), pictures);
+  return pictures;
+}
+
+int Unseen(const RasterPicture& picture) {
+  return static_cast<int>(std::ranges::count(picture.sight, Sight::kNot));
+}
+
+TEST(DropFoliage, APhotoDoesNotSeeTheWallThroughLeaves) {
+  const auto pictures = Dropped({Wall(kLeaf, 0.3f, 1)});
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      if (x < kCrown && y < kCrown) {
+        EXPECT_EQ(pictures[0].sight[At(x, y)], Sight::kNot) << x << ' ' << y;
+      } else if (x > kCrown + 3 || y > kCrown + 3) {
+        EXPECT_EQ(pictures[0].sight[At(x, y)], Sight::kFree) << x << ' ' << y;
+      }
+    }
+  }
+}
+
+TEST(DropFoliage, AnotherPhotoThatSeesPastThemKeepsTheWall) {
+  const auto pictures = Dropped({Wall(kLeaf, 0.3f, 1), Wall(kLeaf, 0.3f, 1, 0)});
+  EXPECT_EQ(pictures[0].sight[At(5, 5)], Sight::kNot);
+  EXPECT_EQ(Unseen(pictures[1]), 0);
+}
+
+TEST(DropFoliage, LeavesThatDifferFromPhotoToPhotoStandBeforeTheWall) {
+  const auto pictures = Dropped({Wall(kLeaf, 0.3f, 1), Wall(kLeaf, 0.3f, 2)});
+  EXPECT_EQ(pictures[0].sight[At(5, 5)], Sight::kNot);
+  EXPECT_EQ(pictures[1].sight[At(5, 5)], Sight::kNot);
+}
+
+TEST(DropFoliage, WhatGrowsOnTheWallStays) {
+  for (const RasterPicture& picture : Dropped({Wall(kLeaf, 0.3f, 1), Wall(kLeaf, 0.3f, 1)})) {
+    EXPECT_EQ(Unseen(picture), 0);
+  }
+}
+
+TEST(DropFoliage, GreenPaintAndRestlessWallsOfOtherColoursStay) {
+  EXPECT_EQ(Unseen(Dropped({Wall(kLeaf, 1, 1)})[0]), 0);
+  EXPECT_EQ(Unseen(Dropped({Wall({200, 170, 60}, 0.3f, 1)})[0]), 0);
+  EXPECT_EQ(Unseen(Dropped({Wall({90, 95, 100}, 0.3f, 1)})[0]), 0);
+}
+
+TEST(DropFoliage, AWallThatIsGreenAllOverStays) {
+  EXPECT_EQ(Unseen(Dropped({Wall(kLeaf, 0.3f, 1, kSide)})[0]), 0);
+}
+
+}  // namespace
+}  // namespace stucco

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "texture/selection/foliage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace stucco {
+namespace {
+
+constexpr float kLeastGreen = 0.1f;     // excess green index; of leaves 0.2 to 0.6, of plaster 0
+constexpr float kLeastBrightness = 12;  // darker, colours are noise
+constexpr int kReach = 3;               // raster texels: half a window
+constexpr double kGreenShare = 0.25;    // of a window: crowns have gaps
+constexpr double kRestless = 8;         // of what is green: standard deviation in grey levels
+constexpr double kSamePattern = 0.5;    // correlation of windows
+constexpr double kMostDropped = 0.3;
+
+float Brightness(const float* rgb) {
+  return (rgb[0] + rgb[1] + rgb[2]) / 3;
+}
+
+bool IsGreen(const float* rgb) {
+  const float sum = rgb[0] + rgb[1] + rgb[2];
+  if (sum < 3 * kLeastBrightness || rgb[1] <= rgb[0] || rgb[1] <= rgb[2]) return false;
+  return (2 * rgb[1] - rgb[0] - rgb[2]) / sum >= kLeastGreen;
+}
+
+bool HasGreen(const RasterPicture& picture) {
+  for (size_t i = 0; i < picture.sight.size(); ++i) {
+    if (picture.sight[i] != Sight::kNot && IsGreen(&picture.rgb[3 * i])) return true;
+  }
+  return false;
+}
+
+// The texels around one, as indices.
+template <typename Fn>
+void ForEachAround(const TexelGrid& raster, size_t texel, Fn&& fn) {
+  const int x = static_cast<int>(texel % raster.width);
+  const int y = static_cast<int>(texel / raster.width);
+  for (int j = std::max(0, y - kReach); j <= std::min(raster.height - 1, y + kReach); ++j) {
+    for (int i = std::max(0, x - kReach); i <= std::min(raster.width - 1, x + kReach); ++i) {
+      fn(static_cast<size_t>(j) * raster.width + i);
+    }
+  }
+}
+
+bool ShowsLeaves(const RasterPicture& picture, const TexelGrid& raster, size_t texel) {
+  double seen = 0;
+  double green = 0;
+  double sum = 0;
+  double squares = 0;
+  ForEachAround(raster, texel, [&](size_t i) {
+    if (picture.sight[i] == Sight::kNot) return;
+    seen += 1;
+    if (!IsGreen(&picture.rgb[3 * i])) return;
+    const double grey = Brightness(&picture.rgb[3 * i]);
+    green += 1;
+    sum += grey;
+    squares += grey * grey;
+  });
+  if (green == 0 || green < kGreenShare * seen) return false;
+  return squares / green - sum * sum / (green * green) >= kRestless * kRestless;
+}
+
+// Whether two pictures have the same pattern around a texel that both see.
+bool LookAlike(const RasterPicture& one, const RasterPicture& other, const TexelGrid& raster,
+               size_t texel) {
+  if (other.sight[texel] == Sight::kNot) return false;
+  double n = 0;
+  double a = 0;
+  double b = 0;
+  double aa = 0;
+  double bb = 0;
+  double ab = 0;
+  ForEachAround(raster, texel, [&](size_t i) {
+    if (one.sight[i] == Sight::kNot || other.sight[i] == Sight::kNot) return;
+    const double p = Brightness(&one.rgb[3 * i]);
+    const double q = Brightness(&other.rgb[3 * i]);
+    n += 1;
+    a += p;
+    b += q;
+    aa += p * p;
+    bb += q * q;
+    ab += p * q;
+  });
+  const double variances = (n * aa - a * a) * (n * bb - b * b);
+  return variances > 0 && n * ab - a * b >= kSamePattern * std::sqrt(variances);
+}
+
+// Texels where this picture shows leaves that are not on the wall.
+std::vector<size_t> LeavesBeforeWall(std::span<const RasterPicture> pictures, size_t asked,
+                                     const TexelGrid& raster) {
+  const RasterPicture& picture = pictures[asked];
+  std::vector<size_t> out;
+  if (!HasGreen(picture)) return out;
+  for (size_t i = 0; i < raster.size(); ++i) {
+    if (picture.sight[i] == Sight::kNot || !ShowsLeaves(picture, raster, i)) continue;
+    bool agreed = false;
+    for (size_t other = 0; other < pictures.size() && !agreed; ++other) {
+      agreed = other != asked && LookAlike(picture, pictures[other], raster, i);
+    }
+    if (!agreed) out.push_back(i);
+  }
+  return out;
+}
+
+// The part of the facet that some picture sees, on the scale of `inside`.
+double SeenArea(std::span<const RasterPicture> pictures, std::span<const uint16_t> inside) {
+  double area = 0;
+  for (size_t i = 0; i < inside.size(); ++i) {
+    const bool seen = std::ranges::any_of(
+        pictures, [&](const RasterPicture& picture) { return picture.sight[i] != Sight::kNot; });
+    if (seen) area += inside[i];
+  }
+  return area;
+}
+
+}  // namespace
+
+void DropFoliage(const TexelGrid& raster, std::span<const uint16_t> inside,
+                 std::vector<RasterPicture>& pictures) {
+  std::vector<std::vector<size_t>> leaves;
+  for (size_t p = 0; p < pictures.size(); ++p) {
+    leaves.push_back(LeavesBeforeWall(pictures, p, raster));
+  }
+  const double before = SeenArea(pictures, inside);
+  std::vector<std::vector<Sight>> kept;
+  for (size_t p = 0; p < pictures.size(); ++p) {
+    kept.push_back(pictures[p].sight);
+    for (const size_t i : leaves[p]) pictures[p].sight[i] = Sight::kNot;
+  }
+  if (before - SeenArea(pictures, inside) <= kMostDropped * before) return;
+  for (size_t p = 0; p < pictures.size(); ++p) pictures[p].sight = std::move(kept[p]);
+}
+
+}  // namespace stucco

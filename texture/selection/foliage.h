@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "texture/grid/grid.h"
+#include "texture/selection/consensus.h"
+
+namespace stucco {
+
+// Leaves before a wall: too thin for the cloud, and where fewer than three photos see the wall no
+// majority knows them. A picture does not see a texel (Sight::kNot) around which it is green and
+// restless as leaves are (excess green index: Woebbecke et al., "Color indices for weed
+// identification", 1995) while no other picture has the same pattern there: what grows on the wall
+// looks alike from everywhere, a tree before it does not. Where that would take more than 30 % of
+// what the pictures see of the facet, green is taken for the wall's own and nothing changes.
+// `inside` is how much of each texel is the facet's.
+void DropFoliage(const TexelGrid& raster, std::span<const uint16_t> inside,
+                 std::vector<RasterPicture>& pictures);
+
+}  // namespace stucco
