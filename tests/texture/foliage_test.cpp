@@ -14,7 +14,8 @@ namespace stucco {
 namespace {
 
 constexpr int kSide = 40;
-constexpr int kCrown = 14;  // the upper left corner, so many texels wide and high
+constexpr double kBefore = 5;  // texels that leaves are at least before the wall
+constexpr int kCrown = 14;     // the upper left corner, so many texels wide and high
 
 using Rgb = std::array<float, 3>;
 
@@ -52,7 +53,7 @@ RasterPicture Wall(Rgb colour, float darkest, uint32_t seed, int crown = kCrown)
 constexpr Rgb kLeaf = {110, 150, 40};
 
 std::vector<RasterPicture> Dropped(std::vector<RasterPicture> pictures) {
-  DropFoliage(Raster(), std::vector<uint16_t>(kSide * kSide, 1), pictures);
+  DropFoliage({Raster(), std::vector<uint16_t>(kSide * kSide, 1), 1}, kBefore, pictures);
   return pictures;
 }
 
@@ -60,8 +61,8 @@ int Unseen(const RasterPicture& picture) {
   return static_cast<int>(std::ranges::count(picture.sight, Sight::kNot));
 }
 
-TEST(DropFoliage, APhotoDoesNotSeeTheWallThroughLeaves) {
-  const auto pictures = Dropped({Wall(kLeaf, 0.3f, 1)});
+TEST(DropFoliage, AnotherPhotoSeesPastThem) {
+  const auto pictures = Dropped({Wall(kLeaf, 0.3f, 1), Wall(kLeaf, 0.3f, 1, 0)});
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
       if (x < kCrown && y < kCrown) {
@@ -71,12 +72,18 @@ TEST(DropFoliage, APhotoDoesNotSeeTheWallThroughLeaves) {
       }
     }
   }
+  EXPECT_EQ(Unseen(pictures[1]), 0);
 }
 
-TEST(DropFoliage, AnotherPhotoThatSeesPastThemKeepsTheWall) {
-  const auto pictures = Dropped({Wall(kLeaf, 0.3f, 1), Wall(kLeaf, 0.3f, 1, 0)});
-  EXPECT_EQ(pictures[0].sight[At(5, 5)], Sight::kNot);
-  EXPECT_EQ(Unseen(pictures[1]), 0);
+TEST(DropFoliage, WhatNobodyElseSeesStays) {
+  EXPECT_EQ(Unseen(Dropped({Wall(kLeaf, 0.3f, 1)})[0]), 0);
+  auto pictures = std::vector<RasterPicture>{Wall(kLeaf, 0.3f, 1), Wall(kLeaf, 0.3f, 1, 0)};
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      if (x < 30 && y < 30) pictures[1].sight[At(x, y)] = Sight::kNot;
+    }
+  }
+  EXPECT_EQ(Unseen(Dropped(pictures)[0]), 0);
 }
 
 TEST(DropFoliage, LeavesThatDifferFromPhotoToPhotoStandBeforeTheWall) {
@@ -91,14 +98,26 @@ TEST(DropFoliage, WhatGrowsOnTheWallStays) {
   }
 }
 
-TEST(DropFoliage, GreenPaintAndRestlessWallsOfOtherColoursStay) {
-  EXPECT_EQ(Unseen(Dropped({Wall(kLeaf, 1, 1)})[0]), 0);
-  EXPECT_EQ(Unseen(Dropped({Wall({200, 170, 60}, 0.3f, 1)})[0]), 0);
-  EXPECT_EQ(Unseen(Dropped({Wall({90, 95, 100}, 0.3f, 1)})[0]), 0);
+TEST(DropFoliage, APhotoFromTheSamePlaceProvesNothing) {
+  std::vector<RasterPicture> twice = {Wall(kLeaf, 0.3f, 1), Wall(kLeaf, 0.3f, 1)};
+  twice[0].camera = {20, 20, 100};
+  twice[1].camera = {22, 20, 100};
+  twice.push_back(Wall(kLeaf, 0.3f, 1, 0));
+  EXPECT_EQ(Dropped(twice)[0].sight[At(5, 5)], Sight::kNot);
+  twice[1].camera = {80, 20, 100};
+  EXPECT_EQ(Dropped(twice)[0].sight[At(5, 5)], Sight::kFree);
+}
+
+TEST(DropFoliage, GreenPaintAndRestlessThingsOfOtherColoursStay) {
+  const RasterPicture bare = Wall(kLeaf, 1, 1, 0);
+  EXPECT_EQ(Unseen(Dropped({Wall(kLeaf, 1, 1), bare})[0]), 0);
+  EXPECT_EQ(Unseen(Dropped({Wall({200, 170, 60}, 0.3f, 1), bare})[0]), 0);
+  EXPECT_EQ(Unseen(Dropped({Wall({90, 95, 100}, 0.3f, 1), bare})[0]), 0);
 }
 
 TEST(DropFoliage, AWallThatIsGreenAllOverStays) {
-  EXPECT_EQ(Unseen(Dropped({Wall(kLeaf, 0.3f, 1, kSide)})[0]), 0);
+  const RasterPicture other = Wall(kLeaf, 0.3f, 2, kSide);  // that does not register with it
+  EXPECT_EQ(Unseen(Dropped({Wall(kLeaf, 0.3f, 1, kSide), other})[0]), 0);
 }
 
 }  // namespace

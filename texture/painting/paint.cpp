@@ -125,7 +125,7 @@ Selected SelectPhotos(const PaintJob& job, const PaintedFacet& canvas, PaintReco
     for (float& cost : pictures.back().cost) cost += prior[pictures.size() - 1];
   }
   if (facet.facet_class == FacetClass::kWall) {
-    DropFoliage(out.raster.grid, out.raster.inside, pictures);
+    DropFoliage(out.raster, look.limits.clearance / out.raster.grid.texel, pictures);
   }
   for (size_t p = 0; p < pictures.size(); ++p) {
     for (size_t i = 0; i < out.raster.grid.size(); ++i) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <utility>
 
 namespace stucco {
@@ -13,8 +15,9 @@ constexpr float kLeastGreen = 0.1f;     // excess green index; of leaves 0.2 to 
 constexpr float kLeastBrightness = 12;  // darker, colours are noise
 constexpr int kReach = 3;               // raster texels: half a window
 constexpr double kGreenShare = 0.25;    // of a window: crowns have gaps
-constexpr double kRestless = 8;         // of what is green: standard deviation in grey levels
+constexpr double kRestless = 0.1;       // of what is green: standard deviation over mean brightness
 constexpr double kSamePattern = 0.5;    // correlation of windows
+constexpr double kMoved = 2;            // raster texels: windows of leaves are no longer alike
 constexpr double kMostDropped = 0.3;
 
 float Brightness(const float* rgb) {
@@ -61,13 +64,25 @@ bool ShowsLeaves(const RasterPicture& picture, const TexelGrid& raster, size_t t
     squares += grey * grey;
   });
   if (green == 0 || green < kGreenShare * seen) return false;
-  return squares / green - sum * sum / (green * green) >= kRestless * kRestless;
+  const double mean = sum / green;
+  return squares / green - mean * mean >= kRestless * kRestless * mean * mean;
 }
 
-// Whether two pictures have the same pattern around a texel that both see.
+// Whether two cameras show what stands before the wall in different places of it. Always where one
+// of them is not known.
+bool LookFromElsewhere(const RasterPicture& one, const RasterPicture& other,
+                       const TexelGrid& raster, size_t texel, double before) {
+  if (!(one.camera.z() > 0) || !(other.camera.z() > 0)) return true;
+  const Eigen::Vector2d place(static_cast<double>(texel % raster.width),
+                              static_cast<double>(texel / raster.width));
+  const Eigen::Vector2d way = (one.camera.head<2>() - place) / one.camera.z() -
+                              (other.camera.head<2>() - place) / other.camera.z();
+  return before * way.norm() >= kMoved;
+}
+
+// Whether two pictures have the same pattern around a texel.
 bool LookAlike(const RasterPicture& one, const RasterPicture& other, const TexelGrid& raster,
                size_t texel) {
-  if (other.sight[texel] == Sight::kNot) return false;
   double n = 0;
   double a = 0;
   double b = 0;
@@ -89,19 +104,34 @@ bool LookAlike(const RasterPicture& one, const RasterPicture& other, const Texel
   return variances > 0 && n * ab - a * b >= kSamePattern * std::sqrt(variances);
 }
 
-// Texels where this picture shows leaves that are not on the wall.
-std::vector<size_t> LeavesBeforeWall(std::span<const RasterPicture> pictures, size_t asked,
-                                     const TexelGrid& raster) {
-  const RasterPicture& picture = pictures[asked];
-  std::vector<size_t> out;
+// A picture's texels that show leaves.
+std::vector<uint8_t> LeafMask(const RasterPicture& picture, const TexelGrid& raster) {
+  std::vector<uint8_t> out(raster.size(), 0);
   if (!HasGreen(picture)) return out;
   for (size_t i = 0; i < raster.size(); ++i) {
-    if (picture.sight[i] == Sight::kNot || !ShowsLeaves(picture, raster, i)) continue;
+    out[i] = picture.sight[i] != Sight::kNot && ShowsLeaves(picture, raster, i);
+  }
+  return out;
+}
+
+// Of the texels where a picture shows leaves, those where pictures from elsewhere do not show the
+// same ones.
+std::vector<size_t> LeavesBeforeWall(std::span<const RasterPicture> pictures,
+                                     std::span<const std::vector<uint8_t>> leaves, size_t asked,
+                                     const TexelGrid& raster, double before) {
+  const RasterPicture& picture = pictures[asked];
+  std::vector<size_t> out;
+  for (size_t i = 0; i < raster.size(); ++i) {
+    if (!leaves[asked][i]) continue;
+    bool seen_elsewhere = false;
     bool agreed = false;
     for (size_t other = 0; other < pictures.size() && !agreed; ++other) {
-      agreed = other != asked && LookAlike(picture, pictures[other], raster, i);
+      if (other == asked || pictures[other].sight[i] != Sight::kFree) continue;
+      if (!LookFromElsewhere(picture, pictures[other], raster, i, before)) continue;
+      seen_elsewhere = true;
+      agreed = leaves[other][i] && LookAlike(picture, pictures[other], raster, i);
     }
-    if (!agreed) out.push_back(i);
+    if (seen_elsewhere && !agreed) out.push_back(i);
   }
   return out;
 }
@@ -119,19 +149,20 @@ double SeenArea(std::span<const RasterPicture> pictures, std::span<const uint16_
 
 }  // namespace
 
-void DropFoliage(const TexelGrid& raster, std::span<const uint16_t> inside,
-                 std::vector<RasterPicture>& pictures) {
-  std::vector<std::vector<size_t>> leaves;
+void DropFoliage(const FacetRaster& raster, double before, std::vector<RasterPicture>& pictures) {
+  std::vector<std::vector<uint8_t>> leaves;
+  for (const RasterPicture& picture : pictures) leaves.push_back(LeafMask(picture, raster.grid));
+  std::vector<std::vector<size_t>> unseen;
   for (size_t p = 0; p < pictures.size(); ++p) {
-    leaves.push_back(LeavesBeforeWall(pictures, p, raster));
+    unseen.push_back(LeavesBeforeWall(pictures, leaves, p, raster.grid, before));
   }
-  const double before = SeenArea(pictures, inside);
+  const double seen = SeenArea(pictures, raster.inside);
   std::vector<std::vector<Sight>> kept;
   for (size_t p = 0; p < pictures.size(); ++p) {
     kept.push_back(pictures[p].sight);
-    for (const size_t i : leaves[p]) pictures[p].sight[i] = Sight::kNot;
+    for (const size_t i : unseen[p]) pictures[p].sight[i] = Sight::kNot;
   }
-  if (before - SeenArea(pictures, inside) <= kMostDropped * before) return;
+  if (seen - SeenArea(pictures, raster.inside) <= kMostDropped * seen) return;
   for (size_t p = 0; p < pictures.size(); ++p) pictures[p].sight = std::move(kept[p]);
 }
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <vector>
 
 #include "texture/grid/grid.h"
@@ -11,14 +9,14 @@
 
 namespace stucco {
 
-// Leaves before a wall: too thin for the cloud, and where fewer than three photos see the wall no
-// majority knows them. A picture does not see a texel (Sight::kNot) around which it is green and
-// restless as leaves are (excess green index: Woebbecke et al., "Color indices for weed
-// identification", 1995) while no other picture has the same pattern there: what grows on the wall
-// looks alike from everywhere, a tree before it does not. Where that would take more than 30 % of
-// what the pictures see of the facet, green is taken for the wall's own and nothing changes.
-// `inside` is how much of each texel is the facet's.
-void DropFoliage(const TexelGrid& raster, std::span<const uint16_t> inside,
-                 std::vector<RasterPicture>& pictures);
+// Leaves before a wall: too thin for the cloud, and where only two photos see the wall no majority
+// knows them. A picture does not see a texel (Sight::kNot) around which it is green and restless as
+// leaves are (excess green index: Woebbecke et al., "Color indices for weed identification", 1995)
+// while pictures from elsewhere see it freely and none shows the same leaves there: what grows on
+// the wall looks alike from everywhere, a tree before it does not. From elsewhere is what would
+// show something `before` raster texels before the wall in another place. Where that would take
+// more than 30 % of what the pictures see of the facet, green is taken for the wall's own and
+// nothing changes.
+void DropFoliage(const FacetRaster& raster, double before, std::vector<RasterPicture>& pictures);
 
 }  // namespace stucco
