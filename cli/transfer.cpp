@@ -90,6 +90,26 @@ int ImportTown(const Program& program, const ScanRequest& request) {
   return 0;
 }
 
+int Export(const Program& program, const ExportRequest& request) {
+  const CommonOptions& common = program.common;
+  const ExportReport report = ExportSurvey(common.survey, request, program.table);
+  const std::string folder = report.pictures_folder.string();
+  if (common.json) {
+    Json json = {{"format", request.format}, {"out", request.out.string()}};
+    if (!folder.empty()) json["pictures_folder"] = folder;
+    if (!report.notes.empty()) json["notes"] = report.notes;
+    PrintJson(json);
+  } else if (!common.quiet) {
+    std::cout << "Wrote " << request.out.string() << "\n";
+    if (!folder.empty()) {
+      std::cout << fmt::format("and {}, with the {} pictures that it names: keep them together\n",
+                               folder, report.pictures);
+    }
+    for (const std::string& note : report.notes) std::cout << "  " << note << "\n";
+  }
+  return 0;
+}
+
 std::string FormatHelp() {
   std::string text = "One of";
   for (const ExportFormat& format : ExportFormats()) {
@@ -165,16 +185,7 @@ void AddExport(CLI::App& app, Program& program) {
                   "Coordinate system of the corners, for cityjson; default: the survey's own frame")
       ->type_name("EPSG:n");
   verb.callback([&program, request] {
-    program.action = [&program, request] {
-      ExportSurvey(program.common.survey, *request, program.table);
-      if (program.common.json) {
-        const Json json = {{"format", request->format}, {"out", request->out.string()}};
-        PrintJson(json);
-      } else if (!program.common.quiet) {
-        std::cout << "Wrote " << request->out.string() << "\n";
-      }
-      return 0;
-    };
+    program.action = [&program, request] { return Export(program, *request); };
   });
 }
 

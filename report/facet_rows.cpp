@@ -4,22 +4,17 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
+#include "survey/facet_picture.h"
 #include "survey/median.h"
 #include "survey/numbers.h"
 
 namespace stucco {
 namespace {
 
-// How far a picture may be from a facet's plane and outline: its outermost texels stick out.
-constexpr double kFitSlack_px = 2;
-constexpr double kFitCosine = 0.9999;
 // A picture whose texels are this much larger than its photos' shows visibly less than they do.
 constexpr double kCoarseAbove = 1.25;
 
@@ -115,28 +110,10 @@ bool TexturesMayBeOld(const SurveyData& data) {
          });
 }
 
-// Whether a picture lies on the facet's plane, faces the same way and fits around its outline.
-bool Fits(const TexturedFacet& texture, const Facet& facet) {
-  const double slack = kFitSlack_px * texture.metres_per_texel;
-  if (!(std::abs(facet.normal.dot(texture.origin) - facet.offset) <= slack)) return false;
-  if (!(texture.u_axis.cross(texture.v_axis).dot(facet.normal) <= -kFitCosine)) return false;
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::max());
-  Eigen::Vector2d high = -low;
-  for (const Eigen::Vector3d& vertex : facet.outer) {
-    const Eigen::Vector3d offset = vertex - texture.origin;
-    const Eigen::Vector2d uv(offset.dot(texture.u_axis), offset.dot(texture.v_axis));
-    low = low.cwiseMin(uv);
-    high = high.cwiseMax(uv);
-  }
-  const Eigen::Vector2d size =
-      texture.metres_per_texel * Eigen::Vector2d(texture.width_px, texture.height_px);
-  return low.cwiseAbs().maxCoeff() <= slack && (high - size).cwiseAbs().maxCoeff() <= slack;
-}
-
 // The picture of a facet, or a note that the one of this id is of another model.
 void Join(const TexturedFacet& texture, bool may_be_old, FacetRow& row) {
   const bool has_picture = !texture.image.empty();
-  row.texture_outdated = may_be_old && !(has_picture && Fits(texture, *row.facet));
+  row.texture_outdated = may_be_old && !(has_picture && FitsFacet(texture, *row.facet));
   if (!row.texture_outdated) row.texture = &texture;
 }
 

@@ -10,10 +10,10 @@
 #include "exchange/nerfstudio.h"
 #include "pipeline/engine/settings.h"
 #include "pipeline/engine/shell.h"
-#include "pipeline/verbs/internal/city_in_crs.h"
+#include "pipeline/verbs/internal/export_city.h"
+#include "pipeline/verbs/internal/export_files.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
-#include "survey/files.h"
 #include "survey/georef.h"
 #include "survey/options.h"
 #include "survey/survey_folder.h"
@@ -24,8 +24,6 @@ namespace stucco {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr char kCityJsonFile[] = "proxy/proxy.city.json";
 
 const ExportFormat& Format(const std::string& name) {
   const std::vector<ExportFormat>& formats = ExportFormats();
@@ -53,22 +51,6 @@ void RequireMade(const fs::path& survey, const fs::path& file, const std::string
                 fmt::format("{}: is not there: {} has not run", (survey / file).string(), stage),
                 fmt::format("run it first: stucco {} {}", stage, ShellWord(survey.string())));
   }
-}
-
-void RequireFree(const fs::path& out, bool overwrite) {
-  std::error_code error;
-  if (!overwrite && fs::exists(out, error) && !(fs::is_directory(out) && fs::is_empty(out))) {
-    throw Error(ErrorKind::kBadInput, fmt::format("{}: exists already", out.string()),
-                "choose another name, or add --overwrite");
-  }
-}
-
-void CopyFile(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  if (!to.parent_path().empty()) {
-    fs::create_directories(to.parent_path(), error);
-  }
-  WriteFileAtomically(to, ReadFile(from));
 }
 
 // model.obj names model.mtl, and that names pictures below textures/.
@@ -115,18 +97,6 @@ void ExportTiles(const fs::path& survey, const fs::path& out, int threads) {
   WriteTiles3d({proxy, textures, survey / "texture"}, georef, out, options);
 }
 
-void ExportCityJson(const fs::path& survey, const fs::path& out, const std::string& crs) {
-  if (crs.empty()) {
-    CopyFile(survey / kCityJsonFile, out);
-    return;
-  }
-  const CityFrame frame{ReadGeoref(survey / kGeorefFile), ReadProxy(survey / kFacetsFile).up};
-  const std::string text = CityInCrs(ReadFile(survey / kCityJsonFile), frame, crs);
-  std::error_code error;
-  if (!out.parent_path().empty()) fs::create_directories(out.parent_path(), error);
-  WriteFileAtomically(out, text);
-}
-
 }  // namespace
 
 const std::vector<ExportFormat>& ExportFormats() {
@@ -140,11 +110,15 @@ const std::vector<ExportFormat>& ExportFormats() {
       {"3dtiles", "folder with tileset.json: textured model as 3D Tiles 1.1, with levels of detail",
        "texture"},
       {"ply", "file: dense point cloud", "dense"},
-      {"cityjson", "file: the planar model as CityJSON 2.0; with --crs in that system", "proxy"}};
+      {"cityjson",
+       "file: the planar model as CityJSON 2.0, once textured with its pictures in a folder beside "
+       "it; with --crs in that system",
+       "proxy"}};
   return formats;
 }
 
-void ExportSurvey(const fs::path& survey, const ExportRequest& request, const StageTable& table) {
+ExportReport ExportSurvey(const fs::path& survey, const ExportRequest& request,
+                          const StageTable& table) {
   const ExportFormat& chosen = Format(request.format);
   const auto prepare = [&](const fs::path& made) {
     RequireMade(survey, made, chosen.stage);
@@ -165,13 +139,14 @@ void ExportSurvey(const fs::path& survey, const ExportRequest& request, const St
     CopyObj(survey / "texture", request.out);
   } else if (chosen.name == "cityjson") {
     prepare(kCityJsonFile);
-    ExportCityJson(survey, request.out, request.crs);
+    return ExportCity(survey, request);
   } else {
     const fs::path file =
         chosen.name == "glb" ? fs::path("texture/model.glb") : fs::path(kCloudFile);
     prepare(file);
     CopyFile(survey / file, request.out);
   }
+  return {};
 }
 
 }  // namespace stucco

@@ -9,12 +9,22 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
+
+#include "proxy/output/internal/city_appearance.h"
 
 namespace stucco {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// The rings of a surface, the outer one first: vertices of the file, and the corners in the world
+// that became them.
+struct WrittenRings {
+  std::vector<std::vector<int>> vertices;
+  std::vector<std::vector<Eigen::Vector3d>> corners;
+};
 
 // CityJSON's table of vertices in whole numbers: vertex * scale + translate.
 class VertexTable {
@@ -35,16 +45,24 @@ class VertexTable {
     box_ = box;
   }
 
-  // Indices of a ring, without repeats; empty when fewer than three corners are left.
-  Json Ring(const std::vector<Eigen::Vector3d>& ring) {
-    std::vector<int> indices;
+  // Adds a ring without repeats, unless fewer than three corners are left; says whether it did.
+  bool AddRing(const std::vector<Eigen::Vector3d>& ring, WrittenRings& rings) {
+    std::vector<int> vertices;
+    std::vector<Eigen::Vector3d> corners;
     for (const auto& p : ring) {
       const int index = IndexOf(p);
-      if (indices.empty() || indices.back() != index) indices.push_back(index);
+      if (!vertices.empty() && vertices.back() == index) continue;
+      vertices.push_back(index);
+      corners.push_back(p);
     }
-    while (indices.size() > 1 && indices.front() == indices.back()) indices.pop_back();
-    if (indices.size() < 3) indices.clear();
-    return indices;
+    while (vertices.size() > 1 && vertices.front() == vertices.back()) {
+      vertices.pop_back();
+      corners.pop_back();
+    }
+    if (vertices.size() < 3) return false;
+    rings.vertices.push_back(std::move(vertices));
+    rings.corners.push_back(std::move(corners));
+    return true;
   }
 
   Json Vertices() const { return vertices_; }
@@ -94,33 +112,35 @@ Json SemanticsOf(const Facet& facet, const Eigen::Vector3d& up) {
   return surface;
 }
 
+// `appearance`: null for surfaces without pictures.
 Json GeometryOf(const Building& building, const Eigen::Vector3d& up, bool semantics,
-                VertexTable& table) {
+                VertexTable& table, CityAppearance* appearance) {
   Json surfaces = Json::array(), values = Json::array(), boundary = Json::array();
+  Json painted = Json::array();
+  const size_t pictures_before = appearance ? appearance->pictures().size() : 0;
   for (const Facet& facet : building.facets) {
-    Json rings = Json::array();
-    rings.push_back(table.Ring(facet.outer));
-    if (rings[0].empty()) continue;
-    for (const auto& hole : facet.holes) {
-      Json ring = table.Ring(hole);
-      if (!ring.empty()) rings.push_back(std::move(ring));
-    }
-    boundary.push_back(std::move(rings));
+    WrittenRings rings;
+    if (!table.AddRing(facet.outer, rings)) continue;
+    for (const auto& hole : facet.holes) table.AddRing(hole, rings);
+    boundary.push_back(std::move(rings.vertices));
     values.push_back(static_cast<int>(surfaces.size()));
     surfaces.push_back(SemanticsOf(facet, up));
+    if (appearance) painted.push_back(appearance->ValuesOf(facet, rings.corners));
   }
+  // Arrays are as deep in a geometry as its boundaries: a solid has shells, of which ours is one.
+  const auto nested = [&](const Json& by_surface) {
+    return building.watertight ? Json::array({by_surface}) : by_surface;
+  };
   Json geometry = {{"type", building.watertight ? "Solid" : "MultiSurface"}, {"lod", "2.2"}};
-  geometry["boundaries"] = building.watertight ? Json::array({boundary}) : boundary;
-  if (semantics) {
-    geometry["semantics"] = {{"surfaces", surfaces},
-                             {"values", building.watertight ? Json::array({values}) : values}};
+  geometry["boundaries"] = nested(boundary);
+  if (semantics) geometry["semantics"] = {{"surfaces", surfaces}, {"values", nested(values)}};
+  if (appearance && appearance->pictures().size() > pictures_before) {
+    geometry["texture"][kCityTheme]["values"] = nested(painted);
   }
   return geometry;
 }
 
-}  // namespace
-
-std::string CityJsonText(const Proxy& proxy) {
+std::string TextOf(const Proxy& proxy, CityAppearance* appearance) {
   const Eigen::Matrix3d turned_from_world =
       Eigen::Quaterniond::FromTwoVectors(proxy.up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   VertexTable table(proxy, turned_from_world);
@@ -128,8 +148,9 @@ std::string CityJsonText(const Proxy& proxy) {
   for (const Building& building : proxy.buildings) {
     if (building.facets.empty()) continue;
     if (building.id == "G0") {
-      objects["G0"] = {{"type", "LandUse"},
-                       {"geometry", Json::array({GeometryOf(building, proxy.up, false, table)})}};
+      objects["G0"] = {
+          {"type", "LandUse"},
+          {"geometry", Json::array({GeometryOf(building, proxy.up, false, table, appearance)})}};
       continue;
     }
     const std::string part = building.id + "-1";
@@ -138,9 +159,10 @@ std::string CityJsonText(const Proxy& proxy) {
     objects[building.id] = {{"type", "Building"},
                             {"attributes", std::move(attributes)},
                             {"children", Json::array({part})}};
-    objects[part] = {{"type", "BuildingPart"},
-                     {"parents", Json::array({building.id})},
-                     {"geometry", Json::array({GeometryOf(building, proxy.up, true, table)})}};
+    objects[part] = {
+        {"type", "BuildingPart"},
+        {"parents", Json::array({building.id})},
+        {"geometry", Json::array({GeometryOf(building, proxy.up, true, table, appearance)})}};
   }
   Json city = {{"type", "CityJSON"}, {"version", "2.0"}};
   city["transform"] = table.Transform();
@@ -151,7 +173,21 @@ std::string CityJsonText(const Proxy& proxy) {
   }
   city["CityObjects"] = std::move(objects);
   city["vertices"] = table.IsEmpty() ? Json::array() : table.Vertices();
+  if (appearance && !appearance->pictures().empty()) city["appearance"] = appearance->Text();
   return city.dump() + "\n";
+}
+
+}  // namespace
+
+std::string CityJsonText(const Proxy& proxy) {
+  return TextOf(proxy, nullptr);
+}
+
+TexturedCity TexturedCityJson(const Proxy& proxy, const TextureSet& textures,
+                              const std::string& folder) {
+  CityAppearance appearance(textures, folder);
+  std::string text = TextOf(proxy, &appearance);
+  return {std::move(text), appearance.pictures(), appearance.outdated()};
 }
 
 }  // namespace stucco

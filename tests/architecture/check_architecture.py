@@ -40,7 +40,7 @@ FOLDER_ARROWS = {
     "pipeline/verbs/": ("pipeline/engine/", "pipeline/verbs/", "calib/localise/localise.h",
                         "calib/options/calib_options.h", "calib/records/placement.h",
                         "capture_ingest/ingest.h", "exchange/", "plan/",
-                        "report/epoch_report.h", "survey/",
+                        "proxy/output/cityjson.h", "report/epoch_report.h", "survey/",
                         "texture/options/texture_options.h", "texture/output/tiles_3d.h",
                         "texture/repaint.h"),
     "cli/": ("cli/", "evaluate/", "pipeline/default_stages.h", "pipeline/engine/engine.h",

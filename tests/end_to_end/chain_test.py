@@ -157,6 +157,16 @@ class Chain(stucco.TestCase):
             if line.strip().startswith("map_Kd"):
                 self.assertTrue((out / line.split(maxsplit=1)[1]).is_file(), line)
 
+    def test_cityjson_names_pictures_that_are_there(self):
+        out = self.root / "cities/sample.city.json"
+        process = self.check(stucco.run("export", self.finished, "--format", "cityjson", "-o", out))
+        self.assertIn("sample_appearance", process.stdout)
+        city = json.loads(out.read_text())
+        textures = city["appearance"]["textures"]
+        self.assertGreater(len(textures), 6)
+        for texture in textures:
+            self.assertTrue((out.parent / texture["image"]).is_file(), texture)
+
     def test_everything_is_measured(self):
         for stage in self.first["stages"]:
             self.assertEqual(stage["action"], "ran")

@@ -5,20 +5,11 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "survey/facet_picture.h"
 #include "survey/image.h"
 #include "survey/triangulate.h"
 
 namespace stucco {
-namespace {
-
-Eigen::Vector2f GlbCoordinates(const TexturedFacet& texture, const Eigen::Vector3d& vertex) {
-  const Eigen::Vector3d offset = (vertex - texture.origin) / texture.metres_per_texel;
-  return Eigen::Vector2d(offset.dot(texture.u_axis) / texture.width_px,
-                         offset.dot(texture.v_axis) / texture.height_px)
-      .cast<float>();
-}
-
-}  // namespace
 
 Eigen::Isometry3d YUpFromZUp() {
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
@@ -37,7 +28,7 @@ GlbMesh GlbMeshOf(const Facet& facet, const TexturedFacet* texture,
   for (const Eigen::Vector3d& vertex : shape.vertices) {
     primitive.positions.emplace_back((glb_from_world * vertex).cast<float>());
     primitive.normals.push_back(normal);
-    if (texture) primitive.uv.push_back(GlbCoordinates(*texture, vertex));
+    if (texture) primitive.uv.emplace_back(OnPicture(*texture, vertex).cast<float>());
   }
   for (const auto& triangle : shape.triangles) {
     primitive.indices.insert(primitive.indices.end(), triangle.begin(), triangle.end());

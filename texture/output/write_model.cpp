@@ -19,6 +19,7 @@
 
 #include "survey/encode_image.h"
 #include "survey/error.h"
+#include "survey/facet_picture.h"
 #include "survey/files.h"
 #include "survey/glb.h"
 #include "survey/parallel.h"
@@ -60,10 +61,8 @@ aiVector3D ToVector(const Eigen::Vector3d& v) {
 
 // Assimp's texture coordinates have their origin at the lower left.
 aiVector3D TextureCoordinates(const TexturedFacet& texture, const Eigen::Vector3d& vertex) {
-  const Eigen::Vector3d offset = (vertex - texture.origin) / texture.metres_per_texel;
-  const double u = offset.dot(texture.u_axis) / texture.width_px;
-  const double v = 1 - offset.dot(texture.v_axis) / texture.height_px;
-  return {static_cast<float>(u), static_cast<float>(v), 0};
+  const Eigen::Vector2d at = OnPicture(texture, vertex);
+  return {static_cast<float>(at.x()), static_cast<float>(1 - at.y()), 0};
 }
 
 aiMesh* MakeMesh(const Facet& facet, const TexturedFacet* texture,

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/verbs/internal/export_city.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <system_error>
+
+#include "pipeline/engine/shell.h"
+#include "pipeline/verbs/internal/city_in_crs.h"
+#include "pipeline/verbs/internal/export_files.h"
+#include "proxy/output/cityjson.h"
+#include "survey/error.h"
+#include "survey/files.h"
+#include "survey/georef.h"
+#include "survey/proxy.h"
+#include "survey/survey_folder.h"
+#include "survey/texture_set.h"
+#include "survey/utf8.h"
+
+namespace stucco {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "castle_appearance" for castle.city.json: two exports into one folder keep their pictures apart.
+std::string PicturesFolderOf(const fs::path& out) {
+  fs::path name = out.filename();
+  if (!IsPrintableUtf8(name.string())) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{}: its name is not valid UTF-8 or has control characters, so that it "
+                            "cannot name the folder of its pictures",
+                            out.string()),
+                "choose a plain name");
+  }
+  for (const char* extension : {".json", ".city"}) {
+    if (name.extension() == extension) name = name.stem();
+  }
+  return name.string() + "_appearance";
+}
+
+TexturedCity CityOf(const fs::path& survey, const fs::path& out) {
+  std::error_code error;
+  if (!fs::exists(survey / kTexturesFile, error)) return {ReadFile(survey / kCityJsonFile), {}};
+  TexturedCity city =
+      TexturedCityJson(ReadProxy(survey / kFacetsFile), ReadTextureSet(survey / kTexturesFile),
+                       PicturesFolderOf(out));
+  // Nothing is painted: what the stage proxy wrote is the same.
+  if (city.pictures.empty()) city.text = ReadFile(survey / kCityJsonFile);
+  return city;
+}
+
+}  // namespace
+
+ExportReport ExportCity(const fs::path& survey, const ExportRequest& request) {
+  TexturedCity city = CityOf(survey, request.out);
+  if (!request.crs.empty()) {
+    const CityFrame frame{ReadGeoref(survey / kGeorefFile), ReadProxy(survey / kFacetsFile).up};
+    city.text = CityInCrs(city.text, frame, request.crs);
+  }
+  ExportReport report;
+  if (city.outdated > 0) {
+    report.notes.push_back(
+        fmt::format("pictures of an earlier model left out: {}; run stucco texture {} to paint the "
+                    "facets again",
+                    city.outdated, ShellWord(survey.string())));
+  }
+  std::error_code error;
+  const fs::path beside = request.out.parent_path();
+  if (!beside.empty())
+    fs::create_directories(beside, error);  // writing the file says what is wrong
+  if (!city.pictures.empty()) {
+    report.pictures = static_cast<int>(city.pictures.size());
+    report.pictures_folder = beside / PicturesFolderOf(request.out);
+    RequireFree(report.pictures_folder, request.overwrite);
+    const fs::path texture = (survey / kTexturesFile).parent_path();
+    for (const CityPicture& picture : city.pictures) {
+      CopyFile(texture / picture.image, beside / picture.name);
+    }
+  }
+  // Last, so that it names what is there.
+  WriteFileAtomically(request.out, city.text);
+  return report;
+}
+
+}  // namespace stucco
