@@ -17,6 +17,11 @@ function(add_precompiled name)
   target_compile_features(${name} PUBLIC cxx_std_20)
   target_link_libraries(${name} PRIVATE project_warnings Eigen3::Eigen ${P_LINK})
   target_precompile_headers(${name} PRIVATE ${precompiled_headers} ${P_HEADERS})
+  # ccache goes by this instead of the compiled bytes (CCACHE_PCH_EXTSUM, set by scripts/build.sh),
+  # which are never the same twice: so that a second checkout finds what the first compiled.
+  file(WRITE ${CMAKE_BINARY_DIR}/CMakeFiles/${name}.dir/cmake_pch.hxx.gch.sum
+    "${precompiled_headers} ${P_HEADERS} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_BUILD_TYPE} "
+    "${Eigen3_VERSION} ${GTest_VERSION}")
 endfunction()
 add_precompiled(precompiled_code)
 add_precompiled(precompiled_code_cgal LINK CGAL::CGAL)

@@ -11,6 +11,7 @@ if command -v ccache >/dev/null 2>&1; then
   launcher=-DCMAKE_CXX_COMPILER_LAUNCHER=ccache
   # What it asks for before it caches units that use precompiled headers.
   export CCACHE_SLOPPINESS="pch_defines,time_macros,${CCACHE_SLOPPINESS-}"
+  export CCACHE_PCH_EXTSUM=1
 fi
 cmake --preset "$preset" $launcher >&2
 cmake --build --preset "$preset" ${1:+--target "$@"} >&2
