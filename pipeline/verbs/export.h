@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/engine/stages.h"
+#include "pipeline/verbs/export_request.h"  // IWYU pragma: export
 
 namespace stucco {
 
@@ -17,20 +18,6 @@ struct ExportFormat {
 };
 
 const std::vector<ExportFormat>& ExportFormats();
-
-// What is exported, and whereto.
-struct ExportRequest {
-  std::string format;
-  std::filesystem::path out;
-  bool overwrite = false;
-  std::string crs = {};  // "EPSG:2056", for "cityjson" only; empty: the survey's own frame
-};
-
-struct ExportReport {
-  std::filesystem::path pictures_folder;  // beside `out`, which names what is in it; empty: none
-  int pictures = 0;                       // in that folder
-  std::vector<std::string> notes;         // for people
-};
 
 // Writes a survey's result in another program's format: a file for "blocksexchange", "glb", "ply"
 // and "cityjson", a folder for the others. With "cityjson" go the pictures of its surfaces once

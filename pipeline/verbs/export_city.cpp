@@ -68,8 +68,8 @@ ExportReport ExportCity(const fs::path& survey, const ExportRequest& request) {
   }
   std::error_code error;
   const fs::path beside = request.out.parent_path();
-  if (!beside.empty())
-    fs::create_directories(beside, error);  // writing the file says what is wrong
+  // Writing the file says what is wrong with it.
+  if (!beside.empty()) fs::create_directories(beside, error);
   if (!city.pictures.empty()) {
     report.pictures = static_cast<int>(city.pictures.size());
     report.pictures_folder = beside / PicturesFolderOf(request.out);

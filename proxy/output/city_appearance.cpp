@@ -38,8 +38,7 @@ Json CityAppearance::ValuesOf(const Facet& facet,
   if (!fits) return Json(rings.size(), Json::array({nullptr}));
   const TexturedFacet& picture = *own->second;
   const size_t number = pictures_.size();
-  const std::string file = std::filesystem::path(picture.image).filename().string();
-  pictures_.push_back({picture.image, folder_ + "/" + file});
+  pictures_.push_back(&picture);
   Json values = Json::array();
   for (const std::vector<Eigen::Vector3d>& ring : rings) {
     Json entry = Json::array({number});
@@ -53,16 +52,20 @@ Json CityAppearance::ValuesOf(const Facet& facet,
   return values;
 }
 
-Json CityAppearance::Text() const {
+std::string CityAppearance::NameOf(const TexturedFacet& picture) const {
+  return folder_ + "/" + std::filesystem::path(picture.image).filename().string();
+}
+
+Json CityAppearance::Text(const std::string& theme) const {
   Json textures = Json::array(), corners = Json::array();
-  for (const CityPicture& picture : pictures_) {
+  for (const TexturedFacet* picture : pictures_) {
     textures.push_back({{"type", "PNG"},
-                        {"image", picture.name},
+                        {"image", NameOf(*picture)},
                         {"wrapMode", "clamp"},
                         {"textureType", "specific"}});
   }
   for (const Eigen::Vector2d& corner : corners_) corners.push_back({corner.x(), corner.y()});
-  Json appearance = {{"default-theme-texture", kCityTheme}};
+  Json appearance = {{"default-theme-texture", theme}};
   appearance["textures"] = std::move(textures);
   appearance["vertices-texture"] = std::move(corners);
   return appearance;

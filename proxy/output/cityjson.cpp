@@ -173,7 +173,8 @@ std::string TextOf(const Proxy& proxy, CityAppearance* appearance) {
   }
   city["CityObjects"] = std::move(objects);
   city["vertices"] = table.IsEmpty() ? Json::array() : table.Vertices();
-  if (appearance && !appearance->pictures().empty()) city["appearance"] = appearance->Text();
+  if (appearance && !appearance->pictures().empty())
+    city["appearance"] = appearance->Text(kCityTheme);
   return city.dump() + "\n";
 }
 
@@ -186,8 +187,13 @@ std::string CityJsonText(const Proxy& proxy) {
 TexturedCity TexturedCityJson(const Proxy& proxy, const TextureSet& textures,
                               const std::string& folder) {
   CityAppearance appearance(textures, folder);
-  std::string text = TextOf(proxy, &appearance);
-  return {std::move(text), appearance.pictures(), appearance.outdated()};
+  TexturedCity city;
+  city.text = TextOf(proxy, &appearance);
+  for (const TexturedFacet* picture : appearance.pictures()) {
+    city.pictures.push_back({picture->image, appearance.NameOf(*picture)});
+  }
+  city.outdated = appearance.outdated();
+  return city;
 }
 
 }  // namespace stucco

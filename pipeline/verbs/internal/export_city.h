@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "pipeline/verbs/export.h"
+#include "pipeline/verbs/export_request.h"
 
 namespace stucco {
 

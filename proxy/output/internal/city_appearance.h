@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "proxy/output/cityjson.h"
 #include "survey/proxy.h"
 #include "survey/texture_set.h"
 
@@ -28,18 +27,20 @@ class CityAppearance {
   nlohmann::ordered_json ValuesOf(const Facet& facet,
                                   const std::vector<std::vector<Eigen::Vector3d>>& rings);
 
-  // The file's "appearance".
-  nlohmann::ordered_json Text() const;
+  // The file's "appearance", whose one theme is called `theme`.
+  nlohmann::ordered_json Text(const std::string& theme) const;
 
   // Those that a surface is painted with, in the order of the file.
-  const std::vector<CityPicture>& pictures() const { return pictures_; }
+  const std::vector<const TexturedFacet*>& pictures() const { return pictures_; }
+  // Where the file looks for a picture, relative to itself.
+  std::string NameOf(const TexturedFacet& picture) const;
   // Facets whose picture was left out because it does not fit them.
   int outdated() const { return outdated_; }
 
  private:
   std::map<std::string, const TexturedFacet*> by_id_;
   std::string folder_;
-  std::vector<CityPicture> pictures_;
+  std::vector<const TexturedFacet*> pictures_;
   std::vector<Eigen::Vector2d> corners_;  // on their picture, v upwards
   int outdated_ = 0;
 };

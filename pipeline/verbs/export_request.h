@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stucco {
+
+// What is exported, and whereto.
+struct ExportRequest {
+  std::string format;
+  std::filesystem::path out;
+  bool overwrite = false;
+  std::string crs = {};  // "EPSG:2056", for "cityjson" only; empty: the survey's own frame
+};
+
+struct ExportReport {
+  std::filesystem::path pictures_folder;  // beside `out`, which names what is in it; empty: none
+  int pictures = 0;                       // in that folder
+  std::vector<std::string> notes;         // for people
+};
+
+}  // namespace stucco
