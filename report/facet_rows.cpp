@@ -117,8 +117,28 @@ void Join(const TexturedFacet& texture, bool may_be_old, FacetRow& row) {
   if (!row.texture_outdated) row.texture = &texture;
 }
 
+using TexturesById = std::map<std::string, const TexturedFacet*>;
+
+// The row of a facet of the model; its picture leaves `texture_by_id`.
+FacetRow RowOf(const Building& building, const Facet& facet, bool may_be_old,
+               TexturesById& texture_by_id) {
+  FacetRow row;
+  row.id = facet.id;
+  row.building = building.id;
+  row.facet = &facet;
+  row.facet_class = facet.facet_class;
+  const auto found = texture_by_id.find(facet.id);
+  if (found == texture_by_id.end()) {
+    row.texture_outdated = may_be_old;
+    return row;
+  }
+  Join(*found->second, may_be_old, row);
+  texture_by_id.erase(found);
+  return row;
+}
+
 std::vector<FacetRow> ListFacets(const SurveyData& data) {
-  std::map<std::string, const TexturedFacet*> texture_by_id;
+  TexturesById texture_by_id;
   if (data.textures) {
     for (const TexturedFacet& texture : data.textures->facets) {
       texture_by_id.emplace(texture.id, &texture);
@@ -129,19 +149,7 @@ std::vector<FacetRow> ListFacets(const SurveyData& data) {
   if (data.proxy) {
     for (const Building& building : data.proxy->buildings) {
       for (const Facet& facet : building.facets) {
-        const auto found = texture_by_id.find(facet.id);
-        FacetRow row;
-        row.id = facet.id;
-        row.building = building.id;
-        row.facet = &facet;
-        row.facet_class = facet.facet_class;
-        if (found != texture_by_id.end()) {
-          Join(*found->second, may_be_old, row);
-          texture_by_id.erase(found);
-        } else {
-          row.texture_outdated = may_be_old;
-        }
-        rows.push_back(std::move(row));
+        rows.push_back(RowOf(building, facet, may_be_old, texture_by_id));
       }
     }
   }

@@ -59,9 +59,9 @@ std::optional<std::string> FindFacetProblem(const Facet& facet) {
   if (!facet.normal.allFinite() || !(std::abs(facet.normal.norm() - 1) <= kUnitTolerance)) {
     return "normal is not of unit length";
   }
-  if (const auto problem = FindRingProblem(facet, facet.outer, /*is_hole=*/false)) return problem;
+  if (auto problem = FindRingProblem(facet, facet.outer, /*is_hole=*/false)) return problem;
   for (const auto& hole : facet.holes) {
-    if (const auto problem = FindRingProblem(facet, hole, /*is_hole=*/true)) return problem;
+    if (auto problem = FindRingProblem(facet, hole, /*is_hole=*/true)) return problem;
   }
   for (const double share : {facet.seen, facet.inferred}) {
     if (!(share >= 0 && share <= 1)) return "seen and inferred must be in [0, 1]";

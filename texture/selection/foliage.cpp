@@ -73,8 +73,9 @@ bool ShowsLeaves(const RasterPicture& picture, const TexelGrid& raster, size_t t
 bool LookFromElsewhere(const RasterPicture& one, const RasterPicture& other,
                        const TexelGrid& raster, size_t texel, double before) {
   if (!(one.camera.z() > 0) || !(other.camera.z() > 0)) return true;
-  const Eigen::Vector2d place(static_cast<double>(texel % raster.width),
-                              static_cast<double>(texel / raster.width));
+  const size_t column = texel % raster.width;
+  const size_t row = texel / raster.width;
+  const Eigen::Vector2d place(static_cast<double>(column), static_cast<double>(row));
   const Eigen::Vector2d way = (one.camera.head<2>() - place) / one.camera.z() -
                               (other.camera.head<2>() - place) / other.camera.z();
   return before * way.norm() >= kMoved;
@@ -151,6 +152,7 @@ double SeenArea(std::span<const RasterPicture> pictures, std::span<const uint16_
 
 void DropFoliage(const FacetRaster& raster, double before, std::vector<RasterPicture>& pictures) {
   std::vector<std::vector<uint8_t>> leaves;
+  leaves.reserve(pictures.size());
   for (const RasterPicture& picture : pictures) leaves.push_back(LeafMask(picture, raster.grid));
   std::vector<std::vector<size_t>> unseen;
   for (size_t p = 0; p < pictures.size(); ++p) {
