@@ -193,7 +193,7 @@ std::vector<Hover> DroneScanViews(const Site& site, const CameraPreset& camera,
       options.d_max_m);
   const std::vector<Hover> candidates = AllCandidates(site, view, distance, threads);
   progress.Begin("views of the surface: what they see", 1);
-  ViewGraph graph(view, options.d_max_m, threads);
+  ViewGraph graph(view, options.d_max_m, threads, /*by_scale=*/false);
   graph.AddAll(candidates);
   progress.Advance();
   RemoveRedundant(graph, GoodPair(distance, options.d_max_m), progress);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plan/planar/reconstructability.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -22,16 +21,8 @@ double ParallaxWeight(double angle_rad) {
   return 1 / (1 + std::exp(-kParallaxSlope * (angle_rad - kParallaxAngle)));
 }
 
-double ResolutionWeight(double distance_m, double d_max_m) {
-  return 1 - std::min(distance_m / d_max_m, 1.0);
-}
-
 double MatchWeight(double angle_rad) {
   return 1 - 1 / (1 + std::exp(-kMatchSlope * (angle_rad - kMatchAngle)));
-}
-
-double ScaleWeight(double distance_m, double other_m) {
-  return std::min(distance_m, other_m) / std::max(distance_m, other_m);
 }
 
 double GoodPair(double distance_m, double d_max_m) {

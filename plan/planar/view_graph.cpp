@@ -47,10 +47,11 @@ int Counted(const Sighting& sighting) {
 
 }  // namespace
 
-ViewGraph::ViewGraph(const SurfaceView& view, double d_max_m, int threads)
+ViewGraph::ViewGraph(const SurfaceView& view, double d_max_m, int threads, bool by_scale)
     : view_(view),
       d_max_m_(d_max_m),
       threads_(threads),
+      by_scale_(by_scale),
       rays_(view.samples.size()),
       states_(view.samples.size()) {}
 
@@ -98,17 +99,14 @@ double ViewGraph::ShareOf(uint32_t sample, const Ray& ray, int shots, uint32_t s
     return r.x * normal.x() + r.y * normal.y() + r.z * normal.z();
   };
   const float own = facing(ray);
-  const auto reach = static_cast<float>(d_max_m_);
   double sum = 0;
   for (const Ray& other : rays_[sample]) {
     if (other.hover_and_shots >> kShotBits == self) continue;
     const float cosine = ray.x * other.x + ray.y * other.y + ray.z * other.z;
-    // w2 and w4, as plan/planar/reconstructability.h has them.
-    const float farther = std::max(ray.distance_m, other.distance_m);
-    const float nearer = std::min(ray.distance_m, other.distance_m);
-    const float clear = std::max(0.0F, 1 - farther / reach) * nearer / farther;
-    const float pair = AngleWeight(cosine) * clear * std::min(own, facing(other));
-    sum += static_cast<float>(other.hover_and_shots & kMostShots) * pair;
+    const double clear = ResolutionWeight(std::max(ray.distance_m, other.distance_m), d_max_m_) *
+                         (by_scale_ ? ScaleWeight(ray.distance_m, other.distance_m) : 1);
+    const double pair = AngleWeight(cosine) * clear * std::min(own, facing(other));
+    sum += (other.hover_and_shots & kMostShots) * pair;
   }
   const double among_themselves =
       0.5 * (shots - 1) * kAngleTable[0] * ResolutionWeight(ray.distance_m, d_max_m_) * own;

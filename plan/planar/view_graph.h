@@ -24,10 +24,11 @@ struct SampleState {
 
 // Which hover sees which samples, with every sample's reconstructability kept up to date as hovers
 // come and go. Photos of one hover count one by one. The weights of the angle come from a table:
-// every term of h is within 1e-4 of plan/planar/reconstructability.h.
+// every term of h is within 1e-4 of plan/planar/reconstructability.h. Without `by_scale` pairs are
+// as Smith et al. have them, without w4.
 class ViewGraph {
  public:
-  ViewGraph(const SurfaceView& view, double d_max_m, int threads);
+  ViewGraph(const SurfaceView& view, double d_max_m, int threads, bool by_scale = true);
 
   const SurfaceView& view() const { return view_; }
 
@@ -71,6 +72,7 @@ class ViewGraph {
   const SurfaceView& view_;
   double d_max_m_;
   int threads_;
+  bool by_scale_;
   std::vector<Eigen::Vector3d> positions_;
   std::vector<uint8_t> removed_;
   std::vector<std::vector<Sighting>> sightings_;  // by hover

@@ -81,6 +81,21 @@ TEST(ViewGraph, PhotosOfOneHoverHaveNextToNoParallax) {
   EXPECT_GT(several, 10);
 }
 
+TEST(ViewGraph, WithoutScaleAllPairsCountInFull) {
+  const Town town;
+  ViewGraph by_scale(town.view, kDMax, 1);
+  ViewGraph plain(town.view, kDMax, 1, /*by_scale=*/false);
+  by_scale.AddAll(town.hovers);
+  plain.AddAll(town.hovers);
+  int less = 0;
+  for (uint32_t s = 0; s < town.view.samples.size(); ++s) {
+    const double in_full = plain.state(s).reconstructability;
+    EXPECT_LE(by_scale.state(s).reconstructability, in_full);
+    less += by_scale.state(s).reconstructability < 0.95 * in_full;
+  }
+  EXPECT_GT(less, 0);
+}
+
 TEST(ViewGraph, FollowsHoversThatGoAndComeBackElsewhere) {
   Town town;
   ViewGraph graph(town.view, kDMax, 2);
