@@ -22,10 +22,6 @@ constexpr int kGrowth = 12;  // raster texels
 constexpr int kRim = 1;
 constexpr float kGrowthContrast = 20;
 
-float Brightness(const float* rgb) {
-  return (rgb[0] + rgb[1] + rgb[2]) / 3;
-}
-
 bool CouldBeSky(const float* rgb) {
   return Brightness(rgb) >= kSkyBrightness && rgb[0] <= rgb[2] + kSkyWarmth;
 }

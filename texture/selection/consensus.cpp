@@ -113,11 +113,11 @@ float LeastDistance(std::span<const RasterPicture> pictures, size_t asked, const
   return least;
 }
 
+}  // namespace
+
 float Brightness(const float* rgb) {
   return (rgb[0] + rgb[1] + rgb[2]) / 3;
 }
-
-}  // namespace
 
 float ColourDifference(const float* a, const float* b) {
   const float r = a[0] - b[0];

@@ -14,12 +14,16 @@ namespace stucco {
 // A candidate over the selection raster of a facet: how it sees each texel and what it shows there.
 struct RasterPicture {
   std::vector<Sight> sight;
-  std::vector<float> cost;  // ViewCost, 0 where not seen
-  std::vector<float> rgb;   // 3 per texel, 0 to 255, after colour gains; 0 where not seen
+  std::vector<float> cost;  // ViewCost, which means nothing where not seen
+  std::vector<float>
+      rgb;  // 3 per texel, 0 to 255, after colour gains; means nothing where not seen
   // Of the photo over the raster: column and row of its foot and height, all in texels. Height 0:
   // not known.
   Eigen::Vector3d camera = Eigen::Vector3d::Zero();
 };
+
+// Mean of the channels.
+float Brightness(const float* rgb);
 
 // Root mean square over the channels of two colours.
 float ColourDifference(const float* a, const float* b);

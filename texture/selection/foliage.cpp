@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
-#include <utility>
 
 namespace stucco {
 namespace {
@@ -19,10 +18,6 @@ constexpr double kRestless = 0.1;       // of what is green: standard deviation 
 constexpr double kSamePattern = 0.5;    // correlation of windows
 constexpr double kMoved = 2;            // raster texels: windows of leaves are no longer alike
 constexpr double kMostDropped = 0.3;
-
-float Brightness(const float* rgb) {
-  return (rgb[0] + rgb[1] + rgb[2]) / 3;
-}
 
 bool IsGreen(const float* rgb) {
   const float sum = rgb[0] + rgb[1] + rgb[2];
@@ -115,13 +110,13 @@ std::vector<uint8_t> LeafMask(const RasterPicture& picture, const TexelGrid& ras
   return out;
 }
 
-// Of the texels where a picture shows leaves, those where pictures from elsewhere do not show the
-// same ones.
-std::vector<size_t> LeavesBeforeWall(std::span<const RasterPicture> pictures,
-                                     std::span<const std::vector<uint8_t>> leaves, size_t asked,
-                                     const TexelGrid& raster, double before) {
+// By texel: a picture shows leaves, and those from elsewhere that see it freely do not show the
+// same.
+std::vector<uint8_t> LeavesBeforeWall(std::span<const RasterPicture> pictures,
+                                      std::span<const std::vector<uint8_t>> leaves, size_t asked,
+                                      const TexelGrid& raster, double before) {
   const RasterPicture& picture = pictures[asked];
-  std::vector<size_t> out;
+  std::vector<uint8_t> out(raster.size(), 0);
   for (size_t i = 0; i < raster.size(); ++i) {
     if (!leaves[asked][i]) continue;
     bool seen_elsewhere = false;
@@ -132,40 +127,46 @@ std::vector<size_t> LeavesBeforeWall(std::span<const RasterPicture> pictures,
       seen_elsewhere = true;
       agreed = leaves[other][i] && LookAlike(picture, pictures[other], raster, i);
     }
-    if (seen_elsewhere && !agreed) out.push_back(i);
+    out[i] = seen_elsewhere && !agreed;
   }
   return out;
 }
 
-// The part of the facet that some picture sees, on the scale of `inside`.
-double SeenArea(std::span<const RasterPicture> pictures, std::span<const uint16_t> inside) {
-  double area = 0;
+// Whether so much would be left that no picture sees that green must be the wall's own.
+bool WouldLoseTooMuch(std::span<const RasterPicture> pictures,
+                      std::span<const std::vector<uint8_t>> dropped,
+                      std::span<const uint16_t> inside) {
+  double seen = 0;
+  double left = 0;
   for (size_t i = 0; i < inside.size(); ++i) {
-    const bool seen = std::ranges::any_of(
-        pictures, [&](const RasterPicture& picture) { return picture.sight[i] != Sight::kNot; });
-    if (seen) area += inside[i];
+    bool is_seen = false;
+    bool is_left = false;
+    for (size_t p = 0; p < pictures.size(); ++p) {
+      const bool sees = pictures[p].sight[i] != Sight::kNot;
+      is_seen |= sees;
+      is_left |= sees && !dropped[p][i];
+    }
+    if (is_seen) seen += inside[i];
+    if (is_left) left += inside[i];
   }
-  return area;
+  return seen - left > kMostDropped * seen;
 }
 
 }  // namespace
 
 void DropFoliage(const FacetRaster& raster, double before, std::vector<RasterPicture>& pictures) {
-  std::vector<std::vector<uint8_t>> leaves;
-  leaves.reserve(pictures.size());
-  for (const RasterPicture& picture : pictures) leaves.push_back(LeafMask(picture, raster.grid));
-  std::vector<std::vector<size_t>> unseen;
+  std::vector<std::vector<uint8_t>> leaves(pictures.size());
+  for (size_t p = 0; p < pictures.size(); ++p) leaves[p] = LeafMask(pictures[p], raster.grid);
+  std::vector<std::vector<uint8_t>> dropped(pictures.size());
   for (size_t p = 0; p < pictures.size(); ++p) {
-    unseen.push_back(LeavesBeforeWall(pictures, leaves, p, raster.grid, before));
+    dropped[p] = LeavesBeforeWall(pictures, leaves, p, raster.grid, before);
   }
-  const double seen = SeenArea(pictures, raster.inside);
-  std::vector<std::vector<Sight>> kept;
+  if (WouldLoseTooMuch(pictures, dropped, raster.inside)) return;
   for (size_t p = 0; p < pictures.size(); ++p) {
-    kept.push_back(pictures[p].sight);
-    for (const size_t i : unseen[p]) pictures[p].sight[i] = Sight::kNot;
+    for (size_t i = 0; i < raster.grid.size(); ++i) {
+      if (dropped[p][i]) pictures[p].sight[i] = Sight::kNot;
+    }
   }
-  if (seen - SeenArea(pictures, raster.inside) <= kMostDropped * seen) return;
-  for (size_t p = 0; p < pictures.size(); ++p) pictures[p].sight = std::move(kept[p]);
 }
 
 }  // namespace stucco
