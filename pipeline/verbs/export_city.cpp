@@ -54,6 +54,11 @@ TexturedCity CityOf(const fs::path& survey, const fs::path& out) {
 }  // namespace
 
 ExportReport ExportCity(const fs::path& survey, const ExportRequest& request) {
+  std::error_code error;
+  if (fs::is_directory(request.out, error)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: is a folder", request.out.string()),
+                "name a file, such as castle.city.json");
+  }
   TexturedCity city = CityOf(survey, request.out);
   if (!request.crs.empty()) {
     const CityFrame frame{ReadGeoref(survey / kGeorefFile), ReadProxy(survey / kFacetsFile).up};
@@ -66,7 +71,6 @@ ExportReport ExportCity(const fs::path& survey, const ExportRequest& request) {
                     "facets again",
                     city.outdated, ShellWord(survey.string())));
   }
-  std::error_code error;
   const fs::path beside = request.out.parent_path();
   // Writing the file says what is wrong with it.
   if (!beside.empty()) fs::create_directories(beside, error);

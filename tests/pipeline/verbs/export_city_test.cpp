@@ -96,6 +96,12 @@ TEST_F(ExportCityTest, PicturesLieBesideTheFile) {
   EXPECT_EQ(ReadFile(folder / image), "png");
 }
 
+TEST_F(ExportCityTest, AFolderIsNoFileAndStaysEmpty) {
+  fs::create_directories(folder / "castle");
+  EXPECT_THAT(Refused(folder / "castle").what(), HasSubstr("is a folder"));
+  EXPECT_THAT(FilesBelow(folder), ElementsAre());
+}
+
 TEST_F(ExportCityTest, EachFileHasAFolderOfItsOwn) {
   for (const auto& [name, pictures] : std::map<std::string, std::string>{
            {"a.json", "a_appearance"}, {"b", "b_appearance"}, {"c.v2.json", "c.v2_appearance"}}) {
