@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the Stucco authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Reading headers is three quarters of the work of a build: most units read Eigen and a dozen
-# standard headers, tests GTest too. They are compiled once and shared by all targets; every unit
+# Reading headers is most of the work of a build: most units read Eigen and a dozen standard
+# headers, tests GTest too. They are compiled once and shared by all targets; every unit
 # still includes what it needs, which scripts/tidy.sh holds as it compiles without them.
 # CMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without.
 set(precompiled_headers

@@ -9,8 +9,9 @@ preset=${1:-dev}
 launcher=
 if command -v ccache >/dev/null 2>&1; then
   launcher=-DCMAKE_CXX_COMPILER_LAUNCHER=ccache
-  # What it asks for before it caches units that use precompiled headers.
-  export CCACHE_SLOPPINESS="pch_defines,time_macros,${CCACHE_SLOPPINESS-}"
+  # What it asks for before it caches units that use precompiled headers, besides what is set.
+  CCACHE_SLOPPINESS="pch_defines,time_macros,$(ccache --get-config sloppiness)"
+  export CCACHE_SLOPPINESS
   export CCACHE_PCH_EXTSUM=1
 fi
 cmake --preset "$preset" $launcher >&2
