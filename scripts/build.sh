@@ -13,6 +13,8 @@ if command -v ccache >/dev/null 2>&1; then
   CCACHE_SLOPPINESS="pch_defines,time_macros,$(ccache --get-config sloppiness)"
   export CCACHE_SLOPPINESS
   export CCACHE_PCH_EXTSUM=1
+  # By the compiler's list of headers instead of a preprocessor run of its own before each unit.
+  export CCACHE_DEPEND=1
 fi
 cmake --preset "$preset" $launcher >&2
 cmake --build --preset "$preset" ${1:+--target "$@"} >&2
