@@ -14,6 +14,7 @@
 #include "survey/files.h"
 #include "survey/image.h"
 #include "survey/parallel.h"
+#include "survey/release.h"
 
 namespace stucco {
 namespace {
@@ -99,7 +100,7 @@ class Budget {
 
   void Keep(Features& features) {
     const auto bytes = static_cast<int64_t>(features.size() * sizeof(features.descriptors[0]));
-    if (bytes_.fetch_sub(bytes) < bytes) features.descriptors = {};
+    if (bytes_.fetch_sub(bytes) < bytes) Release(features.descriptors);
   }
 
  private:
@@ -194,8 +195,8 @@ DetectedFeatures DetectAll(const CalibOptions& options, const PhotoSet& set,
 }
 
 void DropDescriptors(DetectedFeatures& detected) {
-  for (Features& features : detected.plain) features.descriptors = {};
-  for (auto& [photo_and_wall, run] : detected.walls) run.features.descriptors = {};
+  for (Features& features : detected.plain) Release(features.descriptors);
+  for (auto& [photo_and_wall, run] : detected.walls) Release(run.features.descriptors);
 }
 
 Features FeaturesOfPhoto(const DetectInput& input, const DetectedFeatures& detected, int photo) {

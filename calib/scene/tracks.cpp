@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "survey/disjoint_sets.h"
+#include "survey/release.h"
 
 namespace stucco {
 namespace {
@@ -49,7 +50,7 @@ class TrackForest {
     if (std::adjacent_find(merged.begin(), merged.end()) != merged.end()) return;
     sets_.Join(low, high);
     photos_[low] = std::move(merged);
-    photos_[high] = {};
+    Release(photos_[high]);
   }
 
   int size() const { return static_cast<int>(sets_.size()); }

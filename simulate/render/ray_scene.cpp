@@ -10,6 +10,7 @@
 
 #include "survey/error.h"
 #include "survey/parallel.h"
+#include "survey/release.h"
 
 namespace stucco::simulate::internal {
 namespace {
@@ -161,7 +162,7 @@ void RayScene::MakeTextures() {
     textures_[i] = std::make_unique<MipTexture>(image, repeats[i]);
     if (is_cut_out[i]) masks_[i] = std::make_unique<AlphaMask>(image, repeats[i]);
     if (has_grain[i]) grains_[i] = std::make_unique<TextureGrain>(image, static_cast<uint32_t>(i));
-    std::vector<uint8_t>().swap(image.data);
+    Release(image.data);
   });
 }
 

@@ -239,6 +239,27 @@ TEST_F(MatchPhotos, ReadsDescriptorsAgainThatWereNotKept) {
   EXPECT_EQ(Joins(Matched()), kept);
 }
 
+TEST_F(MatchPhotos, GivesMemoryBackThatDescriptorsMayNotTake) {
+  const int photo = AddPhoto(SitePose({6, -15, 6}, 5, 0));
+  SeePlain(photo, 0, 60);
+  SeeOnWall(photo, 0, 100, 160);
+  units_.Save("features", FeaturesKey(options_, captures_.photos[photo]),
+              Serialize(features_.plain[photo]));
+  units_.Save("features", WallKey(options_, Set(), photo, 0),
+              Serialize(features_.walls.at({photo, 0}).features));
+  context_.memory_limit_bytes = 1000;
+  const DetectedFeatures none = DetectAll(options_, Set(), context_);
+  EXPECT_GT(none.plain[photo].size(), 40u);
+  EXPECT_EQ(none.plain[photo].descriptors.capacity(), 0u);
+  EXPECT_EQ(none.walls.at({photo, 0}).features.descriptors.capacity(), 0u);
+  context_.memory_limit_bytes = 1000000;
+  DetectedFeatures all = DetectAll(options_, Set(), context_);
+  EXPECT_EQ(all.plain[photo].descriptors.size(), all.plain[photo].size());
+  DropDescriptors(all);
+  EXPECT_EQ(all.plain[photo].descriptors.capacity(), 0u);
+  EXPECT_EQ(all.walls.at({photo, 0}).features.descriptors.capacity(), 0u);
+}
+
 TEST_F(MatchPhotos, GivesWithCheckpointsWhatItGivesWithout) {
   const int a = AddPhoto(SitePose({6, -15, 6}, 5, 0));
   const int b = AddPhoto(SitePose({13, -15, 6}, -5, 0));
