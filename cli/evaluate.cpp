@@ -88,6 +88,7 @@ std::string PicturesText(const Evaluation& evaluation) {
                      "PSNR", "GMSD", "FLIP", "LPIPS") +
          PictureText("facades", evaluation.texture_mean) +
          PictureText("held out", evaluation.views_mean) +
+         PictureText("  buildings", evaluation.views_buildings_mean) +
          fmt::format(
              "(facades: the {} of their area that are painted; held out: the {} of buildings that "
              "the model has)\nmisregistration {} px, {}\n",

@@ -39,9 +39,10 @@ simulate::Light MiddleLight(const simulate::Flight& flight) {
   return photos.empty() ? simulate::Light{} : photos[photos.size() / 2]->light;
 }
 
-PictureFigures MeanOfViews(std::span<const HeldOutFigures> views) {
+PictureFigures MeanOfViews(std::span<const HeldOutFigures> views,
+                           PictureFigures HeldOutFigures::*part) {
   std::vector<WeightedPicture> pictures;
-  for (const HeldOutFigures& view : views) pictures.push_back({view.picture, 1});
+  for (const HeldOutFigures& view : views) pictures.push_back({view.*part, 1});
   return MeanFigures(pictures);
 }
 
@@ -150,7 +151,8 @@ void MeasureViews(const TextureComparison& comparison, const fs::path& flight_fo
   }
   NoteProblems("photos held out", evaluation.views, evaluation);
   std::erase_if(evaluation.views, [](const HeldOutFigures& view) { return !view.problem.empty(); });
-  evaluation.views_mean = MeanOfViews(evaluation.views);
+  evaluation.views_mean = MeanOfViews(evaluation.views, &HeldOutFigures::picture);
+  evaluation.views_buildings_mean = MeanOfViews(evaluation.views, &HeldOutFigures::buildings);
   evaluation.views_compared = MeanCompared(evaluation.views);
 }
 

@@ -37,6 +37,12 @@ void AddPicture(const PictureFigures& figures, const std::string& suffix, Json& 
   json["lpips" + suffix] = Number(figures.lpips);
 }
 
+Json PictureJson(const PictureFigures& figures) {
+  Json json = Json::object();
+  AddPicture(figures, "", json);
+  return json;
+}
+
 void AddSurface(const SurfaceFigures& figures, const std::string& prefix, Json& json) {
   json[prefix + "error95_m"] = Number(figures.error95_m);
   json[prefix + "completeness"] = Number(figures.completeness);
@@ -132,10 +138,12 @@ Json TextureJson(const Evaluation& evaluation) {
 Json ViewsJson(const Evaluation& evaluation) {
   Json json = {{"compared", Number(evaluation.views_compared)}};
   AddPicture(evaluation.views_mean, "_mean", json);
+  json["buildings"] = PictureJson(evaluation.views_buildings_mean);
   json["photos"] = Json::array();
   for (const HeldOutFigures& view : evaluation.views) {
     Json photo = {{"photo", view.photo}, {"compared", Number(view.compared)}};
     AddPicture(view.picture, "", photo);
+    photo["buildings"] = PictureJson(view.buildings);
     photo["truth_picture"] = view.truth_picture;
     photo["result_picture"] = view.result_picture;
     photo["error_picture"] = view.error_picture;

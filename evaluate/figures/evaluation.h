@@ -102,7 +102,8 @@ struct HeldOutFigures {
   std::string truth_picture;
   std::string result_picture;
   std::string error_picture;
-  std::string problem = {};  // why the photo could not be read; mostly empty
+  std::string problem = {};       // why the photo could not be read; mostly empty
+  PictureFigures buildings = {};  // where the photo shows one
 };
 
 struct PlanFigures {
@@ -134,6 +135,7 @@ struct Evaluation {
   std::vector<FacadeFigures> facades;
   double views_compared = kNotMeasured;  // mean of HeldOutFigures::compared
   PictureFigures views_mean;
+  PictureFigures views_buildings_mean;
   std::vector<HeldOutFigures> views;
   bool has_plan = false;
   PlanFigures plan;

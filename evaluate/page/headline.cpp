@@ -119,10 +119,12 @@ std::string Textures(const Evaluation& evaluation) {
             Ceilings(evaluation));
   }
   if (HasAny(evaluation.views_mean)) {
-    html +=
-        Group("Photos held out, mean", FigureHtml("compared", Percent(evaluation.views_compared),
-                                                  "of what they show of buildings") +
-                                           PictureFiguresHtml(evaluation.views_mean));
+    html += Group(
+        "Photos held out, mean",
+        FigureHtml("compared", Percent(evaluation.views_compared),
+                   "of what they show of buildings") +
+            PictureFiguresHtml(evaluation.views_mean) +
+            FigureHtml("SSIM on buildings", Decimal(evaluation.views_buildings_mean.ssim, 3)));
   }
   return html;
 }

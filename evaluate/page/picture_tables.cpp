@@ -141,13 +141,16 @@ std::string ViewsSection(const Evaluation& evaluation) {
   const bool with_lpips = HasLpips(evaluation.views);
   std::vector<Column> columns = {{"Compared", "share of the buildings in it that the model has"}};
   for (const Column& column : MeasureColumns(with_lpips)) columns.push_back(column);
+  columns.push_back({"On buildings", "SSIM where the photo shows a building"});
   std::string rows;
   for (const HeldOutFigures& view : evaluation.views) {
     rows += "<tr><th scope=\"row\">" + IsolatedHtml(view.photo) + "</th>" +
             Triple({view.photo, view.truth_picture, view.result_picture, view.error_picture,
                     view.problem}) +
             NumberCell("Compared", view.compared, Percent(view.compared)) +
-            MeasureCells(view.picture, with_lpips) + "</tr>";
+            MeasureCells(view.picture, with_lpips) +
+            NumberCell("On buildings", view.buildings.ssim, Decimal(view.buildings.ssim, 3)) +
+            "</tr>";
   }
   return "<section aria-labelledby=\"views\"><h2 id=\"views\">Photos held out</h2><p "
          "class=\"quiet\">"

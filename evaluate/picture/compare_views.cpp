@@ -40,9 +40,9 @@ Similarity ModelFromScene(const TextureComparison& comparison) {
 struct View {
   Camera camera;
   Image photo;
-  Image model;  // codes of the textures
-  std::vector<uint8_t> mask;
-  double compared = kNotMeasured;  // share of the pixels that show buildings
+  Image model;                     // codes of the textures
+  std::vector<uint8_t> mask;       // by pixel: the model has what the photo shows
+  std::vector<uint8_t> buildings;  // by pixel: the photo shows a building
 };
 
 std::vector<uint8_t> MaskOf(const DepthMap& model, const DepthMap& scene,
@@ -57,17 +57,33 @@ std::vector<uint8_t> MaskOf(const DepthMap& model, const DepthMap& scene,
   return mask;
 }
 
-// Of the photo's pixels that show a building, the share that is in the mask.
-double ShareOfBuildings(const std::vector<uint8_t>& mask, const DepthMap& scene,
-                        const DepthMap& buildings) {
-  double shown = 0, compared = 0;
-  for (size_t i = 0; i < mask.size(); ++i) {
+std::vector<uint8_t> ShowsBuildings(const DepthMap& scene, const DepthMap& buildings) {
+  std::vector<uint8_t> shows(scene.depths.size());
+  for (size_t i = 0; i < shows.size(); ++i) {
     const bool is_hidden = scene.depths[i] < buildings.depths[i] - kInFront_m;
-    if (!(buildings.depths[i] > 0) || is_hidden) continue;
-    shown += 1;
-    compared += mask[i];
+    shows[i] = buildings.depths[i] > 0 && !is_hidden ? 1 : 0;
   }
-  return shown > 0 ? compared / shown : kNotMeasured;
+  return shows;
+}
+
+// Of the photo's pixels that show a building, those that are in the mask.
+std::vector<uint8_t> ComparedBuildings(const View& view) {
+  std::vector<uint8_t> both = view.mask;
+  for (size_t i = 0; i < both.size(); ++i) both[i] &= view.buildings[i];
+  return both;
+}
+
+double ShareOfBuildings(const View& view) {
+  const auto shown = std::ranges::count(view.buildings, 1);
+  const auto compared = std::ranges::count(ComparedBuildings(view), 1);
+  return shown > 0 ? static_cast<double>(compared) / static_cast<double>(shown) : kNotMeasured;
+}
+
+// What of the pictures is compared, on buildings alone; nothing measured where there are none.
+PictureFigures MeasureBuildings(const View& view, PicturePair pair, const Lpips* lpips) {
+  pair.mask = ComparedBuildings(view);
+  if (std::ranges::count(pair.mask, 1) == 0) return {};
+  return MeasurePair(pair, lpips).figures;
 }
 
 // Elements of the scene that are no buildings.
@@ -102,7 +118,7 @@ View MakeView(const TextureComparison& comparison, const Renderer& model, const 
   const DepthMap scene = depth_without({});
   view.mask = MaskOf(model.Depth(view.camera, cam_from_model, all), scene,
                      depth_without(comparison.occluders));
-  view.compared = ShareOfBuildings(view.mask, scene, depth_without(NoBuildings(comparison.scene)));
+  view.buildings = ShowsBuildings(scene, depth_without(NoBuildings(comparison.scene)));
   return view;
 }
 
@@ -175,8 +191,9 @@ std::vector<HeldOutFigures> CompareViews(const TextureComparison& comparison,
     const MeasuredPair measured = MeasurePair(pair, lpips ? &*lpips : nullptr);
     const PagePictures names = WritePagePictures(pair, measured.flip, comparison.output,
                                                  PictureStem(i, "view-" + photo.path));
-    figures[i].compared = view.compared;
+    figures[i].compared = ShareOfBuildings(view);
     figures[i].picture = measured.figures;
+    figures[i].buildings = MeasureBuildings(view, pair, lpips ? &*lpips : nullptr);
     figures[i].truth_picture = names.truth;
     figures[i].result_picture = names.result;
     figures[i].error_picture = names.error;

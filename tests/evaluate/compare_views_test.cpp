@@ -103,6 +103,7 @@ TEST(CompareViews, APerfectModelLooksLikeThePhotos) {
     EXPECT_GT(view.picture.ssim, 0.97) << view.photo;
     EXPECT_GT(view.picture.psnr, 33) << view.photo;
     EXPECT_LT(view.picture.flip, 0.08) << view.photo;
+    EXPECT_GT(view.buildings.ssim, 0.97) << view.photo;
     EXPECT_TRUE(std::filesystem::exists(survey.folder / "evaluation" / view.error_picture));
   }
   EXPECT_EQ(figures[1].photo, "held_out/b.jpg");
@@ -126,11 +127,13 @@ TEST(CompareViews, WhatHidesTheModelIsLeftOut) {
     WriteImage(Recorded(scene, photo), survey.folder / "truth" / photo.path, 100);
   }
   std::vector<bool> occluders(scene.scene().elements.size(), false);
-  const double with = Compare(survey, scene, occluders)[0].picture.psnr;
+  const HeldOutFigures unknown = Compare(survey, scene, occluders)[0];
+  const double with = unknown.picture.psnr;
   occluders.back() = true;
   const double without = Compare(survey, scene, occluders)[0].picture.psnr;
   EXPECT_LT(with, 22);
   EXPECT_GT(without, 30);
+  EXPECT_GT(unknown.buildings.psnr, 30);  // the board is none
 }
 
 TEST(CompareViews, SaysHowMuchOfTheBuildingsTheModelHas) {
