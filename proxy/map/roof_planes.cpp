@@ -6,9 +6,12 @@
 #include <cmath>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "proxy/cloud/grid_index.h"
 #include "proxy/cloud/normals.h"
+#include "proxy/map/wall_among.h"
+#include "proxy/planes/densest.h"
 #include "proxy/planes/find_planes.h"
 #include "proxy/planes/regularise.h"
 
@@ -66,6 +69,16 @@ std::vector<Plane> WallDirections(const FittedBuilding& building) {
   return walls;
 }
 
+// To where its samples lie closest together: planes that are nearly one were joined, such as a
+// roof and the rim of its parapet.
+void LayOnRoof(const Samples& samples, Plane& plane) {
+  std::vector<double> offsets;
+  offsets.reserve(plane.points.size());
+  for (const int i : plane.points) offsets.push_back(plane.normal.dot(samples.positions[i]));
+  std::ranges::sort(offsets);
+  plane.offset = MeanOfDensest(offsets, kFlat_m);
+}
+
 }  // namespace
 
 Samples SubsetOf(const Samples& samples, const std::vector<int>& indices) {
@@ -115,6 +128,7 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
   std::erase_if(planes, [](const Plane& plane) {
     return plane.points.empty() || plane.normal.z() < kRoofNormal;
   });
+  for (Plane& plane : planes) LayOnRoof(evidence.samples, plane);
   std::stable_sort(planes.begin(), planes.end(),
                    [](const Plane& a, const Plane& b) { return a.area > b.area; });
   evidence.planes = std::move(planes);

@@ -5,23 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <vector>
+
+#include "proxy/planes/densest.h"
 
 namespace stucco {
 namespace {
 
-// Where `hits` lie closest together. A wall is flat, but for its windows, which stand a hand or
-// more behind it: the mean of all would lie between the two.
+// Where `hits` lie closest together.
 double DensestOf(std::span<const WallHit> hits) {
-  constexpr double kFlat_m = 0.06;
-  size_t last = 0;
-  std::pair<size_t, size_t> most{0, 0};
-  for (size_t first = 0; first < hits.size(); ++first) {
-    while (last < hits.size() && hits[last].distance <= hits[first].distance + 2 * kFlat_m) ++last;
-    if (last - first > most.second - most.first) most = {first, last};
-  }
-  double sum = 0;
-  for (size_t k = most.first; k < most.second; ++k) sum += hits[k].distance;
-  return sum / static_cast<double>(most.second - most.first);
+  std::vector<double> distances;
+  distances.reserve(hits.size());
+  for (const WallHit& hit : hits) distances.push_back(hit.distance);
+  return MeanOfDensest(distances, kFlat_m);
 }
 
 }  // namespace

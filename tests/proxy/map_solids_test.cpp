@@ -352,6 +352,25 @@ TEST(MapSolids, AParapetIsNoRoof) {
   EXPECT_EQ(Closed(made, "B0001").facets.size(), 6u);
 }
 
+TEST(MapSolids, ARoofLiesOnItselfNotBetweenItAndItsRim) {
+  constexpr double kRoof = 5.75;
+  testing::House house = FlatHouse(Rectangle(-6, -4, 6, 4), 6);
+  house.polygons.back().ring = {
+      {-5.2, -3.2, kRoof}, {5.2, -3.2, kRoof}, {5.2, 3.2, kRoof}, {-5.2, 3.2, kRoof}};
+  for (const Ring& strip : {Rectangle(-6, -4, 6, -3.2), Rectangle(-6, 3.2, 6, 4),
+                            Rectangle(-6, -3.2, -5.2, 3.2), Rectangle(5.2, -3.2, 6, 3.2)}) {
+    std::vector<Eigen::Vector3d> ring;
+    for (const Eigen::Vector2d& p : strip) ring.emplace_back(p.x(), p.y(), 6);
+    house.polygons.push_back({"rim", ring});
+  }
+  const auto captured =
+      testing::Capture({house}, {testing::GroundSquare(25)}, {.spacing = 0.1, .noise = 0.02});
+  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 6}});
+  const auto roofs = Of(Closed(made, "B0001"), FacetClass::kRoof);
+  ASSERT_EQ(roofs.size(), 1u);
+  EXPECT_NEAR(Highest(*roofs[0]), kRoof, 0.02);
+}
+
 TEST(MapSolids, NeighboursKeepTouching) {
   // Two houses of different height wall to wall; the map is 0.4 m off.
   testing::House tall = FlatHouse(Rectangle(-8, -4, 0, 4), 8);
