@@ -104,14 +104,13 @@ FacetFiles PaintNew(const Work& work, size_t i) {
 
 // Paints all from new photos and measures how much brighter they are than the old pictures.
 Eigen::Vector3d PaintAllNew(const Work& work) {
-  uint64_t largest = 1;
+  std::vector<uint64_t> bytes;
   for (size_t i = 0; i < work.facets.size(); ++i) {
-    largest =
-        std::max(largest, PaintingBytes(*work.facets[i], work.looks[i], work.scene, work.options));
+    bytes.push_back(PaintingBytes(*work.facets[i], work.looks[i], work.scene, work.options));
   }
   std::vector<std::optional<ColourRatio>> ratios(work.facets.size());
   work.context.progress->Begin("painting facets", work.facets.size());
-  ParallelFor(work.facets.size(), ThreadsThatFit(largest, work.context), [&](size_t i) {
+  ForEachFacet(bytes, work.context, [&](size_t i) {
     work.context.ThrowIfCancelled();
     const std::optional<FacetPicture> after = PictureOf(PaintNew(work, i));
     const auto before = ReadPicture(work.old.facets[i], work.OldFolder());
@@ -146,11 +145,11 @@ void CopyFiles(const TexturedFacet& facet, const fs::path& from, const fs::path&
 // Decides facet by facet, and writes what the epoch has of each.
 std::vector<EpochFacet> WritePictures(const Work& work, TextureSet& textures) {
   std::vector<std::string> ids;
-  uint64_t largest = 1;
+  std::vector<uint64_t> bytes;
   for (size_t i = 0; i < work.facets.size(); ++i) {
     ids.push_back(work.facets[i]->id);
     const TexturedFacet& old = work.old.facets[i];
-    largest = std::max(largest, kBytesPerTexel * old.width_px * old.height_px);
+    bytes.push_back(kBytesPerTexel * old.width_px * old.height_px);
   }
   const std::vector<std::string> names = FileNames(ids);
   EpochStyle style{work.request.epoch, work.request.replace, work.input.photos, {}, work.options};
@@ -160,7 +159,7 @@ std::vector<EpochFacet> WritePictures(const Work& work, TextureSet& textures) {
   std::vector<EpochFacet> found(ids.size());
   textures.facets.resize(ids.size());
   work.context.progress->Begin("comparing pictures", ids.size());
-  ParallelFor(ids.size(), ThreadsThatFit(largest, work.context), [&](size_t i) {
+  ForEachFacet(bytes, work.context, [&](size_t i) {
     work.context.ThrowIfCancelled();
     const TexturedFacet& old = work.old.facets[i];
     const FacetFiles painted = PaintNew(work, i);

@@ -5,6 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
+#include <condition_variable>
+#include <mutex>
+#include <numeric>
 
 #include "survey/files.h"
 #include "survey/parallel.h"
@@ -29,6 +33,66 @@ int EncodingThreads(const TextureSet& textures, const StageContext& context) {
   }
   return ThreadsThatFit(largest, context);
 }
+
+// Facets that wait for a thread and for memory.
+class FacetQueue {
+ public:
+  // `bytes`, by facet, outlives it.
+  FacetQueue(std::span<const uint64_t> bytes, uint64_t limit)
+      : bytes_(bytes), limit_(limit), waiting_(bytes.size()) {
+    std::iota(waiting_.begin(), waiting_.end(), size_t{0});
+    std::ranges::stable_sort(waiting_, std::greater{}, [&](size_t i) { return bytes[i]; });
+  }
+
+  // The one with most bytes that fits beside those being worked on, any where none is. Waits for
+  // it. Requires that some are left.
+  size_t Take() {
+    std::unique_lock lock(mutex_);
+    assert(!waiting_.empty());
+    for (;;) {
+      const auto fits = std::ranges::find_if(
+          waiting_, [&](size_t i) { return taken_ == 0 || taken_ + bytes_[i] <= limit_; });
+      if (fits != waiting_.end()) {
+        const size_t facet = *fits;
+        waiting_.erase(fits);
+        taken_ += bytes_[facet];
+        return facet;
+      }
+      freed_.wait(lock);
+    }
+  }
+
+  void GiveBack(size_t facet) {
+    {
+      const std::lock_guard lock(mutex_);
+      taken_ -= bytes_[facet];
+    }
+    freed_.notify_all();
+  }
+
+ private:
+  const std::span<const uint64_t> bytes_;
+  const uint64_t limit_;
+  std::mutex mutex_;
+  std::condition_variable freed_;
+  std::vector<size_t> waiting_;  // by falling bytes
+  uint64_t taken_ = 0;
+};
+
+// A facet of a queue as long as somebody works on it.
+class Taken {
+ public:
+  explicit Taken(FacetQueue& queue) : queue_(queue), facet_(queue.Take()) {}
+  ~Taken() { queue_.GiveBack(facet_); }
+  Taken(const Taken&) = delete;
+  Taken& operator=(const Taken&) = delete;
+
+  size_t facet() const { return facet_; }
+
+ private:
+  FacetQueue& queue_;
+  const size_t facet_;
+};
 
 }  // namespace
 
@@ -82,6 +146,15 @@ std::vector<Eigen::Vector3d> GainsFrom(const std::vector<FacetLook>& looks, size
 int ThreadsThatFit(uint64_t bytes_each, const StageContext& context) {
   const uint64_t fit = std::max<uint64_t>(1, context.memory_limit_bytes / 2 / bytes_each);
   return static_cast<int>(std::min<uint64_t>(fit, std::max(1, context.threads)));
+}
+
+void ForEachFacet(std::span<const uint64_t> bytes, const StageContext& context,
+                  const std::function<void(size_t)>& work) {
+  FacetQueue queue(bytes, context.memory_limit_bytes / 2);
+  ParallelFor(bytes.size(), context.threads, [&](size_t) {
+    const Taken taken(queue);
+    work(taken.facet());
+  });
 }
 
 TexturedFacet StoreFacet(FacetFiles files, const Facet& facet, const std::string& name,

@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,12 @@ std::vector<Eigen::Vector3d> GainsFrom(const std::vector<FacetLook>& looks, size
 
 // As many threads as fit beside the photo cache when each needs this much.
 int ThreadsThatFit(uint64_t bytes_each, const StageContext& context);
+
+// Calls work(i) for every facet, once each, on all threads: of those that fit beside each other
+// (`bytes`, by facet, of the memory beside the photo cache) the one with most first, since it takes
+// longest. One that needs more than there is goes alone.
+void ForEachFacet(std::span<const uint64_t> bytes, const StageContext& context,
+                  const std::function<void(size_t)>& work);
 
 // Writes a facet's files, called `name`, below `out` and fills in their paths.
 TexturedFacet StoreFacet(FacetFiles files, const Facet& facet, const std::string& name,

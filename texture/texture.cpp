@@ -4,12 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <set>
 
 #include "survey/error.h"
-#include "survey/parallel.h"
 #include "survey/survey_folder.h"
 #include "survey/texture_set.h"
 #include "texture/output/explain.h"
@@ -32,14 +30,14 @@ struct Painting {
   std::vector<Eigen::Vector3d> gains;  // by photo
 };
 
-int PaintingThreads(const Painting& painting, const PaintScene& scene,
-                    const TextureOptions& options, const StageContext& context) {
-  uint64_t largest = 1;
+// What painting needs, by facet.
+std::vector<uint64_t> BytesOf(const Painting& painting, const PaintScene& scene,
+                              const TextureOptions& options) {
+  std::vector<uint64_t> bytes;
   for (size_t i = 0; i < painting.facets.size(); ++i) {
-    largest =
-        std::max(largest, PaintingBytes(*painting.facets[i], painting.looks[i], scene, options));
+    bytes.push_back(PaintingBytes(*painting.facets[i], painting.looks[i], scene, options));
   }
-  return ThreadsThatFit(largest, context);
+  return bytes;
 }
 
 std::vector<TexturedFacet> PaintAll(const Painting& painting, const TextureInput& input,
@@ -52,8 +50,7 @@ std::vector<TexturedFacet> PaintAll(const Painting& painting, const TextureInput
   const std::vector<std::string> names = FileNames(ids);
   std::vector<TexturedFacet> textured(facets.size());
   context.progress->Begin("painting facets", facets.size());
-  const int threads = PaintingThreads(painting, scene, options, context);
-  ParallelFor(facets.size(), threads, [&](size_t i) {
+  ForEachFacet(BytesOf(painting, scene, options), context, [&](size_t i) {
     context.ThrowIfCancelled();
     const std::string key = FilesKey(*facets[i], painting.looks[i], input, painting.gains, options);
     const auto paint = [&](PaintRecord* record) {
