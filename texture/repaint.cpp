@@ -11,7 +11,6 @@
 
 #include "survey/error.h"
 #include "survey/files.h"
-#include "survey/parallel.h"
 #include "survey/survey_folder.h"
 #include "survey/texture_set.h"
 #include "texture/epoch/epoch_facet.h"

@@ -24,6 +24,10 @@ constexpr int kNearestWidth = 640;
 // Bytes per texel that putting a finished picture into the model needs: decoded and turned round.
 constexpr uint64_t kBytesPerEncodedTexel = 9;
 
+uint64_t BytesBesideCache(const StageContext& context) {
+  return context.memory_limit_bytes / 2;
+}
+
 // As many pictures are read and encoded at once as fit.
 int EncodingThreads(const TextureSet& textures, const StageContext& context) {
   uint64_t largest = 1;
@@ -31,7 +35,8 @@ int EncodingThreads(const TextureSet& textures, const StageContext& context) {
     largest = std::max(largest, kBytesPerEncodedTexel * static_cast<uint64_t>(facet.width_px) *
                                     static_cast<uint64_t>(facet.height_px));
   }
-  return ThreadsThatFit(largest, context);
+  const uint64_t fit = std::max<uint64_t>(1, BytesBesideCache(context) / largest);
+  return static_cast<int>(std::min<uint64_t>(fit, std::max(1, context.threads)));
 }
 
 // Facets that wait for a thread and for memory.
@@ -143,14 +148,9 @@ std::vector<Eigen::Vector3d> GainsFrom(const std::vector<FacetLook>& looks, size
   return SolveGains(ratios, photos);
 }
 
-int ThreadsThatFit(uint64_t bytes_each, const StageContext& context) {
-  const uint64_t fit = std::max<uint64_t>(1, context.memory_limit_bytes / 2 / bytes_each);
-  return static_cast<int>(std::min<uint64_t>(fit, std::max(1, context.threads)));
-}
-
 void ForEachFacet(std::span<const uint64_t> bytes, const StageContext& context,
                   const std::function<void(size_t)>& work) {
-  FacetQueue queue(bytes, context.memory_limit_bytes / 2);
+  FacetQueue queue(bytes, BytesBesideCache(context));
   ParallelFor(bytes.size(), context.threads, [&](size_t) {
     const Taken taken(queue);
     work(taken.facet());

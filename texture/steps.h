@@ -36,9 +36,6 @@ std::vector<FacetLook> LookAtAll(const std::vector<const Facet*>& facets, const 
 // By photo: what makes them agree with each other.
 std::vector<Eigen::Vector3d> GainsFrom(const std::vector<FacetLook>& looks, size_t photos);
 
-// As many threads as fit beside the photo cache when each needs this much.
-int ThreadsThatFit(uint64_t bytes_each, const StageContext& context);
-
 // Calls work(i) for every facet, once each, on all threads: of those that fit beside each other
 // (`bytes`, by facet, of the memory beside the photo cache) the one with most first, since it takes
 // longest. One that needs more than there is goes alone.

@@ -73,17 +73,14 @@ std::vector<uint8_t> ComparedBuildings(const View& view) {
   return both;
 }
 
-double ShareOfBuildings(const View& view) {
-  const auto shown = std::ranges::count(view.buildings, 1);
-  const auto compared = std::ranges::count(ComparedBuildings(view), 1);
-  return shown > 0 ? static_cast<double>(compared) / static_cast<double>(shown) : kNotMeasured;
-}
-
-// What of the pictures is compared, on buildings alone; nothing measured where there are none.
-PictureFigures MeasureBuildings(const View& view, PicturePair pair, const Lpips* lpips) {
+// How much of the buildings is compared, and how like they are; not measured where there are none.
+void MeasureBuildings(const View& view, PicturePair pair, const Lpips* lpips,
+                      HeldOutFigures& figures) {
   pair.mask = ComparedBuildings(view);
-  if (std::ranges::count(pair.mask, 1) == 0) return {};
-  return MeasurePair(pair, lpips).figures;
+  const auto shown = std::ranges::count(view.buildings, 1);
+  const auto compared = std::ranges::count(pair.mask, 1);
+  if (shown > 0) figures.compared = static_cast<double>(compared) / static_cast<double>(shown);
+  if (compared > 0) figures.buildings = MeasurePair(pair, lpips).figures;
 }
 
 // Elements of the scene that are no buildings.
@@ -191,9 +188,8 @@ std::vector<HeldOutFigures> CompareViews(const TextureComparison& comparison,
     const MeasuredPair measured = MeasurePair(pair, lpips ? &*lpips : nullptr);
     const PagePictures names = WritePagePictures(pair, measured.flip, comparison.output,
                                                  PictureStem(i, "view-" + photo.path));
-    figures[i].compared = ShareOfBuildings(view);
     figures[i].picture = measured.figures;
-    figures[i].buildings = MeasureBuildings(view, pair, lpips ? &*lpips : nullptr);
+    MeasureBuildings(view, pair, lpips ? &*lpips : nullptr, figures[i]);
     figures[i].truth_picture = names.truth;
     figures[i].result_picture = names.result;
     figures[i].error_picture = names.error;

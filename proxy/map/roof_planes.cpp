@@ -10,7 +10,6 @@
 
 #include "proxy/cloud/grid_index.h"
 #include "proxy/cloud/normals.h"
-#include "proxy/map/wall_among.h"
 #include "proxy/planes/densest.h"
 #include "proxy/planes/find_planes.h"
 #include "proxy/planes/regularise.h"

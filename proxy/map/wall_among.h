@@ -10,7 +10,6 @@ namespace stucco {
 
 inline constexpr double kMapReach_m = 1.5;  // eaves that a map traces, and then some
 inline constexpr double kMapSigma_m = 0.5;  // of a map's edges, and of its buildings
-inline constexpr double kFlat_m = 0.12;     // what stereo makes of a flat surface lies within
 
 // A near-vertical point beside an edge of a map.
 struct WallHit {
