@@ -13,6 +13,7 @@
 #include "cli/interrupt.h"
 #include "cli/program.h"
 #include "pipeline/engine/engine.h"
+#include "survey/survey_folder.h"
 
 namespace stucco {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 void PrintSummary(const plan::PlanSummary& summary, const CommonOptions& common) {
   const std::string next = "stucco run " + ShellWord(common.survey);
   const auto in_plan = [&](const char* name) {
-    return (std::filesystem::path(common.survey) / "plan" / name).string();
+    return (std::filesystem::path(common.survey) / kPlanFolder / name).string();
   };
   if (common.json) {
     const Json json = {{"survey", common.survey},

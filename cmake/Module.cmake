@@ -10,6 +10,11 @@ target_compile_options(project_warnings INTERFACE
 target_compile_options(project_warnings INTERFACE
   -Wno-maybe-uninitialized -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds
   -Wno-restrict)
+# Sources that are compiled as one (scripts/build.sh) share their names without meaning to:
+# nobody who reads one has the others in sight.
+if(CMAKE_UNITY_BUILD)
+  target_compile_options(project_warnings INTERFACE -Wno-shadow)
+endif()
 # A product and a sum are never merged into one rounding, so that our own sums are the same at every
 # optimisation level. Libraries that choose their code by processor, such as OpenCV, may still give
 # other digits on another machine.
@@ -45,7 +50,8 @@ endfunction()
 # add_module_test(calib SOURCES adjust_test.cpp ... LINK test_support TOGETHER SlowToSetUp)
 # One executable per module: fewer links, one line per test in ctest. The library of the module's
 # name is linked where there is one; `pipeline` has several, which are named in LINK. The tests of
-# the suites in TOGETHER run in one process and are one line: what they share is made once.
+# the suites in TOGETHER run in one process and are one line: what they share is made once, and
+# many short ones do not load their libraries each.
 function(add_module_test name)
   cmake_parse_arguments(T "" "" "SOURCES;LINK;TOGETHER" ${ARGN})
   add_executable(${name}_test ${T_SOURCES} ${PROJECT_SOURCE_DIR}/tests/main.cpp)

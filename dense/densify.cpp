@@ -39,7 +39,7 @@ constexpr int kSpecklePixels = 60;
 constexpr float kSpeckleStep = 0.01f;
 // Photos that a photo's depths are held against when they are fused. In surveys by plan a place is
 // in about a dozen photos, of which half are sources.
-constexpr int kNeighbours = 24;
+constexpr int kComparedPhotos = 24;
 
 // What the depth map of a photo is made from.
 struct DepthJob {
@@ -75,7 +75,7 @@ class Densifier {
             [this](int i) { return LoadFirstMap(i); }, MapBytes) {
     const Reconstruction model = ReadColmapModel(context.survey / kSparseFolder);
     choices_ = ChooseSources(model, {.sources = options.max_sources,
-                                     .neighbours = kNeighbours,
+                                     .neighbours = kComparedPhotos,
                                      .max_image_px = options.max_image_px});
     CollectPhotos(JoinPhotos(model, ReadCaptures(context.survey / kCapturesFile)));
     PrepareJobs();
@@ -262,7 +262,7 @@ size_t WriteCloud(FusedPointsFile& points, const std::vector<bool>& kept,
                   const std::filesystem::path& path) {
   const auto count = static_cast<size_t>(std::ranges::count(kept, true));
   PlyWriter writer(path, {.points = count, .normals = true, .colors = true, .views = true},
-                   kNeighbours + 1);
+                   kComparedPhotos + 1);
   size_t i = 0;
   points.ForEach([&](const FusedPoint& point) {
     if (kept[i++]) writer.Add(point.point);

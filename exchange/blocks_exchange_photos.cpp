@@ -15,9 +15,6 @@
 namespace stucco {
 namespace {
 
-// Its origin is the centre of the upper-left pixel.
-constexpr double kPixelCentre = 0.5;
-
 // Camera axes of a file in ours (x right, y down, z forward); they are right-handed, so that x and
 // y say all.
 struct AxesName {

@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kPixelCentre = 0.5;
-
 // "ENU:latitude,longitude", of WGS 84 and on the ellipsoid; some write a height, too.
 Georef ReadEnu(const XmlFile& file, const pugi::xml_node& srs, std::string_view definition) {
   Georef georef;

@@ -10,6 +10,7 @@
 
 #include "exchange/blocks_exchange.h"
 #include "exchange/brown_lens.h"
+#include "exchange/internal/blocks_exchange_photos.h"
 #include "survey/error.h"
 #include "survey/files.h"
 
@@ -18,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kPixelCentre = 0.5;
 // Version 2.1 has focal lengths in millimetres only; those of a full-frame sensor are as good as
 // any, and readable.
 constexpr double kSensor_mm = 36;

@@ -2,6 +2,9 @@
 # SPDX-FileCopyrightText: 2026 the Stucco authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Configures and builds a preset (dev unless named): scripts/build.sh [PRESET] [TARGET...]
+# In a build folder that it makes, eight sources of a folder are compiled as one: from nothing that
+# takes half the time. To compile each alone, which is quicker from change to change, configure
+# first: cmake --preset dev
 set -eu
 cd "$(dirname "$0")/.."
 preset=${1:-dev}
@@ -16,5 +19,7 @@ if command -v ccache >/dev/null 2>&1; then
   # By the compiler's list of headers instead of a preprocessor run of its own before each unit.
   export CCACHE_DEPEND=1
 fi
-cmake --preset "$preset" $launcher >&2
+together=
+[ -f "build/$preset/CMakeCache.txt" ] || together=-DCMAKE_UNITY_BUILD=ON
+cmake --preset "$preset" $launcher $together >&2
 cmake --build --preset "$preset" ${1:+--target "$@"} >&2

@@ -3,9 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs clang-tidy on the sources that changed, the newest first: what is not committed, then what was
 # committed since the branch left its upstream or, where nothing is ahead of it (a fresh clone), in
-# the last commits; of a changed header the sources of its name. With --all on every source. Needs a
-# configured build/dev; where clang-tidy is not installed (Debian package clang-tidy), it says so and
-# is done.
+# the last commits; of a changed header the sources of its name. With --all on every source. Where
+# clang-tidy is not installed (Debian package clang-tidy), it says so and is done.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 readonly most=40 # about five minutes on two cores
@@ -22,7 +21,6 @@ if ! command -v clang-tidy >/dev/null; then
   echo "tidy: clang-tidy is not installed; nothing was checked"
   exit 0
 fi
-[[ -f build/dev/compile_commands.json ]] || { echo "tidy: build first: scripts/build.sh dev" >&2; exit 2; }
 
 git_here() { git -c safe.directory="$PWD" "$@"; }
 
@@ -52,12 +50,11 @@ if ((${#files[@]} > most)) && [[ ${1:-} != --all ]]; then
   files=("${files[@]:0:most}")
 fi
 ((${#files[@]} > 0)) || { echo "tidy: no source changed"; exit 0; }
-# Without precompiled headers, which are GCC's: so it also finds a header that a source forgot.
-commands=$(mktemp -d)
-trap 'rm -r "$commands"' EXIT
-sed -E 's/ -include [^ ]*cmake_pch\.hxx//; s/ -fpch-preprocess//; s/ -Winvalid-pch//' \
-  build/dev/compile_commands.json >"$commands/compile_commands.json"
+# Each source alone, without precompiled headers, which are GCC's: so it also finds a header that a
+# source forgot.
+cmake --preset dev -B build/tidy -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_UNITY_BUILD=OFF >/dev/null
+sed -i 's/ -fpch-preprocess//' build/tidy/compile_commands.json
 # GCC's own warning options mean nothing to clang.
 printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$(nproc)" \
-  clang-tidy --quiet -p "$commands" --extra-arg=-Wno-unknown-warning-option 2>/dev/null
+  clang-tidy --quiet -p build/tidy --extra-arg=-Wno-unknown-warning-option 2>/dev/null
 echo "tidy: ${#files[@]} sources are clean"

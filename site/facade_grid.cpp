@@ -8,7 +8,7 @@
 namespace stucco {
 namespace {
 
-constexpr double kCell_m = 1;
+constexpr double kGridCell_m = 1;
 constexpr int kFewestColumns = 3;
 constexpr int kFewestRows = 2;
 constexpr double kMostCells = 400;
@@ -18,7 +18,7 @@ constexpr double kMostCells = 400;
 FacadeGrid::FacadeGrid(const Facade& facade)
     : a(facade.a), along(facade.along()), length_m(facade.length_m()), z_m(facade.z_m) {
   const double height = z_m.length_m();
-  const double size = std::max(kCell_m, std::sqrt(length_m * height / kMostCells));
+  const double size = std::max(kGridCell_m, std::sqrt(length_m * height / kMostCells));
   columns = std::max(kFewestColumns, static_cast<int>(std::lround(length_m / size)));
   rows = std::max(kFewestRows, static_cast<int>(std::lround(height / size)));
 }

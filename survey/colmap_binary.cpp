@@ -78,7 +78,7 @@ int NextSide(ByteReader& bytes) {
   return static_cast<int>(side);
 }
 
-void ReadCameras(const std::filesystem::path& path, Reconstruction& reconstruction) {
+void ReadCamerasBinary(const std::filesystem::path& path, Reconstruction& reconstruction) {
   ByteReader bytes(path);
   const size_t count = bytes.NextCount(kCameraBytes);
   for (size_t i = 0; i < count; ++i) {
@@ -97,7 +97,7 @@ void ReadCameras(const std::filesystem::path& path, Reconstruction& reconstructi
   bytes.CheckEnd();
 }
 
-void ReadPhotos(const std::filesystem::path& path, Reconstruction& reconstruction) {
+void ReadPhotosBinary(const std::filesystem::path& path, Reconstruction& reconstruction) {
   ByteReader bytes(path);
   const size_t count = bytes.NextCount(kPhotoBytes);
   for (size_t i = 0; i < count; ++i) {
@@ -121,7 +121,7 @@ void ReadPhotos(const std::filesystem::path& path, Reconstruction& reconstructio
   bytes.CheckEnd();
 }
 
-void ReadPoints(const std::filesystem::path& path, Reconstruction& reconstruction) {
+void ReadPointsBinary(const std::filesystem::path& path, Reconstruction& reconstruction) {
   ByteReader bytes(path);
   const size_t count = bytes.NextCount(kPointBytes);
   for (size_t i = 0; i < count; ++i) {
@@ -196,9 +196,9 @@ std::string PointsBytes(const Reconstruction& reconstruction) {
 
 Reconstruction ReadColmapBinary(const std::filesystem::path& folder) {
   Reconstruction reconstruction;
-  ReadCameras(folder / "cameras.bin", reconstruction);
-  ReadPhotos(folder / "images.bin", reconstruction);
-  ReadPoints(folder / "points3D.bin", reconstruction);
+  ReadCamerasBinary(folder / "cameras.bin", reconstruction);
+  ReadPhotosBinary(folder / "images.bin", reconstruction);
+  ReadPointsBinary(folder / "points3D.bin", reconstruction);
   return reconstruction;
 }
 

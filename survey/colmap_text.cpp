@@ -68,7 +68,7 @@ class LineReader {
   int number_ = 0;
 };
 
-void ReadCameras(const std::filesystem::path& path, Reconstruction& reconstruction) {
+void ReadCamerasText(const std::filesystem::path& path, Reconstruction& reconstruction) {
   LineReader lines(path);
   while (lines.NextEntry()) {
     Camera camera;
@@ -99,7 +99,7 @@ void ReadObservations(LineReader& lines, RegisteredImage& photo) {
   }
 }
 
-void ReadPhotos(const std::filesystem::path& path, Reconstruction& reconstruction) {
+void ReadPhotosText(const std::filesystem::path& path, Reconstruction& reconstruction) {
   LineReader lines(path);
   while (lines.NextEntry()) {
     RegisteredImage photo;
@@ -119,7 +119,7 @@ void ReadPhotos(const std::filesystem::path& path, Reconstruction& reconstructio
   }
 }
 
-void ReadPoints(const std::filesystem::path& path, Reconstruction& reconstruction) {
+void ReadPointsText(const std::filesystem::path& path, Reconstruction& reconstruction) {
   LineReader lines(path);
   while (lines.NextEntry()) {
     TrackPoint point;
@@ -208,9 +208,9 @@ std::string PointsText(const Reconstruction& reconstruction) {
 
 Reconstruction ReadColmapText(const std::filesystem::path& folder) {
   Reconstruction reconstruction;
-  ReadCameras(folder / "cameras.txt", reconstruction);
-  ReadPhotos(folder / "images.txt", reconstruction);
-  ReadPoints(folder / "points3D.txt", reconstruction);
+  ReadCamerasText(folder / "cameras.txt", reconstruction);
+  ReadPhotosText(folder / "images.txt", reconstruction);
+  ReadPointsText(folder / "points3D.txt", reconstruction);
   return reconstruction;
 }
 

@@ -27,6 +27,13 @@ inline double Cross(const Eigen::Vector2d& u, const Eigen::Vector2d& v) {
   return u.x() * v.y() - u.y() * v.x();
 }
 
+// Of length 1, to the right: outwards where the edge is one of a counter-clockwise ring. Zero
+// length, 0.
+inline Eigen::Vector2d OutwardsOf(const Segment2d& edge) {
+  const Eigen::Vector2d along = (edge.b - edge.a).normalized();
+  return {along.y(), -along.x()};
+}
+
 double SignedArea(const Ring& ring);  // positive when counter-clockwise
 double Area(const Polygon& polygon);
 // Of the outer ring; empty without one.

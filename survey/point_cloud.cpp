@@ -11,7 +11,8 @@
 namespace stucco {
 namespace {
 
-constexpr float kUnitTolerance = 1e-3F;  // normals are single precision and may be rounded in files
+constexpr float kNormalTolerance =
+    1e-3F;  // normals are single precision and may be rounded in files
 
 }  // namespace
 
@@ -26,7 +27,7 @@ std::optional<std::string> FindProblem(const PointCloud& cloud) {
     if (!cloud.positions[i].allFinite()) return fmt::format("point {} is not finite", i);
   }
   for (size_t i = 0; i < cloud.normals.size(); ++i) {
-    if (!(std::abs(cloud.normals[i].norm() - 1) <= kUnitTolerance)) {
+    if (!(std::abs(cloud.normals[i].norm() - 1) <= kNormalTolerance)) {
       return fmt::format("the normal of point {} is not of unit length", i);
     }
   }

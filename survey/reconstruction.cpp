@@ -11,7 +11,7 @@
 namespace stucco {
 namespace {
 
-constexpr double kUnitTolerance = 1e-6;
+constexpr double kQuaternionTolerance = 1e-6;
 
 std::optional<std::string> FindPhotoProblem(const Reconstruction& reconstruction,
                                             const RegisteredImage& photo) {
@@ -19,7 +19,8 @@ std::optional<std::string> FindPhotoProblem(const Reconstruction& reconstruction
     return fmt::format("uses camera {}, which is missing", photo.camera.value);
   }
   const Pose& pose = photo.cam_from_world;
-  if (!pose.translation.allFinite() || !(std::abs(pose.rotation.norm() - 1) <= kUnitTolerance)) {
+  if (!pose.translation.allFinite() ||
+      !(std::abs(pose.rotation.norm() - 1) <= kQuaternionTolerance)) {
     return "has no valid pose";
   }
   for (size_t i = 0; i < photo.observations.size(); ++i) {

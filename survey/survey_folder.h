@@ -9,6 +9,7 @@ namespace stucco {
 // Where things are in a survey folder (docs/formats.md).
 inline constexpr char kSettingsFile[] = "survey.toml";
 inline constexpr char kGroundControlFile[] = "gcp_list.txt";
+inline constexpr char kPlanFolder[] = "plan";
 inline constexpr char kPlanFile[] = "plan/plan.json";
 inline constexpr char kCapturesFile[] = "ingest/captures.json";
 inline constexpr char kSparseFolder[] = "calib/sparse/0";

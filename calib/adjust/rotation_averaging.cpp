@@ -15,7 +15,7 @@
 namespace stucco {
 namespace {
 
-constexpr double kLossScale = 3;
+constexpr double kRotationLossScale = 3;
 
 struct RelativeCost {
   Eigen::Quaterniond second_from_first;
@@ -37,7 +37,7 @@ void AverageRotations(const std::vector<RelativeRotation>& pairs, const Rotation
   ceres::Problem::Options problem_options;
   problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::CauchyLoss loss(kLossScale);
+  ceres::CauchyLoss loss(kRotationLossScale);
   ceres::EigenQuaternionManifold manifold;
   ceres::Problem problem(problem_options);
   for (auto& rotation : rotations) {

@@ -31,7 +31,6 @@ namespace {
 constexpr size_t kMatchAll = 30;
 constexpr size_t kMostAlike = 15;
 constexpr size_t kNearest = 10;
-constexpr double kGuessedFocal = 0.5;  // relative standard deviation of one
 
 // Photos with their features, ready to be matched.
 struct FeatureSet {

@@ -31,9 +31,8 @@ constexpr int kModelsPerSample = 4;
 constexpr double kMostSigma = 1;
 // What keypoints of a photo share shows in no residual: by simulated flights (benchmarks.md).
 constexpr double kSharedErrors = 1.4;
-// Focal lengths this uncertain are a guess; others between half and twice the guess are tried, so
-// near to each other that the least squares find the rest.
-constexpr double kGuessedFocal = 0.5;
+// Where a focal length is a guess, others between half and twice the guess are tried, so near to
+// each other that the least squares find the rest.
 constexpr double kFocalStep = 1.15;
 constexpr int kFocalSteps = 5;  // up and down
 constexpr int kRounds = 3;      // of choosing inliers and adjusting

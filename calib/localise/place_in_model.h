@@ -10,6 +10,9 @@
 
 namespace stucco {
 
+// A focal length whose relative standard deviation is no less is a guess.
+inline constexpr double kGuessedFocal = 0.5;
+
 // What became of one photo.
 struct PlacedPhoto {
   int num_points = 0;   // keypoints whose track has a point

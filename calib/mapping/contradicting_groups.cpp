@@ -18,14 +18,14 @@
 namespace stucco {
 namespace {
 
-constexpr double kUnlikely = 21.1;  // the square of three normal variables, one in ten thousand
-constexpr size_t kPartners = 5;
+constexpr double kUnlikelyMean = 21.1;  // the square of three normal variables, one in ten thousand
+constexpr size_t kNearestTied = 5;
 constexpr int kLeastShared = 30;
 constexpr size_t kLeastPhotos = 3;
 constexpr double kCommonShare = 0.5;  // of the variance of neighbours' records
 // What poses may be off by where records are better.
-constexpr double kPoseSigma_m = 0.05;
-constexpr double kPoseSigma_rad = 0.05 * std::numbers::pi / 180;
+constexpr double kTiedSigma_m = 0.05;
+constexpr double kTiedSigma_rad = 0.05 * std::numbers::pi / 180;
 
 // What a record of one kind is off by, in its standard deviations.
 using Difference = std::optional<Eigen::Vector3d>;
@@ -40,12 +40,12 @@ Differences DifferencesOf(const ScenePhoto& photo) {
   if (photo.attitude) {
     const Eigen::Quaterniond turn =
         photo.attitude->cam_from_world.conjugate() * photo.pose->rotation;
-    result.attitude = RotationVector(turn) / std::hypot(photo.attitude->sigma_rad, kPoseSigma_rad);
+    result.attitude = RotationVector(turn) / std::hypot(photo.attitude->sigma_rad, kTiedSigma_rad);
   }
   if (photo.prior) {
     const Eigen::Vector3d off = photo.pose->Center() - photo.prior->position;
-    const double horizontal = std::hypot(photo.prior->sigma_horizontal_m, kPoseSigma_m);
-    const double vertical = std::hypot(photo.prior->sigma_vertical_m, kPoseSigma_m);
+    const double horizontal = std::hypot(photo.prior->sigma_horizontal_m, kTiedSigma_m);
+    const double vertical = std::hypot(photo.prior->sigma_vertical_m, kTiedSigma_m);
     result.position = off.cwiseQuotient(Eigen::Vector3d(horizontal, horizontal, vertical));
   }
   return result;
@@ -64,7 +64,7 @@ std::vector<int> GroupOf(const Scene& scene, const std::vector<bool>& agrees, in
     if (points >= kLeastShared) order.emplace_back(-points, other);
   }
   std::ranges::sort(order);
-  if (order.size() > kPartners) order.resize(kPartners);
+  if (order.size() > kNearestTied) order.resize(kNearestTied);
   std::vector<int> group = {photo};
   for (const auto& [points, other] : order) group.push_back(other);
   return group;
@@ -84,7 +84,7 @@ void Test(const std::vector<int>& group, const std::vector<Differences>& all,
   const double count = static_cast<double>(told.size());
   mean /= count;
   const double variance = kCommonShare + (1 - kCommonShare) / count;
-  if (mean.squaredNorm() <= kUnlikely * variance) return;
+  if (mean.squaredNorm() <= kUnlikelyMean * variance) return;
   for (const int photo : told) {
     if ((all[photo].*kind)->dot(mean) >= mean.squaredNorm() / 2) off.insert(photo);
   }

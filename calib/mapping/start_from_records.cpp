@@ -17,22 +17,23 @@
 #include "calib/scene/points.h"
 #include "calib/two_view/pair_rays.h"
 #include "survey/attitude.h"
+#include "survey/degree.h"
 #include "survey/median.h"
 #include "survey/parallel.h"
 
 namespace stucco {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 // Of the photos; the others are attached to these afterwards.
 constexpr double kLeastRecorded = 0.5;
-constexpr int kLeastPhotos = 6;
-constexpr size_t kPartners = 6;  // pairs of a photo whose relative rotation is estimated
+constexpr int kLeastRecordedPhotos = 6;
+constexpr size_t kRotationPartners = 6;  // pairs of a photo whose relative rotation is estimated
 constexpr size_t kMatchesOfPair = 300;
 constexpr int kLeastRelative = 25;  // matches that a relative pose must explain
 // Relative rotations of gimbals farther from those of the matches are not those of the same pair.
 constexpr double kSameRotation = 12 * kDegree;
-constexpr double kLeastAgreeing = 0.3;  // of the pairs; below it the records contradict the photos
+constexpr double kLeastAgreeingShare =
+    0.3;  // of the pairs; below it the records contradict the photos
 constexpr double kRelativeSigma = 0.5 * kDegree;  // with lenses that are not calibrated yet
 constexpr double kLeastGimbalSigma = 0.2 * kDegree;
 constexpr double kMostGimbalSigma = 5 * kDegree;
@@ -42,9 +43,9 @@ constexpr int kEnoughVotes = 10;
 // The tolerance of the first points, in medians of the epipolar errors; and its limits.
 constexpr double kStartMedians = 5;
 constexpr double kMostStart_sigmas = 120;
-constexpr double kNarrower = 3;       // by which the tolerance falls from round to round
-constexpr int kObservations = 150;    // of a photo, while the tolerance is wide
-constexpr double kLeastPlaced = 0.3;  // of the recorded photos
+constexpr double kNarrowerTolerance = 3;  // by which the tolerance falls from round to round
+constexpr int kObservations = 150;        // of a photo, while the tolerance is wide
+constexpr double kLeastPlaced = 0.3;      // of the recorded photos
 
 struct PairMotion {
   const VerifiedPair* pair = nullptr;
@@ -72,7 +73,7 @@ std::vector<const VerifiedPair*> StrongestPairs(const std::vector<VerifiedPair>&
     std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
       return a.first != b.first ? a.first > b.first : a.second < b.second;
     });
-    for (size_t i = 0; i < std::min(kPartners, candidates.size()); ++i) {
+    for (size_t i = 0; i < std::min(kRotationPartners, candidates.size()); ++i) {
       chosen.insert(candidates[i].second);
     }
   }
@@ -243,7 +244,7 @@ double EpipolarError(const std::vector<const VerifiedPair*>& pairs, const Scene&
 // Falling to that of the keypoints, standard deviations of these.
 std::vector<double> Tolerances(double start, double end) {
   std::vector<double> tolerances;
-  for (double tolerance = start; tolerance > end; tolerance /= kNarrower) {
+  for (double tolerance = start; tolerance > end; tolerance /= kNarrowerTolerance) {
     tolerances.push_back(tolerance);
   }
   tolerances.push_back(end);
@@ -299,7 +300,8 @@ RecordsStart StartFromRecords(const MapperOptions& options, const std::vector<Ve
                               Scene& scene) {
   assert(records.size() == scene.photos.size());
   const auto recorded = std::count_if(records.begin(), records.end(), HasRecord);
-  if (recorded < kLeastPhotos || recorded < kLeastRecorded * static_cast<double>(records.size())) {
+  if (recorded < kLeastRecordedPhotos ||
+      recorded < kLeastRecorded * static_cast<double>(records.size())) {
     return NotUsable("too few photos have a position and gimbal angles");
   }
   const std::vector<const VerifiedPair*> strongest = StrongestPairs(pairs, records);
@@ -308,7 +310,7 @@ RecordsStart StartFromRecords(const MapperOptions& options, const std::vector<Ve
   std::erase_if(motions, [&](const PairMotion& motion) {
     return Disagreement(motion, records) > kSameRotation;
   });
-  if (motions.empty() || motions.size() < kLeastAgreeing * static_cast<double>(all)) {
+  if (motions.empty() || motions.size() < kLeastAgreeingShare * static_cast<double>(all)) {
     return NotUsable(
         fmt::format("the gimbal's angles contradict the photos: only {} of {} pairs "
                     "turn as they say",

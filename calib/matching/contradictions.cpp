@@ -30,11 +30,11 @@ constexpr std::array kDepths = {0.35, 0.45, 0.55, 0.65, 0.75, 0.85, 1.0, 1.15, 1
 // A photo that stands in or at something, as far as the plan knows.
 constexpr double kTooNear_m = 2;
 // A focal length of which no more is known gives no directions.
-constexpr double kGuessedFocal = 0.3;  // standard deviation, share
-constexpr size_t kSureMatches = 30;    // of a pair that ties two photos together
+constexpr double kUnknownFocal = 0.3;  // standard deviation, share
+constexpr size_t kTyingMatches = 30;   // of a pair that ties two photos together
 // Pairs that must say the same of a record before it is corrected: what repeats itself is matched
 // now with one place, now with another.
-constexpr int kLeastAgreeing = 3;
+constexpr int kLeastAgreeingPairs = 3;
 
 double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -90,7 +90,7 @@ Verdict JudgePair(const Records& records, const PhotoPair& pair) {
   for (const int photo : {pair.first, pair.second}) {
     if (!records.poses[photo]) return Verdict::kUnknown;
     const int camera = records.scene.photos[photo].camera;
-    if (records.scene.cameras[camera].focal_sigma_ratio > kGuessedFocal) return Verdict::kUnknown;
+    if (records.scene.cameras[camera].focal_sigma_ratio > kUnknownFocal) return Verdict::kUnknown;
   }
   int fit = 0;
   int told = 0;
@@ -134,7 +134,7 @@ DisjointSets Parts(const std::vector<VerifiedPair>& pairs, const Opinion& opinio
   DisjointSets parts(opinion.fits.size());
   for (size_t i = 0; i < pairs.size(); ++i) {
     const PhotoPair& pair = pairs[i].pair;
-    if (opinion.verdicts[i] == Verdict::kContradicts || pair.matches.size() < kSureMatches)
+    if (opinion.verdicts[i] == Verdict::kContradicts || pair.matches.size() < kTyingMatches)
       continue;
     if (!opinion.Believes(pair.first) || !opinion.Believes(pair.second)) continue;
     parts.Join(pair.first, pair.second);
@@ -211,7 +211,7 @@ std::optional<Pose> AgreedMotion(const std::vector<VerifiedPair>& pairs, const O
   // part.
   const int for_record = members.size() == 1 ? opinion.fits[members[0]] : 0;
   const int all = static_cast<int>(tied.pairs.size()) + for_record;
-  if (agreement.count < kLeastAgreeing || 2 * agreement.count <= all) return std::nullopt;
+  if (agreement.count < kLeastAgreeingPairs || 2 * agreement.count <= all) return std::nullopt;
   return corrections[agreement.center].moved_from_recorded;
 }
 

@@ -12,7 +12,7 @@
 namespace stucco {
 namespace {
 
-constexpr double kBeyond_m = 1;  // of what the photo should see is rectified too
+constexpr double kBeyondSight_m = 1;  // of what the photo should see is rectified too
 constexpr int kWallPartners = 6;
 
 // Along the wall and in height, what the photo should see of it.
@@ -31,8 +31,8 @@ WallView ViewOfWall(const Plan& plan, const ExpectedViews& views, int photo, int
     include((p.position.head<2>() - facade.a_m).dot(along), view.along_m);
     include(p.position.z(), view.z_m);
   }
-  view.along_m = {view.along_m.from_m - kBeyond_m, view.along_m.to_m + kBeyond_m};
-  view.z_m = {view.z_m.from_m - kBeyond_m, view.z_m.to_m + kBeyond_m};
+  view.along_m = {view.along_m.from_m - kBeyondSight_m, view.along_m.to_m + kBeyondSight_m};
+  view.z_m = {view.z_m.from_m - kBeyondSight_m, view.z_m.to_m + kBeyondSight_m};
   return view;
 }
 

@@ -17,10 +17,10 @@ namespace {
 // Fewer observations hold no pose surely.
 constexpr int kEnoughObservations = 100;
 // Of poses that many observations hold.
-constexpr double kPoseSigma_m = 0.05;
-constexpr double kPoseSigma_rad = 0.1 * std::numbers::pi / 180;
+constexpr double kKnownSigma_m = 0.05;
+constexpr double kKnownSigma_rad = 0.1 * std::numbers::pi / 180;
 constexpr size_t kMostPoints = 20000;
-constexpr double kMostShift_m = 6;
+constexpr double kMostOffset_m = 6;
 constexpr double kStep_m = 0.5;
 constexpr double kOnWall_m = 0.4;
 constexpr double kOffGround_m = 1;  // and roofs: what lies there may belong to them
@@ -44,7 +44,7 @@ std::vector<NearWall> PointsNearWalls(std::span<const Eigen::Vector3d> points,
       const Eigen::Vector2d from = p.head<2>() - wall.a_m;
       const double along = from.dot(wall.along());
       const double distance = from.dot(wall.outwards());
-      if (along < 0 || along > wall.length_m() || std::abs(distance) > kMostShift_m) continue;
+      if (along < 0 || along > wall.length_m() || std::abs(distance) > kMostOffset_m) continue;
       near.push_back({wall.outwards(), distance});
     }
   }
@@ -76,7 +76,7 @@ Eigen::Vector2d Refined(const std::vector<NearWall>& points, Eigen::Vector2d shi
 std::optional<KnownPose> KnowPose(const Scene& scene, int index) {
   const ScenePhoto& photo = scene.photos[index];
   if (photo.pose && NumUsedObservations(scene, index) >= kEnoughObservations) {
-    return KnownPose{*photo.pose, kPoseSigma_m, kPoseSigma_rad};
+    return KnownPose{*photo.pose, kKnownSigma_m, kKnownSigma_rad};
   }
   const auto recorded = RecordedPose(photo);
   if (!recorded) return std::nullopt;
@@ -104,7 +104,7 @@ Eigen::Vector3d PlanFromRecords(const ExpectedViews& views,
 Eigen::Vector2d ShiftOntoWalls(std::span<const Eigen::Vector3d> points,
                                std::span<const PlannedFacade> walls) {
   const std::vector<NearWall> near = PointsNearWalls(points, walls);
-  const int steps = static_cast<int>(kMostShift_m / kStep_m);
+  const int steps = static_cast<int>(kMostOffset_m / kStep_m);
   Eigen::Vector2d best = Eigen::Vector2d::Zero();
   size_t most = std::max(kLeastPoints, NumOnWalls(near, best));
   for (int x = -steps; x <= steps; ++x) {

@@ -21,9 +21,9 @@ namespace {
 constexpr double kWrongBay = 1e-3;
 // What relief and the map add to shifts on the wall, metres.
 constexpr double kOffWall_m = 0.2;
-constexpr size_t kLeastKeypoints = 10;
+constexpr size_t kLeastKeypointsOnWall = 10;
 constexpr size_t kLeastMatches = 8;
-constexpr double kSameShift_m = 0.5;
+constexpr double kAgreeingShift_m = 0.5;
 
 // What a photo shows of one wall.
 struct Shown {
@@ -73,8 +73,8 @@ ShownWalls ShownBy(const AgainInput& input, int photo) {
       }
     }
   }
-  std::erase_if(walls,
-                [](const auto& each) { return each.second.of_photo.size() < kLeastKeypoints; });
+  std::erase_if(
+      walls, [](const auto& each) { return each.second.of_photo.size() < kLeastKeypointsOnWall; });
   for (auto& [wall, shown] : walls) {
     const PlannedFacade& facade = input.set.guidance.facades[wall];
     const Eigen::Vector2d middle = (facade.a_m + facade.b_m) / 2;
@@ -111,7 +111,7 @@ void KeepSure(const Shown& first, const Shown& second, double period_m, double s
   const Eigen::Vector2d middle(Median(std::move(along)).value_or(0),
                                Median(std::move(up)).value_or(0));
   std::erase_if(matches, [&](const Match& match) {
-    return (shift_of(match) - middle).norm() > kSameShift_m;
+    return (shift_of(match) - middle).norm() > kAgreeingShift_m;
   });
   const double log_odds =
       period_m * (period_m - 2 * middle.lpNorm<Eigen::Infinity>()) / (2 * sigma_m * sigma_m);

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "calib/mapping/wrong_poses.h"
 #include "calib/parts/parts.h"
 #include "calib/records/georeference.h"
+#include "survey/degree.h"
 #include "survey/disjoint_sets.h"
 #include "survey/median.h"
 
@@ -26,7 +26,6 @@ constexpr double kSure_px = 1;
 constexpr double kLittleShared = 0.1;
 // Loosely tied are photos that are so many times less sure than the middle one.
 constexpr double kLoose = 5;
-constexpr double kDegree = std::numbers::pi / 180;
 
 std::vector<int> PosedPhotos(const Scene& scene) {
   std::vector<int> photos;

@@ -7,17 +7,16 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 #include "calib/adjust/adjust.h"
 #include "calib/results/summarize_photos.h"
+#include "survey/degree.h"
 
 namespace stucco {
 namespace {
 
 // A parameter whose uncertainty is still most of what was assumed beforehand is not measured.
 constexpr double kUndetermined = 0.7;
-constexpr double kDegree = std::numbers::pi / 180;
 
 CalibratedCamera SummarizeCamera(const CapturedCamera& captured, const SceneCamera& camera,
                                  const Eigen::VectorXd* sigma) {

@@ -7,18 +7,17 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <utility>
 
 #include "calib/parts/weak_pose.h"
+#include "survey/degree.h"
 #include "survey/median.h"
 
 namespace stucco {
 namespace {
 
 constexpr int kCoverageCells = 10;
-constexpr double kDegree = std::numbers::pi / 180;
 
 double Coverage(const Camera& camera, const RegisteredImage& photo) {
   std::set<int> filled;

@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 // Most lie on ground around the survey; of a facade there may be one in a hundred.
 constexpr uint64_t kMostForError = 2000000;
 constexpr size_t kSurfaceSamples = 1000000;
-constexpr uint64_t kSeed = 1;
+constexpr uint64_t kCloudSeed = 1;
 
 // Finds points near a given one: cells twice as wide as the radius, so that eight hold all.
 class PointGrid {
@@ -122,7 +122,7 @@ PartFigures CompareCloud(const std::filesystem::path& ply, const Similarity& tru
 
 PartFigures CompareSurface(const SurfaceIndex& result, const SceneIndex& scene,
                            const TruthPoints& truth, const CompareOptions& options) {
-  const auto points = Positions(SamplePoints(result.surface(), kSurfaceSamples, kSeed));
+  const auto points = Positions(SamplePoints(result.surface(), kSurfaceSamples, kCloudSeed));
   return FiguresOf(MeasurePoints(points, scene, options.threads), truth,
                    FoundOn(result, truth, options.tolerance_m, options.threads));
 }

@@ -15,7 +15,7 @@ namespace stucco::evaluate {
 namespace {
 
 constexpr size_t kSamples = 200000;
-constexpr uint64_t kSeed = 1;
+constexpr uint64_t kSampleSeed = 1;
 
 bool IsUnderside(const Building& building, const Facet& facet) {
   return facet.facet_class == FacetClass::kGround && !IsGround(building);
@@ -50,13 +50,13 @@ PartFigures MeasureSurfaces(const Proxy& result, const ProxyTruth& truth, double
   const SurfaceIndex& buildings = truth.scene.buildings;
   Surface planes = VisibleSurface(truth.facets);
   TruthPoints wanted;
-  wanted.points = SamplePoints(Surveyed(planes, buildings), kSamples, kSeed);
+  wanted.points = SamplePoints(Surveyed(planes, buildings), kSamples, kSampleSeed);
   wanted.seen = SeenByAny(wanted.points, truth.photos, truth.scene.everything, threads);
   const SurfaceIndex of_result(VisibleSurface(result));
   const std::vector<char> found = FoundOn(of_result, wanted, tolerance_m, threads);
   Append(truth.relief, planes);
   const SurfaceIndex of_truth(std::move(planes));
-  const auto made = SamplePoints(Surveyed(of_result.surface(), buildings), kSamples, kSeed);
+  const auto made = SamplePoints(Surveyed(of_result.surface(), buildings), kSamples, kSampleSeed);
   ResultPoints measured;
   measured.distances = Distances(Positions(made), of_truth, threads);
   for (const SurfacePoint& point : made) measured.groups.push_back(point.group);

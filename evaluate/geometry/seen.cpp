@@ -16,8 +16,8 @@ namespace {
 using Eigen::Vector3d;
 
 const double kLeastCosine = std::cos(kMaxShownIncidence_rad);
-constexpr double kLiftM = 0.01;  // off the surface, so that it does not hide itself
-constexpr size_t kBlock = 256;   // points for one task
+constexpr double kLiftM = 0.01;        // off the surface, so that it does not hide itself
+constexpr size_t kPointsOfTask = 256;  // points for one task
 
 struct Station {
   const simulate::FlownPhoto* photo;
@@ -54,10 +54,10 @@ std::vector<char> SeenByAny(std::span<const SurfacePoint> points,
     stations.push_back({photo, photo->cam_from_world.Center()});
   }
   std::vector<char> seen(points.size(), 0);
-  ParallelFor((points.size() + kBlock - 1) / kBlock, threads, [&](size_t block) {
+  ParallelFor((points.size() + kPointsOfTask - 1) / kPointsOfTask, threads, [&](size_t block) {
     size_t last = 0;  // the photo that saw the point before mostly sees this one, too
-    const size_t end = std::min(points.size(), (block + 1) * kBlock);
-    for (size_t i = block * kBlock; i < end; ++i) {
+    const size_t end = std::min(points.size(), (block + 1) * kPointsOfTask);
+    for (size_t i = block * kPointsOfTask; i < end; ++i) {
       for (size_t k = 0; k < stations.size() && !seen[i]; ++k) {
         const size_t station = (last + k) % stations.size();
         if (!Sees(stations[station], points[i], scene)) continue;

@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr size_t kBlock = 1024;  // distances for one task
+constexpr size_t kDistancesOfTask = 1024;  // distances for one task
 
 // Ericson, "Real-Time Collision Detection" (2005), section 5.1.5.
 Vector3d NearestOnTriangle(const Vector3d& p, const Vector3d& a, const Vector3d& b,
@@ -167,10 +167,12 @@ bool SurfaceIndex::Blocked(const Vector3d& from, const Vector3d& to) const {
 std::vector<double> Distances(std::span<const Vector3d> points, const SurfaceIndex& index,
                               int threads) {
   std::vector<double> distances(points.size());
-  ParallelFor((points.size() + kBlock - 1) / kBlock, threads, [&](size_t block) {
-    const size_t end = std::min(points.size(), (block + 1) * kBlock);
-    for (size_t i = block * kBlock; i < end; ++i) distances[i] = index.Distance(points[i]);
-  });
+  ParallelFor((points.size() + kDistancesOfTask - 1) / kDistancesOfTask, threads,
+              [&](size_t block) {
+                const size_t end = std::min(points.size(), (block + 1) * kDistancesOfTask);
+                for (size_t i = block * kDistancesOfTask; i < end; ++i)
+                  distances[i] = index.Distance(points[i]);
+              });
   return distances;
 }
 

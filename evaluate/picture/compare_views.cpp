@@ -24,7 +24,7 @@ using simulate::Renderer;
 // Photos are compared at most this large: models hold pictures of limited size anyway.
 constexpr int kViewSide_px = 1600;
 // ... and the gains are fitted on pictures of this size, where small shifts are averaged away.
-constexpr int kGainSide_px = 200;
+constexpr int kViewGainSide_px = 200;
 // What stands nearer than the scene without occluders does, is one.
 constexpr float kInFront_m = 0.05f;
 
@@ -174,7 +174,7 @@ std::vector<HeldOutFigures> CompareViews(const TextureComparison& comparison,
     figures[i].photo = held_out[i]->path;
     figures[i].problem = ProblemIn([&] {
       samples[i] =
-          SamplesOf(MakeView(comparison, model, *held_out[i], flight_folder, kGainSide_px));
+          SamplesOf(MakeView(comparison, model, *held_out[i], flight_folder, kViewGainSide_px));
     });
   }
   const PhotoLight fitted = FitPhotoLight(samples);

@@ -18,7 +18,7 @@ namespace {
 
 using internal::BeyondThePicture;
 
-constexpr int kWindowRadius_px = 5;
+constexpr int kSsimRadius_px = 5;
 constexpr double kWindowSigma_px = 1.5;
 constexpr double kC1 = (0.01 * 255) * (0.01 * 255);
 constexpr double kC2 = (0.03 * 255) * (0.03 * 255);
@@ -32,8 +32,8 @@ struct Similarity {
 
 cv::Mat Smoothed(const cv::Mat& plane) {
   cv::Mat smooth;
-  cv::GaussianBlur(plane, smooth, {2 * kWindowRadius_px + 1, 2 * kWindowRadius_px + 1},
-                   kWindowSigma_px, kWindowSigma_px, cv::BORDER_REPLICATE);
+  cv::GaussianBlur(plane, smooth, {2 * kSsimRadius_px + 1, 2 * kSsimRadius_px + 1}, kWindowSigma_px,
+                   kWindowSigma_px, cv::BORDER_REPLICATE);
   return smooth;
 }
 
@@ -46,8 +46,7 @@ cv::Mat Covariance(const cv::Mat& a, const cv::Mat& b, const cv::Mat& mean_a,
 
 std::optional<Similarity> SimilarityOf(const cv::Mat& truth, const cv::Mat& result,
                                        const cv::Mat& mask) {
-  const cv::Mat windows =
-      internal::WholeWindows(mask, kWindowRadius_px, BeyondThePicture::kNothing);
+  const cv::Mat windows = internal::WholeWindows(mask, kSsimRadius_px, BeyondThePicture::kNothing);
   if (cv::countNonZero(windows) == 0) return std::nullopt;
   constexpr double kGrey = 128;
   const cv::Mat a = truth - kGrey;

@@ -13,6 +13,9 @@
 
 namespace stucco {
 
+// The origin of pixel coordinates in these files is the centre of the upper-left pixel.
+inline constexpr double kPixelCentre = 0.5;
+
 // The photos of a block with their ids in the file.
 struct BlockPhotos {
   std::map<int64_t, PhotoId> posed;

@@ -51,7 +51,7 @@ bool KnowsAllViews(const Reconstruction& model, const PointCloud& cloud) {
   });
 }
 
-Reconstruction ReadCalibration(const fs::path& survey) {
+Reconstruction ReadPoses(const fs::path& survey) {
   std::error_code error;
   if (!fs::exists(survey / kSparseFolder, error)) {
     throw Error(ErrorKind::kBadInput,
@@ -73,7 +73,7 @@ bool IsCloud(const fs::path& path) {
 CloudImportReport ImportCloud(const fs::path& survey, const fs::path& source,
                               const StageTable& table, const Platform& platform) {
   RequireApart(survey, LoadSettings(survey, table, {}).photos, table);
-  const Reconstruction model = ReadCalibration(survey);
+  const Reconstruction model = ReadPoses(survey);
   PointCloud cloud = ReadPly(source);
   if (const auto problem = FindProblem(cloud)) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", source.string(), *problem),

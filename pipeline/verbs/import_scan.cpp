@@ -35,8 +35,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kPlanFolder[] = "plan";
-
 std::string CloudCrs(const ScanRequest& request) {
   const std::string& crs = request.crs.empty() ? request.map_crs : request.crs;
   if (crs.empty()) {

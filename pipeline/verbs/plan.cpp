@@ -24,8 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kPlanFolder[] = "plan";
-
 plan::PlanOptions ReadOptions(const std::vector<std::string>& set) {
   plan::PlanOptions options;
   OptionTable table(kPlanFolder);

@@ -11,8 +11,8 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kTurnStep = 5 * std::numbers::pi / 180;
-constexpr int kTurnSteps = 9;           // to either side
+constexpr double kDirectionStep = 5 * std::numbers::pi / 180;
+constexpr int kDirectionSteps = 9;      // to either side
 constexpr int kMostAimedRounds = 4;     // a part wider than the field of view takes several
 constexpr size_t kMostObservers = 300;  // of a facade, for choosing its direction
 
@@ -43,9 +43,9 @@ double BestTurn(const DippingSetting& setting, std::span<const Candidate> candid
   const size_t stride = observers.size() / kMostObservers + 1;
   double best = -1, best_turn = 0;
   // From the normal outwards, so that it wins ties.
-  for (int step = 0; step <= 2 * kTurnSteps; ++step) {
+  for (int step = 0; step <= 2 * kDirectionSteps; ++step) {
     const int steps = (step + 1) / 2;
-    const double turn = steps * kTurnStep * (step % 2 ? 1 : -1) + 0.0;
+    const double turn = steps * kDirectionStep * (step % 2 ? 1 : -1) + 0.0;
     std::vector<SeenPart> parts;
     Intervals seen;
     double length = 1;

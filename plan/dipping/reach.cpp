@@ -17,7 +17,7 @@ constexpr double kStretchM = 0.5;
 constexpr double kFrontal = 0.7071;  // cosine of 45 degrees
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-struct Observer {
+struct WallObserver {
   const Candidate* candidate = nullptr;
   const Intervals* seen = nullptr;
 };
@@ -36,11 +36,11 @@ Vector2d MiddleOf(const Facade& wall, const Interval& stretch) {
 }
 
 // Distances at which whole stretches are seen, the least by stretch.
-std::vector<double> LimitsOf(const Facade& wall, const std::vector<Observer>& observers,
+std::vector<double> LimitsOf(const Facade& wall, const std::vector<WallObserver>& observers,
                              double near_enough) {
   const size_t count = Stretches(wall);
   std::vector<double> frontal(count, kNone), any(count, kNone);
-  for (const Observer& observer : observers) {
+  for (const WallObserver& observer : observers) {
     const Vector2d& p = observer.candidate->position;
     for (const Interval& part : *observer.seen) {
       for (size_t i = 0; i < count; ++i) {
@@ -68,7 +68,7 @@ std::vector<double> LimitsOf(const Facade& wall, const std::vector<Observer>& ob
 Reach::Reach(const DippingSetting& setting, std::span<const Candidate> candidates)
     : limits_m_(setting.site.facades.size()) {
   const Site& site = setting.site;
-  std::vector<std::vector<Observer>> observers(site.facades.size());
+  std::vector<std::vector<WallObserver>> observers(site.facades.size());
   for (const Candidate& candidate : candidates) {
     for (const SeenFacade& seen : candidate.seen) {
       observers[seen.facade].push_back({&candidate, &seen.seen});

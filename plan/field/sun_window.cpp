@@ -6,14 +6,13 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <numbers>
 
+#include "survey/degree.h"
 #include "survey/error.h"
 
 namespace stucco::plan {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kFirstYear = 1950;
 constexpr int kLastYear = 2100;
 

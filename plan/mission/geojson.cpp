@@ -17,7 +17,7 @@ double Rounded(double value) {
   return RoundTo(value, 1000);
 }
 
-struct Writer {
+struct GeoJsonWriter {
   const Plan& plan;
   std::string text;
 
@@ -42,7 +42,7 @@ struct Writer {
   }
 };
 
-Json Polygon(const Writer& writer, const std::vector<std::vector<Eigen::Vector2d>>& rings) {
+Json Polygon(const GeoJsonWriter& writer, const std::vector<std::vector<Eigen::Vector2d>>& rings) {
   Json coordinates = Json::array();
   for (const auto& ring : rings) {
     Json corners = Json::array();
@@ -53,7 +53,7 @@ Json Polygon(const Writer& writer, const std::vector<std::vector<Eigen::Vector2d
   return coordinates;
 }
 
-void AddViews(Writer& writer) {
+void AddViews(GeoJsonWriter& writer) {
   std::map<int, std::vector<const PlannedView*>> hovers;
   for (const PlannedView& view : writer.plan.views) {
     Json facades = Json::array();
@@ -76,7 +76,7 @@ void AddViews(Writer& writer) {
   }
 }
 
-void AddPaths(Writer& writer) {
+void AddPaths(GeoJsonWriter& writer) {
   for (size_t i = 0; i < writer.plan.flights.size(); ++i) {
     const PlannedFlight& flight = writer.plan.flights[i];
     if (flight.waypoints.size() < 2) continue;
@@ -92,7 +92,7 @@ void AddPaths(Writer& writer) {
   }
 }
 
-void AddFacades(Writer& writer) {
+void AddFacades(GeoJsonWriter& writer) {
   for (const PlannedFacade& facade : writer.plan.facades) {
     const FacadeQuality& q = facade.predicted;
     double unobservable_m = 0;
@@ -114,7 +114,7 @@ void AddFacades(Writer& writer) {
 }  // namespace
 
 std::string PlanGeoJson(const Plan& plan) {
-  Writer writer = {plan, ""};
+  GeoJsonWriter writer = {plan, ""};
   for (const PlannedFootprint& footprint : plan.footprints) {
     writer.Add(footprint.is_obstacle ? "obstacle" : "footprint", "Polygon",
                Polygon(writer, footprint.rings_m),

@@ -18,7 +18,7 @@ namespace {
 constexpr int kQualityClasses = 8;
 constexpr double kBestQuality = 4;  // the sum of four terms
 
-struct Writer {
+struct KmlWriter {
   const Plan& plan;
   const char* altitude_mode;
 
@@ -101,7 +101,7 @@ void AddDatum(pugi::xml_node data, const char* name, const std::string& value) {
   Put(datum, "value", value);
 }
 
-void AddView(pugi::xml_node folder, const PlannedView& view, const Writer& writer) {
+void AddView(pugi::xml_node folder, const PlannedView& view, const KmlWriter& writer) {
   pugi::xml_node placemark = AddPlacemark(folder, view.id, fmt::format("flight{}", view.flight));
   pugi::xml_node data = AddData(placemark);
   std::vector<std::string> facades;
@@ -117,7 +117,7 @@ void AddView(pugi::xml_node folder, const PlannedView& view, const Writer& write
   Put(point, "coordinates", writer.Coordinate(view.position_m));
 }
 
-void AddHomes(pugi::xml_node document, const Writer& writer) {
+void AddHomes(pugi::xml_node document, const KmlWriter& writer) {
   const std::vector<Eigen::Vector3d> homes = writer.plan.Homes();
   for (size_t i = 0; i < homes.size(); ++i) {
     pugi::xml_node home = document.append_child("Placemark");
@@ -128,7 +128,7 @@ void AddHomes(pugi::xml_node document, const Writer& writer) {
   }
 }
 
-void AddFlight(pugi::xml_node parent, size_t index, const Writer& writer) {
+void AddFlight(pugi::xml_node parent, size_t index, const KmlWriter& writer) {
   const PlannedFlight& flight = writer.plan.flights[index];
   pugi::xml_node folder = AddFolder(parent, fmt::format("Flight {}", index + 1));
   pugi::xml_node path = AddPlacemark(folder, fmt::format("Path of flight {}", index + 1),
@@ -148,7 +148,7 @@ void AddFlight(pugi::xml_node parent, size_t index, const Writer& writer) {
   }
 }
 
-void AddFacade(pugi::xml_node folder, const PlannedFacade& facade, const Writer& writer) {
+void AddFacade(pugi::xml_node folder, const PlannedFacade& facade, const KmlWriter& writer) {
   const double share = facade.predicted.sum() / kBestQuality;
   pugi::xml_node placemark = AddPlacemark(
       folder, facade.id, fmt::format("quality{}", std::lround(share * kQualityClasses)));
@@ -173,7 +173,7 @@ void AddFacade(pugi::xml_node folder, const PlannedFacade& facade, const Writer&
 using Rings = std::vector<std::vector<Eigen::Vector2d>>;
 
 // An outline lifted to z, with walls down to the ground.
-void AddBlock(pugi::xml_node placemark, const Rings& rings, double z, const Writer& writer) {
+void AddBlock(pugi::xml_node placemark, const Rings& rings, double z, const KmlWriter& writer) {
   pugi::xml_node polygon = placemark.append_child("Polygon");
   Put(polygon, "extrude", "1");
   Put(polygon, "altitudeMode", writer.altitude_mode);
@@ -192,7 +192,7 @@ void AddBlock(pugi::xml_node placemark, const Rings& rings, double z, const Writ
 
 std::string PlanKml(const Plan& plan) {
   // Without a terrain z counts from the ground, and the plan's height system is unknown.
-  const Writer writer = {plan, plan.origin.height_m == 0 ? "relativeToGround" : "absolute"};
+  const KmlWriter writer = {plan, plan.origin.height_m == 0 ? "relativeToGround" : "absolute"};
   pugi::xml_document xml;
   pugi::xml_node declaration = xml.append_child(pugi::node_declaration);
   declaration.append_attribute("version") = "1.0";

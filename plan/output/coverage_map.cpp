@@ -22,9 +22,9 @@ using internal::MapScale;
 using internal::PathData;
 using internal::Svg;
 
-constexpr double kTop = 128;
-constexpr double kBelowMap = 60;
-constexpr double kKeyRow = 66;  // from the top of the page
+constexpr double kCoverageTop = 128;
+constexpr double kBelowCoverage = 60;
+constexpr double kCoverageKeyRow = 66;  // from the top of the page
 constexpr char kUnseen[] = "#d7191c";
 
 // Colours from good (the last class) to bad, and one for what no photo shows.
@@ -182,7 +182,7 @@ void DrawKey(const Theme& theme, const Eigen::Vector2d& corner, Svg& svg) {
 
 void DrawPanel(const Plan& plan, const PhotoCoverage& coverage, const Theme& theme,
                const MapScale& scale, Svg& svg) {
-  DrawKey(theme, {scale.corner_px.x(), kKeyRow}, svg);
+  DrawKey(theme, {scale.corner_px.x(), kCoverageKeyRow}, svg);
   const std::string box =
       fmt::format("x=\"{0:.1f}\" y=\"{1:.1f}\" width=\"{2:.1f}\" height=\"{3:.1f}\"",
                   scale.corner_px.x(), scale.corner_px.y(), scale.Width(), scale.Height());
@@ -200,8 +200,8 @@ void DrawPanel(const Plan& plan, const PhotoCoverage& coverage, const Theme& the
 
 std::string CoverageSvg(const Plan& plan, const PhotoCoverage& coverage) {
   const double width = (kPageWidth - 3 * kMargin) / 2;
-  MapScale scale = internal::FitMap(plan, {kMargin, kTop}, {width, kTallestMap});
-  const double height = kTop + scale.Height() + kBelowMap;
+  MapScale scale = internal::FitMap(plan, {kMargin, kCoverageTop}, {width, kTallestMap});
+  const double height = kCoverageTop + scale.Height() + kBelowCoverage;
   const double asked =
       plan.camera.focal_m > 0 && plan.camera.width_px > 0
           ? plan.d_max_m * plan.camera.sensor_width_m / plan.camera.width_px / plan.camera.focal_m

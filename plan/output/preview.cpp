@@ -21,7 +21,7 @@ constexpr double kTitle = 92;
 constexpr double kWarningLine = 19;
 constexpr size_t kWarningLetters = 190;  // in a line
 constexpr double kLegend = 330;
-constexpr double kBelowMap = 48;
+constexpr double kBelowPlan = 48;
 constexpr double kMapWidth = kPageWidth - 3 * kMargin - kLegend;
 constexpr double kLowestPage = 960;  // the legend needs it
 
@@ -68,7 +68,7 @@ std::string PreviewSvg(const Plan& plan, const PlanStats& stats) {
   const double top = kTitle + kWarningLine * static_cast<double>(warnings.size());
   const Eigen::Vector2d corner(kMargin, top);
   const MapScale scale = internal::FitMap(plan, corner, {kMapWidth, kTallestMap});
-  const double height = std::max(scale.Height() + kBelowMap, kLowestPage - kTitle) + top;
+  const double height = std::max(scale.Height() + kBelowPlan, kLowestPage - kTitle) + top;
   Svg svg;
   svg.Add(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "

@@ -35,11 +35,6 @@ struct RingPlace {
   std::vector<int> run_of_edge;
 };
 
-Eigen::Vector2d OutwardsOf(const Segment2d& line) {
-  const Eigen::Vector2d along = (line.b - line.a).normalized();
-  return {along.y(), -along.x()};
-}
-
 Segment2d EdgeOf(const Ring& ring, size_t i) {
   return {ring[i], ring[(i + 1) % ring.size()]};
 }

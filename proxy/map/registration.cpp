@@ -65,11 +65,6 @@ std::vector<Segment2d> TracesOf(const Samples& upright, double cell) {
   return traces;
 }
 
-Eigen::Vector2d OutwardsOf(const Segment2d& line) {
-  const Eigen::Vector2d along = (line.b - line.a).normalized();
-  return {along.y(), -along.x()};
-}
-
 // The facades that the cloud comes near to.
 std::vector<Segment2d> FacadesInCloud(const Samples& upright, const OutlineMap& map) {
   const auto cell_of = [](const Eigen::Vector2d& p) {
@@ -108,19 +103,19 @@ struct Motion {
 };
 
 // The facade that a piece of wall may be of, and how far outside of it the piece lies.
-struct Beside {
+struct NearFacade {
   size_t facade = 0;
   double distance = 0;
   Eigen::Vector2d outwards = Eigen::Vector2d::Zero();
 };
 
 // The nearest one; nothing within reach.
-std::optional<Beside> FacadeBeside(const Segment2d& trace, const std::vector<Segment2d>& facades,
-                                   double reach) {
+std::optional<NearFacade> FacadeBeside(const Segment2d& trace,
+                                       const std::vector<Segment2d>& facades, double reach) {
   constexpr double kLeastCosine = 0.94;  // 20 degrees
   const Eigen::Vector2d middle = (trace.a + trace.b) / 2;
   const Eigen::Vector2d outwards = OutwardsOf(trace);
-  std::optional<Beside> best;
+  std::optional<NearFacade> best;
   for (size_t f = 0; f < facades.size(); ++f) {
     const Eigen::Vector2d n = OutwardsOf(facades[f]);
     const double distance = n.dot(middle - facades[f].a);

@@ -7,11 +7,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "survey/degree.h"
+
 namespace stucco {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
 
 // Horizontal axes of the world around `up`.
 struct Compass {

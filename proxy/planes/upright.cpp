@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
+
+#include "survey/degree.h"
 
 namespace stucco {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // How a camera is held: unit vectors in the world.
 struct Attitude {

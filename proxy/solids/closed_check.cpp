@@ -20,12 +20,12 @@ namespace stucco {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using InexactKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<InexactKernel::Point_3>;
 
 // Points as CGAL has them.
-std::vector<Kernel::Point_3> PointsOf(const TriangleSoup& soup) {
-  std::vector<Kernel::Point_3> points;
+std::vector<InexactKernel::Point_3> PointsOf(const TriangleSoup& soup) {
+  std::vector<InexactKernel::Point_3> points;
   for (const Eigen::Vector3d& p : soup.points) points.emplace_back(p.x(), p.y(), p.z());
   return points;
 }

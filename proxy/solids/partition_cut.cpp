@@ -14,7 +14,7 @@
 namespace stucco {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using EdgeKey = std::pair<int, int>;
 
 EdgeKey KeyOf(int a, int b) {
@@ -61,9 +61,9 @@ class CellCutter {
     planes_.emplace_back(plane.normal.x(), plane.normal.y(), plane.normal.z(), -plane.offset);
   }
 
-  Kernel::Point_3 Meet(int a, int b, int c) const {
+  ExactKernel::Point_3 Meet(int a, int b, int c) const {
     const auto result = CGAL::intersection(planes_[a], planes_[b], planes_[c]);
-    const auto* point = result ? boost::get<Kernel::Point_3>(&*result) : nullptr;
+    const auto* point = result ? boost::get<ExactKernel::Point_3>(&*result) : nullptr;
     if (point == nullptr) throw Fault("three planes of a vertex do not meet");
     return *point;
   }
@@ -249,8 +249,8 @@ class CellCutter {
 
   Partition& out_;
   int plane_ = 0;
-  std::vector<Kernel::Plane_3> planes_;
-  std::vector<Kernel::Point_3> points_;
+  std::vector<ExactKernel::Plane_3> planes_;
+  std::vector<ExactKernel::Point_3> points_;
   std::vector<int> sides_;
   std::map<EdgeKey, Edge> edges_;
   std::vector<int> leaf_of_cell_;

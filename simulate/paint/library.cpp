@@ -41,7 +41,7 @@ cv::Mat Decode(std::span<const unsigned char> jpeg) {
   return cv::imdecode(bytes, cv::IMREAD_COLOR);
 }
 
-Pane Cut(const cv::Mat& picture, const Rectangle& at) {
+Pane CutOut(const cv::Mat& picture, const Rectangle& at) {
   Pane pane{at.right - at.left, at.bottom - at.top, {}};
   for (int y = at.top; y < at.bottom; ++y) {
     for (int x = at.left; x < at.right; ++x) {
@@ -113,14 +113,14 @@ FacadeLibrary Load() {
     picture.metres_per_px =
         static_cast<float>(entry["width_m"].value_or(10.0)) / static_cast<float>(pixels.cols);
     std::vector<Pane> walls;
-    for (const Rectangle& at : Rectangles(entry, "walls")) walls.push_back(Cut(pixels, at));
+    for (const Rectangle& at : Rectangles(entry, "walls")) walls.push_back(CutOut(pixels, at));
     picture.palette = PaletteOf(walls);
     for (const Pane& wall : walls) picture.walls.push_back(PatchOf(wall));
     for (const Rectangle& at : Rectangles(entry, "windows")) {
-      library.windows.push_back(Cut(pixels, at));
+      library.windows.push_back(CutOut(pixels, at));
     }
     for (const Rectangle& at : Rectangles(entry, "shops")) {
-      library.shops.push_back(Cut(pixels, at));
+      library.shops.push_back(CutOut(pixels, at));
     }
     library.pictures.push_back(std::move(picture));
   }

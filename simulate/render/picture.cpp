@@ -43,12 +43,12 @@ const std::array<Eigen::Vector2f, kLanes> kEightPlaces = {{{0.5625f, 0.0625f},
 const std::array<Eigen::Vector2f, kLanes / 2> kFourPlaces = {
     {{0.375f, 0.125f}, {0.875f, 0.375f}, {0.125f, 0.625f}, {0.625f, 0.875f}}};
 
-struct Tile {
+struct PictureTile {
   int left = 0, top = 0, right = 0, bottom = 0;
 };
 
-std::vector<Tile> TilesOf(const View& view) {
-  std::vector<Tile> tiles;
+std::vector<PictureTile> TilesOf(const View& view) {
+  std::vector<PictureTile> tiles;
   for (int top = 0; top < view.height_px; top += kTile_px) {
     for (int left = 0; left < view.width_px; left += kTile_px) {
       tiles.push_back({left, top, std::min(left + kTile_px, view.width_px),
@@ -60,7 +60,7 @@ std::vector<Tile> TilesOf(const View& view) {
 
 // Pixels in blocks of 4 x 2: `visit(pixels, count)`.
 template <typename Visit>
-void ForEachBlock(const Tile& tile, const Visit& visit) {
+void ForEachBlock(const PictureTile& tile, const Visit& visit) {
   std::array<Eigen::Vector2i, kLanes> pixels;
   for (int top = tile.top; top < tile.bottom; top += 2) {
     for (int left = tile.left; left < tile.right; left += 4) {
@@ -84,9 +84,9 @@ class Drawing {
 
   // One after the other, each over all tiles before the next: edges are found in the colours of
   // the centres.
-  void DrawCentres(const Tile& tile);
-  void FindEdges(const Tile& tile);
-  void RefineEdges(const Tile& tile);
+  void DrawCentres(const PictureTile& tile);
+  void FindEdges(const PictureTile& tile);
+  void RefineEdges(const PictureTile& tile);
   Radiance Take() { return std::move(picture_); }
 
  private:
@@ -169,7 +169,7 @@ ViewRay Drawing::CentreRay(const Eigen::Vector2i& pixel) const {
   return ViewRayOf(view_, at.x(), at.y(), ray);
 }
 
-void Drawing::DrawCentres(const Tile& tile) {
+void Drawing::DrawCentres(const PictureTile& tile) {
   ForEachBlock(tile, [&](const std::array<Eigen::Vector2i, kLanes>& pixels, int count) {
     std::array<Eigen::Vector2d, kLanes> centres;
     for (int i = 0; i < count; ++i) centres[i] = pixels[i].cast<double>().array() + 0.5;
@@ -298,7 +298,7 @@ Eigen::Array3f Drawing::Resolve(const Eigen::Vector2i& pixel, const Traced& trac
   return sum / static_cast<float>(count);
 }
 
-void Drawing::FindEdges(const Tile& tile) {
+void Drawing::FindEdges(const PictureTile& tile) {
   for (int y = tile.top; y < tile.bottom; ++y) {
     for (int x = tile.left; x < tile.right; ++x) edges_[Index(x, y)] = IsEdge(x, y);
   }
@@ -320,7 +320,7 @@ void Drawing::Refine(std::span<const Eigen::Vector2i> pixels, Places places) {
   }
 }
 
-void Drawing::RefineEdges(const Tile& tile) {
+void Drawing::RefineEdges(const PictureTile& tile) {
   std::array<Eigen::Vector2i, 2> leaves;
   size_t waiting = 0;
   for (int y = tile.top; y < tile.bottom; ++y) {
@@ -346,7 +346,7 @@ void Drawing::RefineEdges(const Tile& tile) {
 
 Radiance DrawPicture(const View& view, const Shader& shader, int threads) {
   Drawing drawing(view, shader);
-  const std::vector<Tile> tiles = TilesOf(view);
+  const std::vector<PictureTile> tiles = TilesOf(view);
   ParallelFor(tiles.size(), threads, [&](size_t i) { drawing.DrawCentres(tiles[i]); });
   ParallelFor(tiles.size(), threads, [&](size_t i) { drawing.FindEdges(tiles[i]); });
   ParallelFor(tiles.size(), threads, [&](size_t i) { drawing.RefineEdges(tiles[i]); });
@@ -356,7 +356,7 @@ Radiance DrawPicture(const View& view, const Shader& shader, int threads) {
 std::vector<float> MeasureWays(const View& view, const RayScene& scene,
                                const RenderOptions& options) {
   std::vector<float> ways(static_cast<size_t>(view.width_px) * view.height_px, 0.0f);
-  const std::vector<Tile> tiles = TilesOf(view);
+  const std::vector<PictureTile> tiles = TilesOf(view);
   ParallelFor(tiles.size(), options.threads, [&](size_t t) {
     ForEachBlock(tiles[t], [&](const std::array<Eigen::Vector2i, kLanes>& pixels, int count) {
       RayPack pack;

@@ -19,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 
 // Eight photos tied to each other and five in a model apart; the last of the eight has no pose.
-struct Case {
+struct PhotosCase {
   Captures captures;
   std::vector<int> capture_of_photo;
   Scene scene;
@@ -42,8 +42,8 @@ struct Case {
   }
 };
 
-Case MakeCase() {
-  Case c;
+PhotosCase MakePhotosCase() {
+  PhotosCase c;
   const Scene whole =
       Joined(MakeScene({.num_photos = 8, .num_points = 350, .noise_px = 0.4}),
              MakeScene({.num_photos = 5, .num_points = 350, .noise_px = 0.4}), {100, 0, 0});
@@ -65,7 +65,7 @@ Case MakeCase() {
 }
 
 TEST(SummarizePhotos, HasThePhotosOfAllModelsWithTheirParts) {
-  const auto photos = MakeCase().Photos();
+  const auto photos = MakePhotosCase().Photos();
   ASSERT_EQ(photos.size(), 12u);
   for (size_t i = 0; i < photos.size(); ++i) {
     EXPECT_EQ(photos[i].part, i < 7 ? 0 : 1);
@@ -80,7 +80,7 @@ TEST(SummarizePhotos, HasThePhotosOfAllModelsWithTheirParts) {
 }
 
 TEST(SummarizePhotos, SaysWhyAPhotoIsWeak) {
-  Case c = MakeCase();
+  PhotosCase c = MakePhotosCase();
   c.sigmas.poses[3].position *= 7;
   c.sigmas.poses[4].position = -1;
   const auto photos = c.Photos();
@@ -92,7 +92,7 @@ TEST(SummarizePhotos, SaysWhyAPhotoIsWeak) {
 }
 
 TEST(SummarizePhotos, DoesNotTrustPhotosThatAreOffTheirRecordsTogether) {
-  Case c = MakeCase();
+  PhotosCase c = MakePhotosCase();
   c.off_together = {2, 5};
   const auto photos = c.Photos();
   for (const int i : {2, 5}) {
@@ -104,13 +104,13 @@ TEST(SummarizePhotos, DoesNotTrustPhotosThatAreOffTheirRecordsTogether) {
 
 // Photos of a part are held against those of their own part.
 TEST(SummarizePhotos, APartInAnotherScaleIsNotWeak) {
-  Case c = MakeCase();
+  PhotosCase c = MakePhotosCase();
   for (PoseSigma& sigma : c.parts.others[0].sigmas.poses) sigma.position *= 1000;
   for (const CalibratedPhoto& photo : c.Photos()) EXPECT_EQ(photo.state, PhotoState::kTied);
 }
 
 TEST(SummarizeParts, CountsPhotosAndPoints) {
-  const Case c = MakeCase();
+  const PhotosCase c = MakePhotosCase();
   const auto parts = SummarizeParts(c.Input());
   ASSERT_EQ(parts.size(), 2u);
   EXPECT_EQ(parts[0].model, "sparse/0");
@@ -125,7 +125,7 @@ TEST(SummarizeParts, CountsPhotosAndPoints) {
 }
 
 TEST(SummarizeRecordOnly, TellsWhatCouldBeInSeveralPlaces) {
-  Case c = MakeCase();
+  PhotosCase c = MakePhotosCase();
   c.ambiguous = {7};
   const auto photos = SummarizeRecordOnly(c.Input(), c.records, c.errors);
   ASSERT_EQ(photos.size(), 1u);
@@ -134,7 +134,7 @@ TEST(SummarizeRecordOnly, TellsWhatCouldBeInSeveralPlaces) {
 }
 
 TEST(SummarizeRecordOnly, PlacesWhatHasNoPoseWhereItsRecordSays) {
-  const Case c = MakeCase();
+  const PhotosCase c = MakePhotosCase();
   const auto photos = SummarizeRecordOnly(c.Input(), c.records, c.errors);
   ASSERT_EQ(photos.size(), 1u);
   const CalibratedPhoto& photo = photos[0];
@@ -155,7 +155,7 @@ TEST(SummarizeRecordOnly, PlacesWhatHasNoPoseWhereItsRecordSays) {
 }
 
 TEST(SummarizeRecordOnly, NeedsPositionAndAngles) {
-  Case c = MakeCase();
+  PhotosCase c = MakePhotosCase();
   c.records[7].gimbal.reset();
   EXPECT_TRUE(SummarizeRecordOnly(c.Input(), c.records, c.errors).empty());
 }

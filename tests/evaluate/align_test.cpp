@@ -22,24 +22,24 @@ Matrix3Xd Points() {
   return points;
 }
 
-Matrix3Xd Image(const Similarity& map, const Matrix3Xd& points) {
+Matrix3Xd Mapped(const Similarity& map, const Matrix3Xd& points) {
   Matrix3Xd image = points;
   for (int i = 0; i < points.cols(); ++i) image.col(i) = map * Eigen::Vector3d(points.col(i));
   return image;
 }
 
 double FarthestOff(const Similarity& a, const Similarity& b, const Matrix3Xd& points) {
-  return (Image(a, points) - Image(b, points)).colwise().norm().maxCoeff();
+  return (Mapped(a, points) - Mapped(b, points)).colwise().norm().maxCoeff();
 }
 
 TEST(AlignRobustly, IsExactOnExactPoints) {
-  const auto alignment = AlignRobustly(Points(), Image(AnySimilarity(), Points()));
+  const auto alignment = AlignRobustly(Points(), Mapped(AnySimilarity(), Points()));
   ASSERT_TRUE(alignment);
   EXPECT_LT(FarthestOff(alignment->target_from_source, AnySimilarity(), Points()), 1e-9);
 }
 
 TEST(AlignRobustly, IsLeastSquaresOfAllWithoutGrossErrors) {
-  Matrix3Xd target = Image(AnySimilarity(), Points());
+  Matrix3Xd target = Mapped(AnySimilarity(), Points());
   for (int i = 0; i < 30; ++i) target(i % 3, i) += 0.05 * std::sin(17.0 * i);
   const auto alignment = AlignRobustly(Points(), target);
   ASSERT_TRUE(alignment);
@@ -48,7 +48,7 @@ TEST(AlignRobustly, IsLeastSquaresOfAllWithoutGrossErrors) {
 }
 
 TEST(AlignRobustly, IsNotSpoiltByAFewWrongOnes) {
-  Matrix3Xd target = Image(AnySimilarity(), Points());
+  Matrix3Xd target = Mapped(AnySimilarity(), Points());
   for (const int i : {0, 4, 9, 13, 17, 21, 22, 25, 28}) target.col(i) += Eigen::Vector3d(30, i, -9);
   const auto alignment = AlignRobustly(Points(), target);
   ASSERT_TRUE(alignment);

@@ -17,7 +17,7 @@ using simulate::Light;
 using simulate::Renderer;
 
 // A survey of the house, in a folder of its own.
-struct Survey {
+struct PaintedSurvey {
   std::filesystem::path folder;
   Proxy truth = MadeHouse();
   Proxy proxy = MadeHouse();
@@ -27,20 +27,22 @@ struct Survey {
   std::vector<bool> occluders;
 };
 
-Survey MadeSurvey(const std::string& name, const Renderer& scene, const Painting& painting = {}) {
-  Survey survey;
+PaintedSurvey PaintedHouse(const std::string& name, const Renderer& scene,
+                           const Painting& painting = {}) {
+  PaintedSurvey survey;
   survey.folder = std::filesystem::path(testing::TempDir()) / name;
   survey.textures = PaintHouse(scene, Light{}, painting, survey.folder);
   return survey;
 }
 
 // For what is asked of one wall alone: the others are not compared.
-void KeepSouth(Survey& survey) {
+void KeepSouth(PaintedSurvey& survey) {
   std::vector<Facet>& facets = survey.truth.buildings[0].facets;
   facets.erase(facets.begin() + 1, facets.end());
 }
 
-std::vector<FacadeFigures> Compare(const Survey& survey, const Renderer& scene, int threads = 2) {
+std::vector<FacadeFigures> Compare(const PaintedSurvey& survey, const Renderer& scene,
+                                   int threads = 2) {
   return CompareFacades({.texture_folder = survey.folder,
                          .proxy = survey.proxy,
                          .textures = survey.textures,
@@ -69,7 +71,7 @@ void ExpectEqual(const FacadeFigures& figures, double most_flip = 0.006) {
 
 TEST(CompareFacades, WhatIsBelowTheGroundNeedNotBePainted) {
   const Renderer scene(MadeHouseScene());
-  Survey survey = MadeSurvey("buried", scene);
+  PaintedSurvey survey = PaintedHouse("buried", scene);
   KeepSouth(survey);
   survey.truth.buildings[0].facets[0].seen = 0.75;
   const FacadeFigures south = Compare(survey, scene)[0];
@@ -79,7 +81,7 @@ TEST(CompareFacades, WhatIsBelowTheGroundNeedNotBePainted) {
 
 TEST(CompareFacades, TruthAgainstItselfHasNoError) {
   const Renderer scene(MadeHouseScene());
-  const Survey survey = MadeSurvey("self", scene);
+  const PaintedSurvey survey = PaintedHouse("self", scene);
   const auto figures = Compare(survey, scene);
   ASSERT_EQ(figures.size(), 4u);
   for (const FacadeFigures& facade : figures) {
@@ -96,13 +98,13 @@ TEST(CompareFacades, TruthAgainstItselfHasNoError) {
 
 TEST(CompareFacades, ExposureAndWhiteBalanceOfTheSurveyAreNoError) {
   const Renderer scene(MadeHouseScene());
-  const Survey survey = MadeSurvey("exposed", scene, {.gains = {0.7, 0.9, 0.8}});
+  const PaintedSurvey survey = PaintedHouse("exposed", scene, {.gains = {0.7, 0.9, 0.8}});
   for (const FacadeFigures& facade : Compare(survey, scene)) ExpectEqual(facade);
 }
 
 TEST(CompareFacades, OneFacadeThatIsDarkerIsAnError) {
   const Renderer scene(MadeHouseScene());
-  Survey survey = MadeSurvey("uneven", scene);
+  PaintedSurvey survey = PaintedHouse("uneven", scene);
   const std::filesystem::path wall = survey.folder / survey.textures.facets[1].image;
   WriteImage(Changed(ReadImage(wall), [](double code) { return 0.8 * code; }), wall);
   const auto figures = Compare(survey, scene);
@@ -116,7 +118,8 @@ TEST(CompareFacades, OneFacadeThatIsDarkerIsAnError) {
 
 TEST(CompareFacades, AShiftIsFoundInTexels) {
   const Renderer scene(MadeHouseScene());
-  for (const FacadeFigures& facade : Compare(MadeSurvey("shifted", scene, {.shift = 2.5}), scene)) {
+  for (const FacadeFigures& facade :
+       Compare(PaintedHouse("shifted", scene, {.shift = 2.5}), scene)) {
     EXPECT_NEAR(facade.misregistration_px, 2.5, 0.1) << facade.id;
     EXPECT_LT(facade.picture.ssim, 0.9);
   }
@@ -124,7 +127,7 @@ TEST(CompareFacades, AShiftIsFoundInTexels) {
 
 TEST(CompareFacades, WorksInTheSurveysOwnFrame) {
   const Renderer scene(MadeHouseScene());
-  Survey survey = MadeSurvey("frame", scene);
+  PaintedSurvey survey = PaintedHouse("frame", scene);
   survey.truth_from_world.scale = 2.5;
   survey.truth_from_world.rotation =
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(0.1, 0.2, 1).normalized());
@@ -143,19 +146,19 @@ TEST(CompareFacades, WorksInTheSurveysOwnFrame) {
 TEST(CompareFacades, FinerTexelsAreComparedAtTheTruths) {
   const Renderer scene(MadeHouseScene());
   for (const FacadeFigures& facade :
-       Compare(MadeSurvey("fine", scene, {.texel_m = 0.005, .shift = 3}), scene)) {
+       Compare(PaintedHouse("fine", scene, {.texel_m = 0.005, .shift = 3}), scene)) {
     // Three texels of half a centimetre.
     EXPECT_NEAR(facade.misregistration_px, 1.5, 0.1) << facade.id;
   }
   for (const FacadeFigures& facade :
-       Compare(MadeSurvey("coarse", scene, {.texel_m = 0.02, .shift = 3}), scene)) {
+       Compare(PaintedHouse("coarse", scene, {.texel_m = 0.02, .shift = 3}), scene)) {
     EXPECT_NEAR(facade.misregistration_px, 3, 0.1) << facade.id;
   }
 }
 
 TEST(CompareFacades, FilledInTexelsAreNotPainted) {
   const Renderer scene(MadeHouseScene());
-  Survey survey = MadeSurvey("filled", scene);
+  PaintedSurvey survey = PaintedHouse("filled", scene);
   KeepSouth(survey);
   TexturedFacet& south = survey.textures.facets[0];
   Image image = ReadImage(survey.folder / south.image);
@@ -182,7 +185,7 @@ TEST(CompareFacades, WhatStandsBeforeAWallIsLeftOutButNotItsShade) {
   const Renderer scene(with_tree);
   std::vector<bool> tree(scene.scene().elements.size(), false);
   tree.back() = true;
-  Survey survey = MadeSurvey("tree", scene, {.left_out = tree});
+  PaintedSurvey survey = PaintedHouse("tree", scene, {.left_out = tree});
   KeepSouth(survey);
   EXPECT_LT(Compare(survey, scene)[0].picture.psnr, 20);
   survey.occluders = tree;
@@ -197,7 +200,7 @@ TEST(CompareFacades, ANearHouseBehindTheOnlookerIsLeftOut) {
   const Renderer scene(narrow);
   std::vector<bool> neighbour(scene.scene().elements.size(), false);
   neighbour.back() = true;
-  Survey survey = MadeSurvey("narrow", scene, {.left_out = neighbour});
+  PaintedSurvey survey = PaintedHouse("narrow", scene, {.left_out = neighbour});
   KeepSouth(survey);
   survey.truth.buildings.push_back(
       {.id = "B0002", .watertight = true, .source = "", .detail = "", .facets = {}});
@@ -206,7 +209,7 @@ TEST(CompareFacades, ANearHouseBehindTheOnlookerIsLeftOut) {
 
 TEST(CompareFacades, AWallWithoutAResultSaysSo) {
   const Renderer scene(MadeHouseScene());
-  Survey survey = MadeSurvey("bare", scene);
+  PaintedSurvey survey = PaintedHouse("bare", scene);
   survey.textures.facets[0].image.clear();
   auto& facets = survey.proxy.buildings[0].facets;
   facets.erase(facets.begin() + 1);
@@ -229,7 +232,7 @@ simulate::FlownPhoto SouthPhoto() {
 
 TEST(CompareFacades, TheCeilingIsWhatIdealPhotosShow) {
   const Renderer scene(MadeHouseScene());
-  Survey survey = MadeSurvey("ceiling", scene, {.shift = 4});
+  PaintedSurvey survey = PaintedHouse("ceiling", scene, {.shift = 4});
   survey.flight.photos = {SouthPhoto()};
   const auto figures = Compare(survey, scene);
   const FacadeFigures& south = figures[0];
@@ -247,7 +250,7 @@ TEST(CompareFacades, TheCeilingIsWhatIdealPhotosShow) {
 
 TEST(CompareFacades, ACoarserCameraHasALowerCeiling) {
   const Renderer scene(MadeHouseScene());
-  Survey survey = MadeSurvey("coarse_ceiling", scene);
+  PaintedSurvey survey = PaintedHouse("coarse_ceiling", scene);
   KeepSouth(survey);
   survey.flight.photos = {SouthPhoto()};
   const double fine = Compare(survey, scene)[0].ceiling.ssim;
@@ -262,7 +265,7 @@ TEST(CompareFacades, TellsTheWallsPlaneFromRelief) {
   simulate::Scene scene_with_balcony = MadeHouseScene();
   AddBoard("B0001/trim", 0.3, scene_with_balcony);  // 1 m x 1 m before a wall of 3 m x 2.5 m
   const Renderer scene(scene_with_balcony);
-  Survey survey = MadeSurvey("relief", scene);
+  PaintedSurvey survey = PaintedHouse("relief", scene);
   KeepSouth(survey);
   survey.flight.photos = {SouthPhoto()};
   // Wrong on relief alone: as if no board were there.
@@ -278,7 +281,7 @@ TEST(CompareFacades, TellsTheWallsPlaneFromRelief) {
 
 TEST(CompareFacades, IsTheSameAtAnyNumberOfThreads) {
   const Renderer scene(MadeHouseScene());
-  Survey survey = MadeSurvey("threads", scene, {.shift = 1});
+  PaintedSurvey survey = PaintedHouse("threads", scene, {.shift = 1});
   survey.flight.photos = {SouthPhoto()};
   const auto one = Compare(survey, scene, 1);
   const auto two = Compare(survey, scene, 2);
@@ -293,7 +296,7 @@ TEST(CompareFacades, IsTheSameAtAnyNumberOfThreads) {
 
 TEST(CompareFacades, AMissingPictureIsNamedAndTheOthersAreMeasured) {
   const Renderer scene(MadeHouseScene());
-  Survey survey = MadeSurvey("missing", scene);
+  PaintedSurvey survey = PaintedHouse("missing", scene);
   survey.textures.facets[2].image = "gone.png";
   const auto figures = Compare(survey, scene);
   EXPECT_THAT(figures[2].problem, testing::HasSubstr("gone.png"));

@@ -18,7 +18,7 @@ namespace {
 using simulate::FlownPhoto;
 using simulate::Renderer;
 
-struct Survey {
+struct PosedSurvey {
   std::filesystem::path folder;
   Proxy proxy = MadeHouse();
   TextureSet textures;
@@ -47,7 +47,7 @@ void WriteModel(const simulate::Scene& scene, const std::filesystem::path& folde
   WriteFile(folder / "model.mtl", mtl);
 }
 
-void WriteModelInWorld(simulate::Scene model, const Survey& survey) {
+void WriteModelInWorld(simulate::Scene model, const PosedSurvey& survey) {
   const Similarity world_from_truth = survey.truth_from_world.Inverse();
   for (Eigen::Vector3f& position : model.positions) {
     const Eigen::Vector3d world = world_from_truth * position.cast<double>();
@@ -58,8 +58,8 @@ void WriteModelInWorld(simulate::Scene model, const Survey& survey) {
 
 // The house as a model in a world that is turned, moved and offset against the scene, and two
 // photos of it.
-Survey MadeSurvey(const std::string& name, const Renderer& scene) {
-  Survey survey;
+PosedSurvey PosedHouse(const std::string& name, const Renderer& scene) {
+  PosedSurvey survey;
   survey.folder = std::filesystem::path(testing::TempDir()) / name;
   std::filesystem::create_directories(survey.folder / "truth/held_out");
   survey.truth_from_world.scale = 0.5;
@@ -75,8 +75,8 @@ Survey MadeSurvey(const std::string& name, const Renderer& scene) {
   return survey;
 }
 
-std::vector<HeldOutFigures> Compare(const Survey& survey, const Renderer& scene,
-                                    const std::vector<bool>& occluders = {}) {
+std::vector<HeldOutFigures> CompareWith(const PosedSurvey& survey, const Renderer& scene,
+                                        const std::vector<bool>& occluders = {}) {
   const Proxy truth = MadeHouse();
   return CompareViews({.texture_folder = survey.folder,
                        .proxy = survey.proxy,
@@ -95,8 +95,8 @@ std::vector<HeldOutFigures> Compare(const Survey& survey, const Renderer& scene,
 
 TEST(CompareViews, APerfectModelLooksLikeThePhotos) {
   const Renderer scene(MadeHouseScene());
-  const Survey survey = MadeSurvey("views", scene);
-  const auto figures = Compare(survey, scene);
+  const PosedSurvey survey = PosedHouse("views", scene);
+  const auto figures = CompareWith(survey, scene);
   ASSERT_EQ(figures.size(), 2u);
   for (const HeldOutFigures& view : figures) {
     // JPEG takes a little of the photo: it keeps a quarter of the colours.
@@ -111,15 +111,15 @@ TEST(CompareViews, APerfectModelLooksLikeThePhotos) {
 
 TEST(CompareViews, AModelElsewhereDoesNot) {
   const Renderer scene(MadeHouseScene());
-  Survey survey = MadeSurvey("views_off", scene);
-  const double right = Compare(survey, scene)[0].picture.ssim;
+  PosedSurvey survey = PosedHouse("views_off", scene);
+  const double right = CompareWith(survey, scene)[0].picture.ssim;
   survey.truth_from_world.translation.x() += 0.05;
-  EXPECT_LT(Compare(survey, scene)[0].picture.ssim, right - 0.1);
+  EXPECT_LT(CompareWith(survey, scene)[0].picture.ssim, right - 0.1);
 }
 
 TEST(CompareViews, WhatHidesTheModelIsLeftOut) {
   const Renderer bare(MadeHouseScene());
-  Survey survey = MadeSurvey("views_tree", bare);
+  PosedSurvey survey = PosedHouse("views_tree", bare);
   simulate::Scene with_tree = MadeHouseScene();
   AddBoard("occluder/tree-1", 1, with_tree);
   const Renderer scene(with_tree);
@@ -127,10 +127,10 @@ TEST(CompareViews, WhatHidesTheModelIsLeftOut) {
     WriteImage(Recorded(scene, photo), survey.folder / "truth" / photo.path, 100);
   }
   std::vector<bool> occluders(scene.scene().elements.size(), false);
-  const HeldOutFigures unknown = Compare(survey, scene, occluders)[0];
+  const HeldOutFigures unknown = CompareWith(survey, scene, occluders)[0];
   const double with = unknown.picture.psnr;
   occluders.back() = true;
-  const double without = Compare(survey, scene, occluders)[0].picture.psnr;
+  const double without = CompareWith(survey, scene, occluders)[0].picture.psnr;
   EXPECT_LT(with, 22);
   EXPECT_GT(without, 30);
   EXPECT_GT(unknown.buildings.psnr, 30);  // the board is none
@@ -138,30 +138,30 @@ TEST(CompareViews, WhatHidesTheModelIsLeftOut) {
 
 TEST(CompareViews, SaysHowMuchOfTheBuildingsTheModelHas) {
   const Renderer scene(MadeHouseScene());
-  const Survey survey = MadeSurvey("views_share", scene);
-  EXPECT_GT(Compare(survey, scene)[0].compared, 0.995);
+  const PosedSurvey survey = PosedHouse("views_share", scene);
+  EXPECT_GT(CompareWith(survey, scene)[0].compared, 0.995);
   simulate::Scene part = MadeHouseScene();
   part.triangles.resize(1);
   part.materials_of.resize(1);
   part.elements_of.resize(1);
   WriteModelInWorld(part, survey);
-  const HeldOutFigures found = Compare(survey, scene)[0];
+  const HeldOutFigures found = CompareWith(survey, scene)[0];
   EXPECT_GT(found.compared, 0.05);
   EXPECT_LT(found.compared, 0.6);
 }
 
 TEST(CompareViews, NothingHeldOutIsNothing) {
   const Renderer scene(MadeHouseScene());
-  Survey survey = MadeSurvey("views_none", scene);
+  PosedSurvey survey = PosedHouse("views_none", scene);
   for (FlownPhoto& photo : survey.flight.photos) photo.held_out = false;
-  EXPECT_TRUE(Compare(survey, scene).empty());
+  EXPECT_TRUE(CompareWith(survey, scene).empty());
 }
 
 TEST(CompareViews, AMissingPhotoIsNamedAndTheOtherIsMeasured) {
   const Renderer scene(MadeHouseScene());
-  Survey survey = MadeSurvey("views_missing", scene);
+  PosedSurvey survey = PosedHouse("views_missing", scene);
   survey.flight.photos[0].path = "held_out/gone.jpg";
-  const auto figures = Compare(survey, scene);
+  const auto figures = CompareWith(survey, scene);
   EXPECT_THAT(figures[0].problem, testing::HasSubstr("gone.jpg"));
   EXPECT_TRUE(std::isnan(figures[0].picture.psnr));
   EXPECT_EQ(figures[1].problem, "");
@@ -170,10 +170,10 @@ TEST(CompareViews, AMissingPhotoIsNamedAndTheOtherIsMeasured) {
 
 TEST(CompareViews, AMissingModelIsAnErrorThatNamesIt) {
   const Renderer scene(MadeHouseScene());
-  Survey survey = MadeSurvey("views_missing", scene);
+  PosedSurvey survey = PosedHouse("views_missing", scene);
   survey.textures.model_glb = "gone.glb";
   try {
-    Compare(survey, scene);
+    CompareWith(survey, scene);
     FAIL();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("gone.glb"));

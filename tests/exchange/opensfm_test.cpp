@@ -19,9 +19,10 @@ using testing::IsEmpty;
 constexpr char kShot[] =
     R"("camera": "c", "rotation": [1.2091995761561452, -1.2091995761561452, 1.2091995761561452],
        "translation": [2, 3, -1])";
-constexpr char kLens[] = R"("projection_type": "perspective", "focal": 0.5, "k1": 0, "k2": 0)";
+constexpr char kPerspective[] =
+    R"("projection_type": "perspective", "focal": 0.5, "k1": 0, "k2": 0)";
 
-std::string Json(const std::string& lens, const std::string& more) {
+std::string ReconstructionJson(const std::string& lens, const std::string& more) {
   return fmt::format(R"([{{"cameras": {{"c": {{{}, "width": 200, "height": 100}}}},
     "shots": {{"a.jpg": {{{}}}, "c.jpg": {{{}}}}},
     "points": {{"12": {{"coordinates": [11, 1, 5], "color": [200, 100, 50]}}}}{}}}])",
@@ -34,7 +35,7 @@ class OpenSfmTest : public testing::Test {
     return ReadOpenSfm(photos.Write("reconstruction.json", text), photos.Index());
   }
   Eigen::Vector2d SeenBy(const std::string& lens) {
-    return PixelIn(Read(Json(lens, "")).model, "a.jpg", kSeen);
+    return PixelIn(Read(ReconstructionJson(lens, "")).model, "a.jpg", kSeen);
   }
   std::string Refusal(const std::string& text) {
     const Error error = RefusalOf([&] { Read(text); });
@@ -53,7 +54,7 @@ TEST_F(OpenSfmTest, APointIsWhereTheDocumentSays) {
                "OPENSFM_TRACKS_VERSION_v2\na.jpg\t12\t3\t0.05\t-0.1\t0.002\t9\t8\t7\t-1\t-1\n"
                "c.jpg\t12\t5\t0.05\t-0.1\t0.002\t9\t8\t7\t-1\t-1\n"
                "c.jpg\t13\t6\t0\t0\t0.002\t9\t8\t7\t-1\t-1\n");
-  const ExchangedModel read = Read(Json(kLens, ""));
+  const ExchangedModel read = Read(ReconstructionJson(kPerspective, ""));
   EXPECT_LT((PixelIn(read.model, "a.jpg", kSeen) - kSeenAt).norm(), 1e-12);
   EXPECT_LT((PixelIn(read.model, "sub/c.jpg", kSeen) - kSeenAt).norm(), 1e-12);
   ASSERT_EQ(read.model.points.size(), 1u);
@@ -98,35 +99,37 @@ TEST_F(OpenSfmTest, EveryLensOfItsDocumentThatIsOneOfOurs) {
 
 TEST_F(OpenSfmTest, ItsReferenceIsWhereTheFrameLies) {
   const char place[] = R"({"latitude": 52.01, "longitude": 4.36, "altitude": 7})";
-  ExchangedModel read = Read(Json(kLens, fmt::format(R"(, "reference_lla": {})", place)));
+  ExchangedModel read =
+      Read(ReconstructionJson(kPerspective, fmt::format(R"(, "reference_lla": {})", place)));
   ASSERT_TRUE(read.georef);
   EXPECT_EQ(read.georef->origin_latitude_deg, 52.01);
   EXPECT_EQ(read.georef->origin_height_m, 7);
   photos.Write("reference_lla.json", place);
-  EXPECT_TRUE(Read(Json(kLens, "")).georef);
+  EXPECT_TRUE(Read(ReconstructionJson(kPerspective, "")).georef);
   // What it writes when no photo has a position.
-  EXPECT_FALSE(Read(Json(kLens, R"(, "reference_lla":
+  EXPECT_FALSE(Read(ReconstructionJson(kPerspective, R"(, "reference_lla":
                                 {"latitude": 0, "longitude": 0, "altitude": 0})"))
                    .georef);
 }
 
 TEST_F(OpenSfmTest, WithoutTracksThereAreNoPoints) {
-  const ExchangedModel read = Read(Json(kLens, ""));
+  const ExchangedModel read = Read(ReconstructionJson(kPerspective, ""));
   EXPECT_TRUE(read.model.points.empty());
   EXPECT_THAT(read.notes, ElementsAre(HasSubstr("its 1 points do not say which photos see them")));
 }
 
 TEST_F(OpenSfmTest, OfSeveralTheLargestCounts) {
   const std::string small = R"({"cameras": {}, "shots": {}}, )";
-  const ExchangedModel read = Read("[" + small + Json(kLens, "").substr(1));
+  const ExchangedModel read = Read("[" + small + ReconstructionJson(kPerspective, "").substr(1));
   EXPECT_EQ(read.model.photos.size(), 2u);
   EXPECT_THAT(read.notes, testing::Contains(HasSubstr("of its 2 reconstructions the one with")));
 }
 
 TEST_F(OpenSfmTest, RefusesWhatItCannotRead) {
-  EXPECT_THAT(Refusal(Json(R"("projection_type": "fisheye", "focal": 0.5, "k1": 0, "k2": 0)", "")),
+  EXPECT_THAT(Refusal(ReconstructionJson(
+                  R"("projection_type": "fisheye", "focal": 0.5, "k1": 0, "k2": 0)", "")),
               HasSubstr("cameras: c: projection_type: \"fisheye\" is not supported"));
-  const std::string whole = Json(kLens, "");
+  const std::string whole = ReconstructionJson(kPerspective, "");
   EXPECT_THAT(Refusal(whole.substr(0, whole.size() / 2)), HasSubstr("is no whole JSON file"));
   std::string damaged = whole;
   damaged.replace(damaged.find("[2, 3, -1]"), 10, "[2, NaN, 1]");

@@ -12,7 +12,7 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kDMax = 100;
+constexpr double kFarthestScan = 100;
 
 Site Town() {
   return MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 12), Rectangle(45, 0, 60, 25),
@@ -24,7 +24,7 @@ Site Town() {
 }
 
 std::vector<Hover> Views(const Site& site, int threads = 1) {
-  return DroneScanViews(site, FindCamera("mavic-3e"), {.d_max_m = kDMax}, threads,
+  return DroneScanViews(site, FindCamera("mavic-3e"), {.d_max_m = kFarthestScan}, threads,
                         SilentProgress());
 }
 
@@ -59,8 +59,9 @@ TEST(DroneScanViews, FaceTheSurface) {
 TEST(DroneScanViews, LeaveEverySurfaceThatCanBeSeenReconstructable) {
   const Site site = Town();
   const SurfaceView view(site, FindCamera("mavic-3e").Field(),
-                         SampleSurface(site, {.spacing_m = 5, .ground_reach_m = 15}), kDMax);
-  ViewGraph graph(view, kDMax, 1);
+                         SampleSurface(site, {.spacing_m = 5, .ground_reach_m = 15}),
+                         kFarthestScan);
+  ViewGraph graph(view, kFarthestScan, 1);
   graph.AddAll(Views(site));
   int good = 0;
   for (const SampleState& state : graph.states()) good += state.reconstructability >= 1.5;

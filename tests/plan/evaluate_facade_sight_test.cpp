@@ -11,22 +11,17 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kDMax = 80;
-
-// The south wall of a house of 20 m by 10 m and 9 m height is facade 0.
-Site House() {
-  return MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 10)},
-                  {.safe_altitude_m = 25, .heights_m = {9}});
-}
 
 Hover Looking(const Eigen::Vector3d& from, double yaw_deg, double pitch_deg = 0) {
   return {from,
-          {{.yaw_rad = yaw_deg * kPi / 180, .pitch_rad = pitch_deg * kPi / 180, .targets = {}}}};
+          {{.yaw_rad = yaw_deg * std::numbers::pi / 180,
+            .pitch_rad = pitch_deg * std::numbers::pi / 180,
+            .targets = {}}}};
 }
 
 TEST(FacadeSight, MeasuresAPartByItsShareFrontalityAndDistance) {
-  const Site site = House();
+  const Site site = LoneHouse();
   const std::vector<Hover> hovers{Looking({10, -20, 4.5}, 30)};
   const FacadeSight sight(site, FindCamera("mavic-3e"), kDMax, hovers);
   const auto views = sight.ViewsOf(0);
@@ -34,7 +29,7 @@ TEST(FacadeSight, MeasuresAPartByItsShareFrontalityAndDistance) {
   const std::vector<uint32_t> cells{0, 19};  // both ends of the lowest row
   const SeenPart part = sight.PartOf(0, views[0], cells);
   EXPECT_NEAR(part.share, 2.0 / 180, 1e-12);
-  EXPECT_NEAR(part.frontality, std::cos(kPi / 6), 1e-12);
+  EXPECT_NEAR(part.frontality, std::cos(std::numbers::pi / 6), 1e-12);
   EXPECT_NEAR(part.distance_m, std::hypot(20, 4), 1e-9);
   EXPECT_GT(sight.ScoreOf(0, sight.PartOf(0, views[0], views[0].cells)), sight.ScoreOf(0, part));
 }

@@ -13,17 +13,13 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDMax = 80;
+constexpr double kFarthest_m = 80;
 
-Site House() {
-  return MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 10)},
-                  {.safe_altitude_m = 25, .heights_m = {9}});
-}
-
-Hover Looking(const Eigen::Vector3d& from, double yaw_deg, double pitch_deg = 0) {
+Hover LookingFrom(const Eigen::Vector3d& from, double yaw_deg, double pitch_deg = 0) {
   return {from,
-          {{.yaw_rad = yaw_deg * kPi / 180, .pitch_rad = pitch_deg * kPi / 180, .targets = {}}}};
+          {{.yaw_rad = yaw_deg * std::numbers::pi / 180,
+            .pitch_rad = pitch_deg * std::numbers::pi / 180,
+            .targets = {}}}};
 }
 
 const CameraPreset& Camera() {
@@ -32,17 +28,17 @@ const CameraPreset& Camera() {
 }
 
 std::vector<Hover> Assigned(const Site& site, std::vector<Hover> hovers, int threads = 1) {
-  AssignViews(site, Camera(), kDMax, hovers, threads);
+  AssignViews(site, Camera(), kFarthest_m, hovers, threads);
   return hovers;
 }
 
 FacadeReport South(const Site& site, const std::vector<Hover>& hovers) {
-  return EvaluateFacades(site, Camera(), kDMax, hovers, 1).front();
+  return EvaluateFacades(site, Camera(), kFarthest_m, hovers, 1).front();
 }
 
 TEST(EvaluateFacades, OneFrontalViewOfAllIsPerfect) {
-  const Site site = House();
-  const FacadeReport report = South(site, Assigned(site, {Looking({10, -20, 4.5}, 0)}));
+  const Site site = LoneHouse();
+  const FacadeReport report = South(site, Assigned(site, {LookingFrom({10, -20, 4.5}, 0)}));
   EXPECT_NEAR(report.meant.q_s, 1, 1e-9);
   EXPECT_NEAR(report.meant.q_u, 1, 1e-9);
   EXPECT_NEAR(report.meant.q_c, 1, 1e-9);
@@ -52,20 +48,20 @@ TEST(EvaluateFacades, OneFrontalViewOfAllIsPerfect) {
 }
 
 TEST(EvaluateFacades, OppositeViewsAreWorseThanAlikeOnes) {
-  const Site site = House();
+  const Site site = LoneHouse();
   const FacadeReport opposite =
-      South(site, {Looking({-4, -20, 4.5}, 35), Looking({24, -20, 4.5}, -35)});
+      South(site, {LookingFrom({-4, -20, 4.5}, 35), LookingFrom({24, -20, 4.5}, -35)});
   // Both are as frontal; their mean direction is not.
-  const double cosine = std::cos(35 * kPi / 180);
+  const double cosine = std::cos(35 * std::numbers::pi / 180);
   EXPECT_NEAR(opposite.all.q_s, 0.5 * (cosine + cosine), 1e-9);
   const FacadeReport alike =
-      South(site, {Looking({-4, -20, 4.5}, 35), Looking({-6, -20, 4.5}, 35)});
+      South(site, {LookingFrom({-4, -20, 4.5}, 35), LookingFrom({-6, -20, 4.5}, 35)});
   EXPECT_NEAR(alike.all.q_s, 0.5 * (cosine + 1), 1e-9);
 }
 
 TEST(EvaluateFacades, OnlyPhotosWithATargetAreMeant) {
-  const Site site = House();
-  std::vector<Hover> hovers{Looking({10, -20, 4.5}, 0), Looking({10, -20, 20}, 0, -35)};
+  const Site site = LoneHouse();
+  std::vector<Hover> hovers{LookingFrom({10, -20, 4.5}, 0), LookingFrom({10, -20, 20}, 0, -35)};
   EXPECT_EQ(South(site, hovers).views, 0);
   EXPECT_EQ(South(site, hovers).meant.sum(), 0);
   hovers[1].shots[0].targets.push_back({0, {0, 10}, {0, 9}});
@@ -76,21 +72,21 @@ TEST(EvaluateFacades, OnlyPhotosWithATargetAreMeant) {
 }
 
 TEST(EvaluateFacades, WithoutPhotosEveryTermIsNothing) {
-  const Site site = House();
-  for (const FacadeReport& report : EvaluateFacades(site, Camera(), kDMax, {}, 1)) {
+  const Site site = LoneHouse();
+  for (const FacadeReport& report : EvaluateFacades(site, Camera(), kFarthest_m, {}, 1)) {
     EXPECT_EQ(report.meant.sum(), 0);
     EXPECT_EQ(report.all.sum(), 0);
     EXPECT_EQ(report.covered, 0);
   }
-  EXPECT_TRUE(EvaluateFacades(Site(), Camera(), kDMax, {}, 1).empty());
+  EXPECT_TRUE(EvaluateFacades(Site(), Camera(), kFarthest_m, {}, 1).empty());
 }
 
 TEST(MeantCells, AreThoseInATarget) {
-  const Site site = House();
-  std::vector<Hover> hovers{Looking({10, -20, 4.5}, 0)};
+  const Site site = LoneHouse();
+  std::vector<Hover> hovers{LookingFrom({10, -20, 4.5}, 0)};
   auto& targets = hovers[0].shots[0].targets;
   targets = {{0, {0, 3}, {0, 2}}, {0, {18, 20}, {0, 9}}, {1, {0, 10}, {0, 9}}};
-  const FacadeSight sight(site, Camera(), kDMax, hovers);
+  const FacadeSight sight(site, Camera(), kFarthest_m, hovers);
   const auto views = sight.ViewsOf(0);
   EXPECT_EQ(MeantCells(sight, 0, views.at(0)).size(), 3U * 2 + 2U * 9);
   targets = {{0, {}, {}}};  // as other planners may write it
@@ -100,9 +96,10 @@ TEST(MeantCells, AreThoseInATarget) {
 }
 
 TEST(AssignViews, TakesTheBestViewAndNoMoreThanItTakes) {
-  const Site site = House();
-  const auto hovers = Assigned(site, {Looking({10, -20, 24}, 0, -45), Looking({10, -20, 4.5}, 0),
-                                      Looking({-10, -20, 4.5}, 45), Looking({10, -70, 4.5}, 0)});
+  const Site site = LoneHouse();
+  const auto hovers =
+      Assigned(site, {LookingFrom({10, -20, 24}, 0, -45), LookingFrom({10, -20, 4.5}, 0),
+                      LookingFrom({-10, -20, 4.5}, 45), LookingFrom({10, -70, 4.5}, 0)});
   ASSERT_EQ(hovers[1].shots[0].targets.size(), 1U);
   EXPECT_EQ(hovers[1].shots[0].targets[0].facade, 0);
   EXPECT_NEAR(hovers[1].shots[0].targets[0].along_m.length_m(), 20, 1e-9);
@@ -120,8 +117,9 @@ TEST(AssignViews, WeighsPhotosByWhatTheyNewlyCover) {
                              {.safe_altitude_m = 25, .heights_m = {9}});
   // They show 0 to 24 m, 4 to 26 m and 22 to 40 m of the south wall: the second is worth more than
   // the third only as long as the first is not chosen.
-  const auto hovers = Assigned(
-      site, {Looking({12, -17, 4.5}, 0), Looking({15, -15.6, 4.5}, 0), Looking({34, -17, 4.5}, 0)});
+  const auto hovers =
+      Assigned(site, {LookingFrom({12, -17, 4.5}, 0), LookingFrom({15, -15.6, 4.5}, 0),
+                      LookingFrom({34, -17, 4.5}, 0)});
   EXPECT_EQ(hovers[0].shots[0].targets.size(), 1U);
   EXPECT_EQ(hovers[1].shots[0].targets.size(), 0U);
   ASSERT_EQ(hovers[2].shots[0].targets.size(), 1U);
@@ -137,7 +135,7 @@ TEST(AssignViews, CoversAllThatAnyPhotoSees) {
   const Site site = MadeSite(town, options);
   const auto hovers =
       Assigned(site, GridHovers(site, Camera(), {.forward_overlap = 0.6, .side_overlap = 0.6}));
-  for (const FacadeReport& report : EvaluateFacades(site, Camera(), kDMax, hovers, 2)) {
+  for (const FacadeReport& report : EvaluateFacades(site, Camera(), kFarthest_m, hovers, 2)) {
     EXPECT_NEAR(report.covered, report.covered_all, 1e-12);
     EXPECT_GT(report.covered, 0);
     // Counted for what they newly cover, photos hardly overlap.
@@ -147,8 +145,8 @@ TEST(AssignViews, CoversAllThatAnyPhotoSees) {
 }
 
 TEST(AssignViews, LeavesTargetsAloneAndFillsTheRest) {
-  const Site site = House();
-  std::vector<Hover> hovers{Looking({10, -20, 4.5}, 0), Looking({10, -20, 20}, 0, -35)};
+  const Site site = LoneHouse();
+  std::vector<Hover> hovers{LookingFrom({10, -20, 4.5}, 0), LookingFrom({10, -20, 20}, 0, -35)};
   hovers[0].shots[0].targets.push_back({0, {0, 12}, {0, 9}});
   const auto assigned = Assigned(site, hovers);
   ASSERT_EQ(assigned[0].shots[0].targets.size(), 1U);
@@ -159,7 +157,7 @@ TEST(AssignViews, LeavesTargetsAloneAndFillsTheRest) {
 }
 
 TEST(AssignViews, IsTheSameAtAnyNumberOfThreadsAndWhenRepeated) {
-  const Site site = House();
+  const Site site = LoneHouse();
   const auto grid = GridHovers(site, Camera(), {.forward_overlap = 0.6, .side_overlap = 0.6});
   const auto one = Assigned(site, grid, 1);
   const auto two = Assigned(site, Assigned(site, grid, 2), 2);

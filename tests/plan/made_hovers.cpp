@@ -14,8 +14,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Hover One(const Vector3d& position, double yaw, std::vector<int> facades = {}) {
   Hover hover;
   hover.position = position;
@@ -27,10 +25,13 @@ Hover One(const Vector3d& position, double yaw, std::vector<int> facades = {}) {
 Hover Five(const Vector3d& position) {
   Hover hover;
   hover.position = position;
-  hover.shots.push_back({.pitch_rad = -kPi / 2, .kind = ViewKind::kNadir, .targets = {}});
+  hover.shots.push_back(
+      {.pitch_rad = -std::numbers::pi / 2, .kind = ViewKind::kNadir, .targets = {}});
   for (int k = 0; k < 4; ++k) {
-    hover.shots.push_back(
-        {.yaw_rad = k * kPi / 2, .pitch_rad = -kPi / 4, .kind = ViewKind::kOblique, .targets = {}});
+    hover.shots.push_back({.yaw_rad = k * std::numbers::pi / 2,
+                           .pitch_rad = -std::numbers::pi / 4,
+                           .kind = ViewKind::kOblique,
+                           .targets = {}});
   }
   return hover;
 }
@@ -41,7 +42,7 @@ std::vector<Hover> RandomHovers(int count, uint64_t seed) {
   std::mt19937_64 random(seed);
   const double side = 15 * std::sqrt(count);
   std::uniform_real_distribution<double> at(0, side);
-  std::uniform_real_distribution<double> yaw(0, 2 * kPi);
+  std::uniform_real_distribution<double> yaw(0, 2 * std::numbers::pi);
   std::vector<Hover> hovers;
   for (int k = 0; k < count; ++k) {
     const double x = at(random);

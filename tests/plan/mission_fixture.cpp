@@ -9,7 +9,7 @@
 
 #include "survey/coordinate_system.h"
 
-namespace stucco::plan::test {
+namespace stucco::test {
 namespace {
 
 constexpr double kHigh = 30;
@@ -128,8 +128,8 @@ Eigen::Vector2d PlanFromLonLat(const Plan& plan, double longitude_deg, double la
   return CrsFromGeodetic(plan.crs, place, "plan").front();
 }
 
-MissionOptions Mavic3E() {
-  MissionOptions options;
+plan::MissionOptions Mavic3E() {
+  plan::MissionOptions options;
   options.dji = {77, 0, 66};
   return options;
 }
@@ -152,4 +152,4 @@ std::string Replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-}  // namespace stucco::plan::test
+}  // namespace stucco::test

@@ -11,7 +11,7 @@
 #include "survey/plan.h"
 #include "tests/survey/temporary_folder.h"
 
-namespace stucco::plan::test {
+namespace stucco::test {
 
 // Two buildings, one with a courtyard, a no-fly area, and two flights of hovers with one to five
 // photos and with corners between them.
@@ -22,9 +22,7 @@ Plan MakePlan(double home_z_m);
 // Back from the geodetic coordinates of a file to the plan's frame, by PROJ itself.
 Eigen::Vector2d PlanFromLonLat(const Plan& plan, double longitude_deg, double latitude_deg);
 
-MissionOptions Mavic3E();
-
-using stucco::test::TemporaryFolder;
+plan::MissionOptions Mavic3E();
 
 // Fields of lines separated by `separator`, without quoting.
 std::vector<std::vector<std::string>> Table(const std::string& text, char separator);
@@ -32,4 +30,4 @@ std::vector<std::vector<std::string>> Table(const std::string& text, char separa
 // `text` with the first `from` replaced; a test failure when it does not occur.
 std::string Replaced(std::string text, const std::string& from, const std::string& to);
 
-}  // namespace stucco::plan::test
+}  // namespace stucco::test

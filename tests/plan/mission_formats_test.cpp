@@ -15,14 +15,15 @@
 namespace stucco::plan {
 namespace {
 
-struct Taken {
+struct TakenPhoto {
   Eigen::Vector2d position_m;
   double height_m = 0;
   double yaw_deg = 0;
   double pitch_deg = 0;
 };
 
-void ExpectView(const Plan& plan, const Taken& photo, const PlannedView& view, double angle_deg) {
+void ExpectView(const Plan& plan, const TakenPhoto& photo, const PlannedView& view,
+                double angle_deg) {
   SCOPED_TRACE(view.id);
   EXPECT_LT((photo.position_m - view.position_m.head<2>()).norm(), 0.01);
   EXPECT_NEAR(photo.height_m, view.position_m.z() - plan.home_m.z(), 0.01);
@@ -33,15 +34,15 @@ void ExpectView(const Plan& plan, const Taken& photo, const PlannedView& view, d
 constexpr size_t kColumns = 46;
 constexpr size_t kFirstAction = 8;
 
-std::vector<Taken> FlyLitchi(const Plan& plan, const std::string& csv) {
-  std::vector<Taken> photos;
+std::vector<TakenPhoto> FlyLitchi(const Plan& plan, const std::string& csv) {
+  std::vector<TakenPhoto> photos;
   const auto table = test::Table(csv, ',');
   for (size_t row = 1; row < table.size(); ++row) {
     const std::vector<std::string>& cells = table[row];
     EXPECT_EQ(cells.size(), kColumns);
     const auto number = [&](size_t i) { return std::stod(cells.at(i)); };
-    Taken state = {test::PlanFromLonLat(plan, number(1), number(0)), number(2), number(3),
-                   number(7)};
+    TakenPhoto state = {test::PlanFromLonLat(plan, number(1), number(0)), number(2), number(3),
+                        number(7)};
     EXPECT_GE(number(3), 0);
     EXPECT_LT(number(3), 360);
     EXPECT_EQ(cells[4], "0");                  // stops, else actions are passed over
@@ -141,9 +142,9 @@ TEST(Litchi, TellsWhatTheFileCannotHold) {
   EXPECT_NE(settings.back().find("30 m"), std::string::npos);
 }
 
-std::vector<Taken> FlyQGroundControl(const Plan& plan, const nlohmann::json& file) {
-  std::vector<Taken> photos;
-  Taken state;
+std::vector<TakenPhoto> FlyQGroundControl(const Plan& plan, const nlohmann::json& file) {
+  std::vector<TakenPhoto> photos;
+  TakenPhoto state;
   bool waited = false;
   for (const nlohmann::json& item : file["mission"]["items"]) {
     const nlohmann::json& params = item["params"];

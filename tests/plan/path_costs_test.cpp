@@ -20,7 +20,6 @@ namespace stucco::plan {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kPi = std::numbers::pi;
 
 Shot At(double yaw, std::vector<int> facades = {}) {
   Shot shot;
@@ -39,9 +38,10 @@ class HoverCostsTest : public testing::Test {
 
 TEST_F(HoverCostsTest, FollowThePaper) {
   EXPECT_DOUBLE_EQ(HoverCosts::Cost(1, 10, 0), 10);
-  EXPECT_DOUBLE_EQ(HoverCosts::Cost(0.5, 10, kPi), 5 * std::exp(kPi / 10));
+  EXPECT_DOUBLE_EQ(HoverCosts::Cost(0.5, 10, std::numbers::pi),
+                   5 * std::exp(std::numbers::pi / 10));
   EXPECT_DOUBLE_EQ(HoverCosts::Cost(1, 0.5, 1), 0.5 * std::exp(1));  // no nearer than a metre
-  EXPECT_EQ(HoverCosts::Cost(1, 0, kPi), 0);
+  EXPECT_EQ(HoverCosts::Cost(1, 0, std::numbers::pi), 0);
 }
 
 TEST_F(HoverCostsTest, WeighFacades) {
@@ -60,12 +60,13 @@ TEST_F(HoverCostsTest, WeighFacades) {
 }
 
 TEST_F(HoverCostsTest, TurnBetweenTheEndsOfSequences) {
-  const std::vector<Hover> hovers{{Vector3d(0, -30, 10), {At(0), At(kPi / 2)}},
-                                  {Vector3d(10, -30, 10), {At(kPi / 2), At(kPi)}}};
+  const std::vector<Hover> hovers{
+      {Vector3d(0, -30, 10), {At(0), At(std::numbers::pi / 2)}},
+      {Vector3d(10, -30, 10), {At(std::numbers::pi / 2), At(std::numbers::pi)}}};
   const HoverCosts costs(space_, hovers);
-  EXPECT_NEAR(costs.Turn(0, 2), kPi / 2, 1e-12);
+  EXPECT_NEAR(costs.Turn(0, 2), std::numbers::pi / 2, 1e-12);
   EXPECT_NEAR(costs.Turn(1, 2), 0, 1e-12);
-  EXPECT_NEAR(costs.Turn(0, 3), kPi, 1e-12);
+  EXPECT_NEAR(costs.Turn(0, 3), std::numbers::pi, 1e-12);
   EXPECT_NEAR(costs.LeastTurn(0, 1), 0, 1e-12);
 }
 
@@ -73,7 +74,7 @@ TEST_F(HoverCostsTest, TurnBetweenTheEndsOfSequences) {
 TEST_F(HoverCostsTest, NoCostIsBelowTheLeast) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> near(0, 4);
-  std::uniform_real_distribution<double> turn(0, kPi);
+  std::uniform_real_distribution<double> turn(0, std::numbers::pi);
   for (int k = 0; k < 2000; ++k) {
     const std::vector<Hover> hovers{{Vector3d(-30, 0, 10), {At(0)}},
                                     {Vector3d(-30, near(random), 10), {At(turn(random))}}};
@@ -96,7 +97,7 @@ double TurningAngle(const std::vector<Shot>& shots) {
 
 TEST(ShotOrder, TurnsLeastOfAllOrders) {
   std::mt19937 random(4);
-  std::uniform_real_distribution<double> angle(-kPi / 2, kPi / 2);
+  std::uniform_real_distribution<double> angle(-std::numbers::pi / 2, std::numbers::pi / 2);
   for (int trial = 0; trial < 20; ++trial) {
     std::vector<Shot> shots;
     for (int k = 0; k < 6; ++k) {
@@ -118,10 +119,10 @@ TEST(ShotOrder, TurnsLeastOfAllOrders) {
 
 TEST(ShotOrder, ManyPhotosOfACircleGoRound) {
   std::vector<Shot> shots;
-  for (int k = 0; k < 24; ++k) shots.push_back(At(2 * kPi * ((k * 7) % 24) / 24));
+  for (int k = 0; k < 24; ++k) shots.push_back(At(2 * std::numbers::pi * ((k * 7) % 24) / 24));
   OrderShots(shots);
   EXPECT_EQ(shots.size(), 24U);
-  EXPECT_NEAR(TurningAngle(shots), 2 * kPi * 23 / 24, 0.6);
+  EXPECT_NEAR(TurningAngle(shots), 2 * std::numbers::pi * 23 / 24, 0.6);
   std::vector<Shot> none;
   OrderShots(none);
   EXPECT_TRUE(none.empty());

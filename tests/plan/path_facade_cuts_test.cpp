@@ -8,7 +8,7 @@ namespace stucco::plan {
 namespace {
 
 // A tour whose hovers capture these facades each.
-std::vector<Hover> Tour(const std::vector<std::vector<int>>& facades) {
+std::vector<Hover> TourOf(const std::vector<std::vector<int>>& facades) {
   std::vector<Hover> tour;
   for (const std::vector<int>& of : facades) {
     Hover& hover = tour.emplace_back();
@@ -19,23 +19,23 @@ std::vector<Hover> Tour(const std::vector<std::vector<int>>& facades) {
 }
 
 TEST(FacadesDivided, CountsFacadesOnBothSides) {
-  EXPECT_EQ(FacadesDivided(Tour({{0}, {0, 1}, {0, 1}, {1}, {}, {2}}), 3),
+  EXPECT_EQ(FacadesDivided(TourOf({{0}, {0, 1}, {0, 1}, {1}, {}, {2}}), 3),
             (std::vector<int>{1, 2, 1, 0, 0, 0}));
 }
 
 TEST(FacadesDivided, AFacadeMaySpanTheEndOfTheTour) {
-  EXPECT_EQ(FacadesDivided(Tour({{0}, {0}, {}, {}, {}, {0}}), 1),
+  EXPECT_EQ(FacadesDivided(TourOf({{0}, {0}, {}, {}, {}, {0}}), 1),
             (std::vector<int>{1, 0, 0, 0, 0, 1}));
 }
 
 TEST(FacadesDivided, OtherPhotosInBetweenDivideNothingLess) {
-  EXPECT_EQ(FacadesDivided(Tour({{0}, {}, {0}, {}, {}, {}}), 1),
+  EXPECT_EQ(FacadesDivided(TourOf({{0}, {}, {0}, {}, {}, {}}), 1),
             (std::vector<int>{1, 1, 0, 0, 0, 0}));
 }
 
 TEST(FacadesDivided, OfNothingIsNothing) {
   EXPECT_TRUE(FacadesDivided({}, 2).empty());
-  EXPECT_EQ(FacadesDivided(Tour({{0}, {1}}), 2), (std::vector<int>{0, 0}));
+  EXPECT_EQ(FacadesDivided(TourOf({{0}, {1}}), 2), (std::vector<int>{0, 0}));
 }
 
 }  // namespace

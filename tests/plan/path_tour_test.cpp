@@ -25,7 +25,6 @@ namespace stucco::plan {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kPi = std::numbers::pi;
 
 // Cost of the tour as flown: by the paper's formula, from the hovers alone.
 double CostAsFlown(const SafeSpace& space, const std::vector<Hover>& hovers) {
@@ -82,7 +81,7 @@ std::vector<Hover> FewHovers(const Obstacles& obstacles, int count, uint64_t see
   const Site& site = obstacles.site();
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> at(-60, 60);
-  std::uniform_real_distribution<double> turn(0, 2 * kPi);
+  std::uniform_real_distribution<double> turn(0, 2 * std::numbers::pi);
   std::vector<Hover> hovers;
   while (static_cast<int>(hovers.size()) < count) {
     const double x = at(random);

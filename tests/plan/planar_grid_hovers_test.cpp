@@ -13,8 +13,6 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Site Block(MadeSiteOptions options = {}) {
   options.safe_altitude_m = 30;
   options.heights_m = {12};
@@ -48,11 +46,13 @@ TEST(GridHovers, TakeFivePhotosAlongAndAcrossTheLines) {
     ASSERT_EQ(hover.shots.size(), 5U);
     EXPECT_EQ(hover.position.z(), 30);
     EXPECT_EQ(hover.shots[0].kind, ViewKind::kNadir);
-    EXPECT_NEAR(hover.shots[0].pitch_rad, -kPi / 2, 1e-12);
+    EXPECT_NEAR(hover.shots[0].pitch_rad, -std::numbers::pi / 2, 1e-12);
     for (int k = 1; k < 5; ++k) {
       EXPECT_EQ(hover.shots[k].kind, ViewKind::kOblique);
-      EXPECT_NEAR(hover.shots[k].pitch_rad, -kPi / 4, 1e-12);
-      EXPECT_NEAR(std::remainder(hover.shots[k].yaw_rad - (kPi / 2 + (k - 1) * kPi / 2), 2 * kPi),
+      EXPECT_NEAR(hover.shots[k].pitch_rad, -std::numbers::pi / 4, 1e-12);
+      EXPECT_NEAR(std::remainder(hover.shots[k].yaw_rad -
+                                     (std::numbers::pi / 2 + (k - 1) * std::numbers::pi / 2),
+                                 2 * std::numbers::pi),
                   0, 1e-9);
     }
   }

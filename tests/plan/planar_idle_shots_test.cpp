@@ -11,15 +11,13 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // A shed of 3 m by 3 m by 3 m.
 Site Shed() {
   return MadeSite(std::vector<Ring>{Rectangle(0, 0, 3, 3)}, {.heights_m = {3}});
 }
 
 Shot Looking(double yaw_deg) {
-  return {.yaw_rad = yaw_deg * kPi / 180, .targets = {}};
+  return {.yaw_rad = yaw_deg * std::numbers::pi / 180, .targets = {}};
 }
 
 // 20 m before the shed's south side, and 6 m before it.

@@ -10,14 +10,13 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Indices = std::vector<uint32_t>;
 
 // Around a house of 20 m by 10 m: before its south side, the same nearer, its east, north and west
 // side.
 std::vector<Hover> Around() {
   const auto at = [](double x, double y, double yaw_deg) {
-    return Hover{{x, y, 5}, {{.yaw_rad = yaw_deg * kPi / 180, .targets = {}}}};
+    return Hover{{x, y, 5}, {{.yaw_rad = yaw_deg * std::numbers::pi / 180, .targets = {}}}};
   };
   return {at(10, -25, 0), at(10, -12, 0), at(45, 5, -90), at(10, 35, 180), at(-25, 5, 90)};
 }

@@ -11,7 +11,6 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 const Eigen::Vector3d kOrigin = Eigen::Vector3d::Zero();
 
@@ -21,15 +20,15 @@ Eigen::Vector3d At(double distance_m, double angle_rad) {
 }
 
 TEST(Reconstructability, ParallaxIsWantedFromAboutElevenDegrees) {
-  EXPECT_NEAR(ParallaxWeight(kPi / 16), 0.5, 1e-12);
-  EXPECT_NEAR(ParallaxWeight(0), 1 / (1 + std::exp(2 * kPi)), 1e-12);
-  EXPECT_GT(ParallaxWeight(kPi / 8), 0.99);
+  EXPECT_NEAR(ParallaxWeight(std::numbers::pi / 16), 0.5, 1e-12);
+  EXPECT_NEAR(ParallaxWeight(0), 1 / (1 + std::exp(2 * std::numbers::pi)), 1e-12);
+  EXPECT_GT(ParallaxWeight(std::numbers::pi / 8), 0.99);
 }
 
 TEST(Reconstructability, PhotosAreMatchableUpToAboutFortyFiveDegrees) {
-  EXPECT_NEAR(MatchWeight(kPi / 4), 0.5, 1e-12);
+  EXPECT_NEAR(MatchWeight(std::numbers::pi / 4), 0.5, 1e-12);
   EXPECT_GT(MatchWeight(0), 0.99);
-  EXPECT_LT(MatchWeight(kPi / 2), 0.01);
+  EXPECT_LT(MatchWeight(std::numbers::pi / 2), 0.01);
 }
 
 TEST(Reconstructability, ResolutionFallsToNothingAtTheLargestDistance) {
@@ -41,7 +40,7 @@ TEST(Reconstructability, ResolutionFallsToNothingAtTheLargestDistance) {
 
 TEST(Reconstructability, IsBestAtAboutTwentyDegreesOfParallax) {
   double best = 0, best_angle = 0;
-  for (double angle = 0; angle < kPi / 2; angle += 0.005) {
+  for (double angle = 0; angle < std::numbers::pi / 2; angle += 0.005) {
     const double q =
         PairReconstructability(kOrigin, kUp, At(30, -angle / 2), At(30, angle / 2), 100);
     if (q > best) {
@@ -49,11 +48,11 @@ TEST(Reconstructability, IsBestAtAboutTwentyDegreesOfParallax) {
       best_angle = angle;
     }
   }
-  EXPECT_NEAR(best_angle * 180 / kPi, 20, 3);
+  EXPECT_NEAR(best_angle * 180 / std::numbers::pi, 20, 3);
 }
 
 TEST(GoodPair, IsAPairWithTheNormalBetweenItsRays) {
-  const double incidence = 8.66 * kPi / 180;
+  const double incidence = 8.66 * std::numbers::pi / 180;
   EXPECT_NEAR(GoodPair(30, 100),
               PairReconstructability(kOrigin, kUp, At(30, -incidence), At(30, incidence), 100),
               1e-12);

@@ -10,14 +10,14 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kDMax = 90;
+constexpr double kFarthestMatch = 90;
 
 // The definition: over all pairs of photos.
 double Reconstructability(const SurfaceSample& s, std::span<const Eigen::Vector3d> cameras) {
   double sum = 0;
   for (size_t i = 0; i < cameras.size(); ++i) {
     for (size_t j = i + 1; j < cameras.size(); ++j) {
-      sum += PairReconstructability(s.position, s.normal, cameras[i], cameras[j], kDMax);
+      sum += PairReconstructability(s.position, s.normal, cameras[i], cameras[j], kFarthestMatch);
     }
   }
   return sum;
@@ -27,7 +27,8 @@ struct Town {
   Town()
       : site(MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 12), Rectangle(35, 0, 50, 25)},
                       {.safe_altitude_m = 30, .margin_m = 20, .heights_m = {8, 15}})),
-        view(site, FindCamera("mavic-3e").Field(), SampleSurface(site, {.spacing_m = 6}), kDMax),
+        view(site, FindCamera("mavic-3e").Field(), SampleSurface(site, {.spacing_m = 6}),
+             kFarthestMatch),
         hovers(GridHovers(site, FindCamera("mavic-3e"),
                           {.forward_overlap = 0.6, .side_overlap = 0.5})) {}
 
@@ -61,7 +62,7 @@ struct Town {
 TEST(ViewGraph, HoldsTheReconstructabilityOfEverySample) {
   const Town town;
   ASSERT_GT(town.hovers.size(), 20U);
-  ViewGraph graph(town.view, kDMax, 1);
+  ViewGraph graph(town.view, kFarthestMatch, 1);
   graph.AddAll(town.hovers);
   town.ExpectAlike(graph);
 }
@@ -69,7 +70,7 @@ TEST(ViewGraph, HoldsTheReconstructabilityOfEverySample) {
 TEST(ViewGraph, PhotosOfOneHoverHaveNextToNoParallax) {
   Town town;
   town.hovers.resize(1);
-  ViewGraph graph(town.view, kDMax, 1);
+  ViewGraph graph(town.view, kFarthestMatch, 1);
   graph.AddAll(town.hovers);
   int several = 0;
   for (const Sighting& sighting : graph.sightings(0)) {
@@ -83,8 +84,8 @@ TEST(ViewGraph, PhotosOfOneHoverHaveNextToNoParallax) {
 
 TEST(ViewGraph, WithoutScaleAllPairsCountInFull) {
   const Town town;
-  ViewGraph by_scale(town.view, kDMax, 1);
-  ViewGraph plain(town.view, kDMax, 1, /*by_scale=*/false);
+  ViewGraph by_scale(town.view, kFarthestMatch, 1);
+  ViewGraph plain(town.view, kFarthestMatch, 1, /*by_scale=*/false);
   by_scale.AddAll(town.hovers);
   plain.AddAll(town.hovers);
   int less = 0;
@@ -98,7 +99,7 @@ TEST(ViewGraph, WithoutScaleAllPairsCountInFull) {
 
 TEST(ViewGraph, FollowsHoversThatGoAndComeBackElsewhere) {
   Town town;
-  ViewGraph graph(town.view, kDMax, 2);
+  ViewGraph graph(town.view, kFarthestMatch, 2);
   graph.AddAll(town.hovers);
   for (uint32_t i = 0; i < graph.size(); i += 3) graph.Remove(i, graph.Shares(i));
   town.ExpectAlike(graph);
@@ -113,7 +114,7 @@ TEST(ViewGraph, FollowsHoversThatGoAndComeBackElsewhere) {
 
 TEST(ViewGraph, CountsHoversAndPhotosStraightDown) {
   const Town town;
-  ViewGraph graph(town.view, kDMax, 1);
+  ViewGraph graph(town.view, kFarthestMatch, 1);
   graph.AddAll(town.hovers);
   std::vector<SampleState> expected(town.view.samples.size());
   for (uint32_t i = 0; i < graph.size(); ++i) {
@@ -132,8 +133,8 @@ TEST(ViewGraph, CountsHoversAndPhotosStraightDown) {
 
 TEST(ViewGraph, IsTheSameAtAnyNumberOfThreads) {
   const Town town;
-  ViewGraph one(town.view, kDMax, 1);
-  ViewGraph two(town.view, kDMax, 2);
+  ViewGraph one(town.view, kFarthestMatch, 1);
+  ViewGraph two(town.view, kFarthestMatch, 2);
   one.AddAll(town.hovers);
   two.AddAll(town.hovers);
   for (uint32_t s = 0; s < town.view.samples.size(); ++s) {
@@ -144,7 +145,7 @@ TEST(ViewGraph, IsTheSameAtAnyNumberOfThreads) {
 
 TEST(ViewGraph, WithoutHoversNothingIsSeen) {
   const Town town;
-  ViewGraph graph(town.view, kDMax, 1);
+  ViewGraph graph(town.view, kFarthestMatch, 1);
   graph.AddAll({});
   EXPECT_EQ(graph.size(), 0U);
   EXPECT_EQ(graph.state(0).hovers, 0);

@@ -21,9 +21,9 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kDMax = 120;
+constexpr double kFarthestView = 120;
 
-Site Town() {
+Site TownOfThree() {
   return MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 12), Rectangle(38, 0, 52, 25),
                                     Rectangle(0, 30, 25, 45)},
                   {.safe_altitude_m = 26,
@@ -33,27 +33,27 @@ Site Town() {
 }
 
 PlanarOptions Options() {
-  return {.grid = {.forward_overlap = 0.75, .side_overlap = 0.75}, .d_max_m = kDMax};
+  return {.grid = {.forward_overlap = 0.75, .side_overlap = 0.75}, .d_max_m = kFarthestView};
 }
 
 SurfaceView ViewOf(const Site& site) {
   return {site, FindCamera("mavic-3e").Field(),
-          SampleSurface(site, {.spacing_m = 5, .ground_reach_m = 2 * site.d_min_m}), kDMax};
+          SampleSurface(site, {.spacing_m = 5, .ground_reach_m = 2 * site.d_min_m}), kFarthestView};
 }
 
 // The figures of the samples with these hovers.
 std::vector<SampleState> StatesWith(const SurfaceView& view, const std::vector<Hover>& hovers) {
-  ViewGraph graph(view, kDMax, 1);
+  ViewGraph graph(view, kFarthestView, 1);
   graph.AddAll(hovers);
   return {graph.states().begin(), graph.states().end()};
 }
 
 TEST(RemoveRedundant, LeavesWhatIsRequiredAndNothingThatCouldGo) {
-  const Site site = Town();
+  const Site site = TownOfThree();
   const SurfaceView view = ViewOf(site);
   const std::vector<Hover> grid = GridHovers(site, FindCamera("mavic-3e"), Options().grid);
-  const double tau = 10 * GoodPair(26, kDMax);
-  ViewGraph graph(view, kDMax, 1);
+  const double tau = 10 * GoodPair(26, kFarthestView);
+  ViewGraph graph(view, kFarthestView, 1);
   graph.AddAll(grid);
   const auto requirements = RequirementsOf(graph, view.samples, tau);
   const auto count = static_cast<uint32_t>(grid.size());
@@ -86,9 +86,9 @@ TEST(RemoveRedundant, LeavesWhatIsRequiredAndNothingThatCouldGo) {
 }
 
 TEST(Requirements, AreWhatTheFullSetGives) {
-  const Site site = Town();
+  const Site site = TownOfThree();
   const SurfaceView view = ViewOf(site);
-  ViewGraph graph(view, kDMax, 1);
+  ViewGraph graph(view, kFarthestView, 1);
   graph.AddAll(GridHovers(site, FindCamera("mavic-3e"), Options().grid));
   const double tau = 100;
   const auto requirements = RequirementsOf(graph, view.samples, tau);
@@ -106,7 +106,7 @@ TEST(Requirements, AreWhatTheFullSetGives) {
 }
 
 TEST(PlanarViews, KeepCoverageWithFarFewerHovers) {
-  const Site site = Town();
+  const Site site = TownOfThree();
   const SurfaceView view = ViewOf(site);
   const std::vector<Hover> grid = GridHovers(site, FindCamera("mavic-3e"), Options().grid);
   const std::vector<Hover> views =
@@ -115,7 +115,7 @@ TEST(PlanarViews, KeepCoverageWithFarFewerHovers) {
   EXPECT_GT(views.size(), 4U);
   const auto before = StatesWith(view, grid);
   const auto after = StatesWith(view, views);
-  const double tau = 10 * GoodPair(26, kDMax);
+  const double tau = 10 * GoodPair(26, kFarthestView);
   // The planner's samples are others than these, so that single points may fall a little short.
   int short_of = 0, seen = 0;
   for (size_t s = 0; s < before.size(); ++s) {
@@ -128,7 +128,7 @@ TEST(PlanarViews, KeepCoverageWithFarFewerHovers) {
 }
 
 TEST(PlanarViews, AreSafeAndInTheArea) {
-  const Site site = Town();
+  const Site site = TownOfThree();
   const Obstacles obstacles(site);
   for (const Hover& hover :
        PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, SilentProgress())) {
@@ -141,7 +141,7 @@ TEST(PlanarViews, AreSafeAndInTheArea) {
 
 // Of the photos at the rim of the site those that look away from it are not taken.
 TEST(PlanarViews, ShowSomethingOfTheArea) {
-  const Site site = Town();
+  const Site site = TownOfThree();
   const CameraPreset camera = FindCamera("mavic-3e");
   constexpr double kPatch_m = 2;
   const SurfaceView view(site, camera.Field(),
@@ -164,7 +164,7 @@ TEST(PlanarViews, ShowSomethingOfTheArea) {
 }
 
 TEST(PlanarViews, AreTheSameAtAnyNumberOfThreads) {
-  const Site site = Town();
+  const Site site = TownOfThree();
   const auto one = PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, SilentProgress());
   PlanarOptions twice = Options();
   twice.threads = 2;
@@ -174,7 +174,7 @@ TEST(PlanarViews, AreTheSameAtAnyNumberOfThreads) {
 }
 
 TEST(PlanarViews, NeedFewerWhereDippingViewsSeeTheWalls) {
-  const Site site = Town();
+  const Site site = TownOfThree();
   std::vector<Hover> dipping;
   for (const Facade& facade : site.facades) {
     const Eigen::Vector2d normal = facade.normal();
@@ -190,7 +190,7 @@ TEST(PlanarViews, NeedFewerWhereDippingViewsSeeTheWalls) {
 }
 
 TEST(PlanarViews, AHigherThresholdKeepsMore) {
-  const Site site = Town();
+  const Site site = TownOfThree();
   PlanarOptions options = Options();
   const auto some = PlanarViews(site, FindCamera("mavic-3e"), options, {}, SilentProgress());
   options.tau_r = 60;
@@ -209,8 +209,8 @@ TEST(PlanarViews, SeeEveryWallThatTheFullGridSees) {
   PlanarOptions options = Options();
   options.sample_spacing_m = 12;  // so coarse that thinning out misses much
   const auto views = PlanarViews(site, camera, options, {}, SilentProgress());
-  const auto before = EvaluateFacades(site, camera, kDMax, grid, 1);
-  const auto after = EvaluateFacades(site, camera, kDMax, views, 1);
+  const auto before = EvaluateFacades(site, camera, kFarthestView, grid, 1);
+  const auto after = EvaluateFacades(site, camera, kFarthestView, views, 1);
   for (size_t i = 0; i < before.size(); ++i) {
     EXPECT_GT(before[i].covered_all, 0);
     EXPECT_GE(after[i].covered_all, before[i].covered_all - 1e-12);
@@ -219,7 +219,7 @@ TEST(PlanarViews, SeeEveryWallThatTheFullGridSees) {
 
 // Rises by 20 m from west to east under the town.
 Site Slope() {
-  Site site = Town();
+  Site site = TownOfThree();
   MadeSiteOptions made{.safe_altitude_m = 26, .margin_m = 26, .heights_m = {8, 16, 11}};
   made.terrain = {.corner = {-100, -100}, .step_m = 10, .columns = 26, .rows = 26, .z_m = {}};
   for (int i = 0; i < 26 * 26; ++i) {
@@ -256,11 +256,11 @@ TEST(PlanarViews, FollowTheTerrain) {
 }
 
 TEST(MoveHovers, GainsWithoutLosing) {
-  const Site site = Town();
+  const Site site = TownOfThree();
   const SurfaceView view = ViewOf(site);
-  const double tau = 10 * GoodPair(26, kDMax);
+  const double tau = 10 * GoodPair(26, kFarthestView);
   std::vector<Hover> grid = GridHovers(site, FindCamera("mavic-3e"), Options().grid);
-  ViewGraph graph(view, kDMax, 1);
+  ViewGraph graph(view, kFarthestView, 1);
   graph.AddAll(grid);
   const auto requirements = RequirementsOf(graph, view.samples, tau);
   RemoveRedundant(graph, requirements, static_cast<uint32_t>(grid.size()), SilentProgress());
@@ -316,7 +316,7 @@ TEST(MoveHovers, GainsWithoutLosing) {
 }
 
 TEST(PlanarViews, FromBeyondTheLargestDistanceStillCover) {
-  Site site = Town();
+  Site site = TownOfThree();
   PlanarOptions options = Options();
   options.d_max_m = 20;  // the ceiling is at 26 m
   stucco::test::Listener listener;
@@ -328,11 +328,11 @@ TEST(PlanarViews, FromBeyondTheLargestDistanceStillCover) {
 TEST(PlanarViews, StopWhenAsked) {
   stucco::test::Listener listener;
   listener.cancelled = true;
-  EXPECT_THROW(PlanarViews(Town(), FindCamera("mavic-3e"), Options(), {}, listener), Error);
+  EXPECT_THROW(PlanarViews(TownOfThree(), FindCamera("mavic-3e"), Options(), {}, listener), Error);
 }
 
 TEST(PlanarViews, OfNothingAreNone) {
-  Site site = Town();
+  Site site = TownOfThree();
   site.area = {};
   EXPECT_TRUE(PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, SilentProgress()).empty());
 }

@@ -31,7 +31,7 @@ Footprint Building(std::vector<Ring> rings, double blocked_to) {
 
 // A block of 100 x 100 m around a courtyard of 60 x 60 m, blocked to 30 m, a hut of 10 x 10 m at
 // (200, 0), blocked to 15 m, and a no-fly square of 20 m at (0, 200). d_min 10 m.
-Site MadeSite() {
+Site SiteOfObstacles() {
   Site site;
   site.footprints.push_back(
       Building({Rectangle(0, 0, 100, 100), Reversed(Rectangle(20, 20, 80, 80))}, 30));
@@ -44,7 +44,7 @@ Site MadeSite() {
 }
 
 TEST(Obstacles, KeepsDistanceFromWalls) {
-  const Site site = MadeSite();
+  const Site site = SiteOfObstacles();
   const Obstacles obstacles(site);
   EXPECT_TRUE(obstacles.IsFree(Vector3d(-10.002, 50, 10)));
   EXPECT_FALSE(obstacles.IsFree(Vector3d(-10.0, 50, 10)));  // the border is not free
@@ -57,7 +57,7 @@ TEST(Obstacles, KeepsDistanceFromWalls) {
 }
 
 TEST(Obstacles, CourtyardsAreFreeInTheMiddle) {
-  const Site site = MadeSite();
+  const Site site = SiteOfObstacles();
   const Obstacles obstacles(site);
   EXPECT_TRUE(obstacles.IsFree(Vector3d(50, 50, 10)));
   EXPECT_FALSE(obstacles.IsFree(Vector3d(29, 50, 10)));
@@ -65,7 +65,7 @@ TEST(Obstacles, CourtyardsAreFreeInTheMiddle) {
 }
 
 TEST(Obstacles, EndWhereTheyAreBlockedTo) {
-  const Site site = MadeSite();
+  const Site site = SiteOfObstacles();
   const Obstacles obstacles(site);
   EXPECT_TRUE(obstacles.IsFree(Vector3d(10, 50, 30)));
   EXPECT_FALSE(obstacles.IsFree(Vector3d(10, 50, std::nextafter(30.0, 0.0))));
@@ -74,7 +74,7 @@ TEST(Obstacles, EndWhereTheyAreBlockedTo) {
 }
 
 TEST(Obstacles, NoFlyPolygonsReachTheSky) {
-  const Site site = MadeSite();
+  const Site site = SiteOfObstacles();
   const Obstacles obstacles(site);
   EXPECT_FALSE(obstacles.IsFree(Vector3d(10, 210, 1000)));
   EXPECT_FALSE(obstacles.IsFree(Vector3d(0, 210, 1000)));
@@ -83,7 +83,7 @@ TEST(Obstacles, NoFlyPolygonsReachTheSky) {
 }
 
 TEST(Obstacles, VerticalSequencesAreAsFreeAsTheirLowestPoint) {
-  const Site site = MadeSite();
+  const Site site = SiteOfObstacles();
   const Obstacles obstacles(site);
   EXPECT_TRUE(obstacles.IsFree(Vector2d(-11, 50), {5, 40}));
   EXPECT_FALSE(obstacles.IsFree(Vector2d(-11, 50), {4, 40}));
@@ -92,7 +92,7 @@ TEST(Obstacles, VerticalSequencesAreAsFreeAsTheirLowestPoint) {
 }
 
 TEST(Obstacles, SegmentsCountOnlyBelowTheTop) {
-  const Site site = MadeSite();
+  const Site site = SiteOfObstacles();
   const Obstacles obstacles(site);
   EXPECT_TRUE(obstacles.IsFreeBetween({-11, -50, 10}, {-11, 150, 10}));
   EXPECT_FALSE(obstacles.IsFreeBetween({-9, -50, 10}, {-9, 150, 10}));
@@ -106,7 +106,7 @@ TEST(Obstacles, SegmentsCountOnlyBelowTheTop) {
 }
 
 TEST(Obstacles, CornersBesideADiagonalCount) {
-  const Site site = MadeSite();
+  const Site site = SiteOfObstacles();
   const Obstacles obstacles(site);
   // Passes the block's corner (0, 0) at 9.9 and 10.1 m.
   for (const auto& [distance, free] : {std::pair{9.9, false}, std::pair{10.1, true}}) {
@@ -124,7 +124,7 @@ TEST(Obstacles, NoFootprintsIsAllSky) {
 }
 
 TEST(Obstacles, NothingIsFreeAtNan) {
-  const Site site = MadeSite();
+  const Site site = SiteOfObstacles();
   const Obstacles obstacles(site);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(obstacles.IsFree(Vector3d(nan, 0, 50)));
@@ -161,7 +161,7 @@ TEST(Obstacles, TheFloorIsBilinearInsideACell) {
 
 // Noise: dense sampling of random segments must agree, up to what sampling can miss.
 TEST(Obstacles, SegmentsAgreeWithTheirPoints) {
-  Site site = MadeSite();
+  Site site = SiteOfObstacles();
   std::mt19937 random(7);
   std::uniform_real_distribution<double> at(-40, 240);
   std::uniform_real_distribution<double> height(6, 40);

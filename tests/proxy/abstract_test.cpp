@@ -19,10 +19,10 @@ namespace stucco {
 namespace {
 
 using Eigen::Vector3d;
-using testing::Capture;
-using testing::Captured;
-using testing::CaptureOptions;
-using testing::InputOf;
+using test::Capture;
+using test::Captured;
+using test::CaptureOptions;
+using test::InputOf;
 
 Georef Metric() {
   Georef georef;
@@ -58,10 +58,10 @@ double AngleDeg(const Vector3d& a, const Vector3d& b) {
 }
 
 // Every true polygon has one facet on its plane, with its area.
-void ExpectTruth(const testing::House& house, const Building& building, double angle_deg,
+void ExpectTruth(const test::House& house, const Building& building, double angle_deg,
                  double offset, double area_share) {
   for (const auto& polygon : house.polygons) {
-    const Eigen::Vector4d truth = testing::PlaneOf(polygon);
+    const Eigen::Vector4d truth = test::PlaneOf(polygon);
     double area = 0;
     for (size_t i = 1; i + 1 < polygon.ring.size(); ++i) {
       area += (polygon.ring[i] - polygon.ring[0])
@@ -80,8 +80,8 @@ void ExpectTruth(const testing::House& house, const Building& building, double a
 }
 
 TEST(AbstractCloud, AGableHouseIsClosedAndExact) {
-  const auto house = testing::GableHouse();
-  const Proxy proxy = Abstract(Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.01}));
+  const auto house = test::GableHouse();
+  const Proxy proxy = Abstract(Capture({house}, {test::GroundSquare(20)}, {.noise = 0.01}));
   ASSERT_EQ(proxy.buildings.size(), 2u);
   const Building& building = proxy.buildings[0];
   EXPECT_EQ(building.id, "C0001");
@@ -101,8 +101,8 @@ TEST(AbstractCloud, AGableHouseIsClosedAndExact) {
 }
 
 TEST(AbstractCloud, AnLShapeIsClosed) {
-  const auto house = testing::LShapedHouse();
-  const Proxy proxy = Abstract(Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.02}));
+  const auto house = test::LShapedHouse();
+  const Proxy proxy = Abstract(Capture({house}, {test::GroundSquare(20)}, {.noise = 0.02}));
   const Building& building = proxy.buildings[0];
   EXPECT_TRUE(building.watertight);
   EXPECT_EQ(building.facets.size(), 8u);
@@ -110,14 +110,14 @@ TEST(AbstractCloud, AnLShapeIsClosed) {
 }
 
 TEST(AbstractCloud, AFacadeThatLeansKeepsItsLean) {
-  auto house = testing::BoxHouse(14, 10, 12);
+  auto house = test::BoxHouse(14, 10, 12);
   constexpr double kSetback = 1.2;  // of its top: 5.7 degrees
   for (auto& polygon : house.polygons) {
     for (Vector3d& p : polygon.ring) {
       if (p.y() < 0 && p.z() > 6) p.y() += kSetback;
     }
   }
-  const Proxy proxy = Abstract(Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.02}));
+  const Proxy proxy = Abstract(Capture({house}, {test::GroundSquare(20)}, {.noise = 0.02}));
   const Building& building = proxy.buildings[0];
   EXPECT_TRUE(building.watertight);
   EXPECT_EQ(Count(building, FacetClass::kWall), 4);
@@ -125,11 +125,11 @@ TEST(AbstractCloud, AFacadeThatLeansKeepsItsLean) {
 }
 
 TEST(AbstractCloud, BearsNoiseStraysAndTrees) {
-  const auto house = testing::GableHouse();
+  const auto house = test::GableHouse();
   for (const double noise : {0.03, 0.08}) {
     Captured captured =
-        Capture({house}, {testing::GroundSquare(20)}, {.noise = noise, .outliers = 0.1});
-    testing::AddTree({11, -6, 3}, 2, 6000, 4, captured);
+        Capture({house}, {test::GroundSquare(20)}, {.noise = noise, .outliers = 0.1});
+    test::AddTree({11, -6, 3}, 2, 6000, 4, captured);
     const Proxy proxy = Abstract(captured);
     const Building* building = Find(proxy, "C0001");
     ASSERT_NE(building, nullptr);
@@ -140,9 +140,9 @@ TEST(AbstractCloud, BearsNoiseStraysAndTrees) {
 }
 
 TEST(AbstractCloud, ASideNobodySawIsMarkedInferred) {
-  const auto house = testing::BoxHouse(12, 8, 6);
+  const auto house = test::BoxHouse(12, 8, 6);
   const Proxy proxy =
-      Abstract(Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.02, .hide = {"north"}}));
+      Abstract(Capture({house}, {test::GroundSquare(20)}, {.noise = 0.02, .hide = {"north"}}));
   const Building& building = proxy.buildings[0];
   EXPECT_TRUE(building.watertight);
   double inferred_walls = 0;
@@ -156,9 +156,9 @@ TEST(AbstractCloud, ASideNobodySawIsMarkedInferred) {
 }
 
 TEST(AbstractCloud, AFrontAloneStaysOpenFacets) {
-  const auto house = testing::GableHouse();
+  const auto house = test::GableHouse();
   CaptureOptions options{.noise = 0.02, .front_only = true, .hide = {"east", "west"}};
-  const Proxy proxy = Abstract(Capture({house}, {testing::GroundSquare(20)}, options));
+  const Proxy proxy = Abstract(Capture({house}, {test::GroundSquare(20)}, options));
   const Building* building = Find(proxy, "C0001");
   ASSERT_NE(building, nullptr);
   EXPECT_FALSE(building->watertight);
@@ -173,12 +173,12 @@ TEST(AbstractCloud, AFrontAloneStaysOpenFacets) {
 }
 
 TEST(AbstractCloud, FindsUpAndScaleInAnArbitraryFrame) {
-  const auto house = testing::GableHouse();
+  const auto house = test::GableHouse();
   Captured captured =
-      Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.02, .front_only = true});
+      Capture({house}, {test::GroundSquare(20)}, {.noise = 0.02, .front_only = true});
   const Eigen::Matrix3d rotation =
       Eigen::AngleAxisd(2.1, Vector3d(1, -2, 0.7).normalized()).toRotationMatrix();
-  testing::MoveTo(rotation, 0.137, {3, -1, 8}, captured);
+  test::MoveTo(rotation, 0.137, {3, -1, 8}, captured);
   const Proxy proxy = Abstract(captured, Georef{});
   EXPECT_LT(AngleDeg(proxy.up, rotation.col(2)), 0.5);
   EXPECT_FALSE(proxy.metric);
@@ -198,8 +198,8 @@ TEST(AbstractCloud, FindsUpAndScaleInAnArbitraryFrame) {
 }
 
 TEST(AbstractCloud, AWrongUpFromSensorsIsRefinedByWalls) {
-  const auto house = testing::GableHouse();
-  const Captured captured = Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.02});
+  const auto house = test::GableHouse();
+  const Captured captured = Capture({house}, {test::GroundSquare(20)}, {.noise = 0.02});
   Georef georef = Metric();
   georef.frame = "arbitrary";
   georef.up = Vector3d(0.03, -0.02, 1).normalized();  // two degrees off
@@ -207,12 +207,11 @@ TEST(AbstractCloud, AWrongUpFromSensorsIsRefinedByWalls) {
 }
 
 TEST(AbstractCloud, WallsStandUprightInAFrameThatGpsTilted) {
-  Captured captured =
-      Capture({testing::GableHouse()}, {testing::GroundSquare(20)}, {.noise = 0.02});
+  Captured captured = Capture({test::GableHouse()}, {test::GroundSquare(20)}, {.noise = 0.02});
   const Eigen::Matrix3d tilt =
       Eigen::AngleAxisd(2 * std::numbers::pi / 180, Vector3d(1, 0.5, 0).normalized())
           .toRotationMatrix();
-  testing::MoveTo(tilt, 1, Vector3d::Zero(), captured);
+  test::MoveTo(tilt, 1, Vector3d::Zero(), captured);
   Georef georef = Metric();
   georef.source = "gps";
   const Proxy proxy = Abstract(captured, georef);
@@ -230,9 +229,9 @@ TEST(AbstractCloud, WallsStandUprightInAFrameThatGpsTilted) {
 }
 
 TEST(AbstractCloud, TwoHousesAreTwoBuildings) {
-  const Proxy proxy = Abstract(
-      Capture({testing::BoxHouse(8, 6, 5, {-9, 0, 0}), testing::BoxHouse(6, 6, 7, {9, 0, 0})},
-              {testing::GroundSquare(20)}, {.noise = 0.02}));
+  const Proxy proxy =
+      Abstract(Capture({test::BoxHouse(8, 6, 5, {-9, 0, 0}), test::BoxHouse(6, 6, 7, {9, 0, 0})},
+                       {test::GroundSquare(20)}, {.noise = 0.02}));
   ASSERT_EQ(proxy.buildings.size(), 3u);
   for (const char* id : {"C0001", "C0002"}) {
     EXPECT_TRUE(Find(proxy, id)->watertight);
@@ -242,11 +241,11 @@ TEST(AbstractCloud, TwoHousesAreTwoBuildings) {
 
 TEST(AbstractCloud, HousesOnASlopeStandOnIt) {
   constexpr double kSlope = 0.158;  // 9 degrees
-  auto ground = testing::GroundSquare(24);
+  auto ground = test::GroundSquare(24);
   for (Vector3d& p : ground.ring) p.z() = kSlope * p.x();
-  std::vector<testing::House> houses;
+  std::vector<test::House> houses;
   for (const double x : {-13.0, 0.0, 13.0}) {
-    auto house = testing::BoxHouse(6, 8, 6, {x, 0, kSlope * x});
+    auto house = test::BoxHouse(6, 8, 6, {x, 0, kSlope * x});
     for (auto& polygon : house.polygons) {
       for (Vector3d& p : polygon.ring) {
         if (p.z() < kSlope * x + 1) p.z() = kSlope * p.x();
@@ -258,7 +257,7 @@ TEST(AbstractCloud, HousesOnASlopeStandOnIt) {
   ASSERT_EQ(proxy.buildings.size(), 4u);
   const Building* site = Find(proxy, "G0");
   ASSERT_NE(site, nullptr);
-  EXPECT_LT(AngleDeg(site->facets[0].normal, testing::PlaneOf(ground).head<3>()), 0.3);
+  EXPECT_LT(AngleDeg(site->facets[0].normal, test::PlaneOf(ground).head<3>()), 0.3);
   for (int b = 0; b < 3; ++b) {
     EXPECT_TRUE(proxy.buildings[b].watertight);
     EXPECT_EQ(proxy.buildings[b].facets.size(), 6u);
@@ -267,7 +266,7 @@ TEST(AbstractCloud, HousesOnASlopeStandOnIt) {
 }
 
 TEST(AbstractCloud, AHouseWithoutGroundClosesAtItsFoot) {
-  const auto house = testing::BoxHouse(10, 8, 6);
+  const auto house = test::BoxHouse(10, 8, 6);
   const Proxy proxy = Abstract(Capture({house}, {}, {.noise = 0.02}));
   ASSERT_EQ(proxy.buildings.size(), 1u);
   EXPECT_TRUE(proxy.buildings[0].watertight);
@@ -275,8 +274,8 @@ TEST(AbstractCloud, AHouseWithoutGroundClosesAtItsFoot) {
 }
 
 TEST(AbstractCloud, SolidsCanBeSwitchedOff) {
-  const auto house = testing::BoxHouse(10, 8, 6);
-  const Proxy proxy = Abstract(Capture({house}, {testing::GroundSquare(20)}, {.noise = 0.02}),
+  const auto house = test::BoxHouse(10, 8, 6);
+  const Proxy proxy = Abstract(Capture({house}, {test::GroundSquare(20)}, {.noise = 0.02}),
                                Metric(), {.solids = false});
   EXPECT_FALSE(proxy.buildings[0].watertight);
   EXPECT_EQ(proxy.buildings[0].facets.size(), 5u);
@@ -284,7 +283,7 @@ TEST(AbstractCloud, SolidsCanBeSwitchedOff) {
 
 TEST(AbstractCloud, AFewPointsMakeACoarserModelAndSaySo) {
   const Captured captured =
-      Capture({testing::BoxHouse(14, 12, 9)}, {testing::GroundSquare(24)}, {.noise = 0.02});
+      Capture({test::BoxHouse(14, 12, 9)}, {test::GroundSquare(24)}, {.noise = 0.02});
   ProxyFindings findings;
   const Proxy proxy = AbstractCloud(InputOf(captured, Metric()), {.max_points = 6000}, 1, findings);
   EXPECT_EQ(FindProblem(proxy), std::nullopt);
@@ -300,8 +299,8 @@ TEST(AbstractCloud, AFewPointsMakeACoarserModelAndSaySo) {
 }
 
 TEST(AbstractCloud, IsTheSameOnAnyNumberOfThreads) {
-  const Captured captured = Capture({testing::GableHouse()}, {testing::GroundSquare(20)},
-                                    {.noise = 0.05, .outliers = 0.1});
+  const Captured captured =
+      Capture({test::GableHouse()}, {test::GroundSquare(20)}, {.noise = 0.05, .outliers = 0.1});
   const Proxy one = Abstract(captured, Metric(), {}, 1), four = Abstract(captured, Metric(), {}, 4);
   ASSERT_EQ(one.buildings.size(), four.buildings.size());
   for (size_t b = 0; b < one.buildings.size(); ++b) {
@@ -340,7 +339,7 @@ TEST(AbstractCloud, RefusesCloudsWithoutPoints) {
 
 TEST(AbstractCloud, RefusesATree) {
   Captured captured;
-  testing::AddTree({0, 0, 5}, 4, 20000, 9, captured);
+  test::AddTree({0, 0, 5}, 4, 20000, 9, captured);
   ExpectRefusal(captured.cloud, "no plane");
 }
 
@@ -351,7 +350,7 @@ TEST(AbstractCloud, RefusesALine) {
 }
 
 TEST(AbstractCloud, OnePlaneOfGroundIsGroundAlone) {
-  const Proxy proxy = Abstract(Capture({}, {testing::GroundSquare(15)}, {.noise = 0.02}));
+  const Proxy proxy = Abstract(Capture({}, {test::GroundSquare(15)}, {.noise = 0.02}));
   ASSERT_EQ(proxy.buildings.size(), 1u);
   EXPECT_EQ(proxy.buildings[0].id, "G0");
 }
@@ -380,7 +379,7 @@ TEST(AbstractCloud, ASphereIsAtMostOpenFacets) {
 
 TEST(AbstractCloud, RefusesABadUp) {
   ProxyFindings findings;
-  const Captured captured = Capture({testing::BoxHouse(8, 6, 5)}, {}, {.spacing = 0.2});
+  const Captured captured = Capture({test::BoxHouse(8, 6, 5)}, {}, {.spacing = 0.2});
   for (const std::vector<double>& up : {std::vector<double>{0, 0, 0}, {1, 2}}) {
     EXPECT_THROW(AbstractCloud(InputOf(captured, Metric()), {.up = up}, 1, findings), Error);
   }

@@ -15,9 +15,9 @@
 namespace stucco {
 namespace {
 
-using testing::Capture;
-using testing::Captured;
-using testing::CaptureOptions;
+using test::Capture;
+using test::Captured;
+using test::CaptureOptions;
 
 struct Found {
   Samples samples;
@@ -35,11 +35,11 @@ Found Find(const Captured& captured, double epsilon) {
 }
 
 TEST(DetectPlanes, FindsTheSixSidesOfAHouse) {
-  const auto house = testing::GableHouse();
+  const auto house = test::GableHouse();
   const Found found = Find(Capture({house}, {}, {.noise = 0}), 0.05);
   ASSERT_EQ(found.planes.size(), 6u);
   for (const auto& polygon : house.polygons) {
-    const Eigen::Vector4d truth = testing::PlaneOf(polygon);
+    const Eigen::Vector4d truth = test::PlaneOf(polygon);
     const auto matches = [&](const Plane& plane) {
       return (plane.normal - truth.head<3>()).norm() < 2e-3 &&
              std::abs(plane.offset - truth[3]) < 5e-3;
@@ -49,11 +49,11 @@ TEST(DetectPlanes, FindsTheSixSidesOfAHouse) {
 }
 
 TEST(DetectPlanes, BearsNoiseAndStrays) {
-  const auto house = testing::GableHouse();
+  const auto house = test::GableHouse();
   const Found found = Find(Capture({house}, {}, {.noise = 0.04, .outliers = 0.2}), 0.15);
   ASSERT_GE(found.planes.size(), 6u);
   for (const auto& polygon : house.polygons) {
-    const Eigen::Vector4d truth = testing::PlaneOf(polygon);
+    const Eigen::Vector4d truth = test::PlaneOf(polygon);
     double best_deg = 180;
     for (size_t p = 0; p < 6; ++p) {
       best_deg =
@@ -84,8 +84,8 @@ TEST(DetectPlanes, FindsNothingInNothing) {
 }
 
 TEST(DropClutter, DropsTreesAndKeepsWalls) {
-  Captured captured = Capture({testing::BoxHouse(8, 6, 5)}, {}, {.noise = 0.03});
-  testing::AddTree({0, -9, 4}, 2.5, 12000, 5, captured);
+  Captured captured = Capture({test::BoxHouse(8, 6, 5)}, {}, {.noise = 0.03});
+  test::AddTree({0, -9, 4}, 2.5, 12000, 5, captured);
   Found found = Find(captured, 0.15);
   const Tolerances tolerances{.level_of_detail = 0.3,
                               .epsilon = 0.15,
@@ -100,7 +100,7 @@ TEST(DropClutter, DropsTreesAndKeepsWalls) {
 TEST(MergeCoplanar, JoinsThePartsOfAWallAndNothingElse) {
   // A wall in two parts with a gap, and a third part set back by a metre.
   CaptureOptions options{.noise = 0.01};
-  std::vector<testing::TruePolygon> walls;
+  std::vector<test::TruePolygon> walls;
   for (const auto& [x, y] : {std::pair{-4.0, 0.0}, {4.0, 0.0}, {0.0, 1.0}}) {
     walls.push_back({"wall", {{x - 1.5, y, 0}, {x + 1.5, y, 0}, {x + 1.5, y, 3}, {x - 1.5, y, 3}}});
   }

@@ -13,45 +13,45 @@
 namespace stucco {
 namespace {
 
-using testing::Captured;
-using testing::MapEntry;
-using testing::Rectangle;
+using test::Captured;
+using test::MapEntry;
+using test::Rectangle;
 
 // What a scan from above shows: no walls, no photos, no normals.
-Captured Scanned(const std::vector<testing::House>& houses, double spacing) {
-  testing::CaptureOptions options{.spacing = spacing, .noise = 0.02};
+Captured Scanned(const std::vector<test::House>& houses, double spacing) {
+  test::CaptureOptions options{.spacing = spacing, .noise = 0.02};
   options.hide = {"wall", "gable", "south", "north", "east", "west"};
-  Captured captured = testing::Capture(houses, {testing::GroundSquare(25)}, options);
+  Captured captured = test::Capture(houses, {test::GroundSquare(25)}, options);
   captured.photos.clear();
   captured.cloud.views.clear();
   captured.cloud.normals.clear();
   return captured;
 }
 
-struct Made {
+struct FromScan {
   Proxy proxy;
   ProxyFindings findings;
 };
 
-Made Make(const Captured& captured, const std::vector<MapEntry>& map) {
-  Made made;
-  Georef georef = testing::MapGeoref();
+FromScan MakeFromScan(const Captured& captured, const std::vector<MapEntry>& map) {
+  FromScan made;
+  Georef georef = test::MapGeoref();
   georef.source = "file";
-  ProxyInput input = testing::InputOf(captured, georef);
-  input.plan = testing::PlanOf(map);
+  ProxyInput input = test::InputOf(captured, georef);
+  input.plan = test::PlanOf(map);
   made.proxy = AbstractCloud(input, {}, 2, made.findings);
   return made;
 }
 
 TEST(MapScan, ARoofAloneBecomesAClosedHouseOnItsFootprint) {
-  const Captured captured = Scanned({testing::GableHouse()}, 0.3);
-  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 3}});
-  const Building* house = testing::Find(made.proxy, "B0001");
+  const Captured captured = Scanned({test::GableHouse()}, 0.3);
+  const FromScan made = MakeFromScan(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 3}});
+  const Building* house = test::Find(made.proxy, "B0001");
   ASSERT_NE(house, nullptr);
   EXPECT_EQ(house->detail, "full");
   EXPECT_EQ(FindOpening(house->facets), std::nullopt);
   ASSERT_EQ(house->facets.size(), 7u);
-  EXPECT_NEAR(testing::VolumeOf(*house), 744, 10);
+  EXPECT_NEAR(test::VolumeOf(*house), 744, 10);
   for (const Facet& facet : house->facets) {
     if (facet.facet_class == FacetClass::kWall) {
       EXPECT_EQ(facet.seen, 0);
@@ -66,24 +66,25 @@ TEST(MapScan, ARoofAloneBecomesAClosedHouseOnItsFootprint) {
 
 TEST(MapScan, UpIsTheCoordinateSystems) {
   // A single lean-to: its slope is no reason to tilt the world.
-  testing::House shed;
+  test::House shed;
   shed.polygons = {{"roof", {{-6, -4, 4}, {6, -4, 4}, {6, 4, 4.4}, {-6, 4, 4.4}}}};
-  const Made made = Make(Scanned({shed}, 0.25), {{"B0001", {Rectangle(-6, -4, 6, 4)}, 3}});
+  const FromScan made =
+      MakeFromScan(Scanned({shed}, 0.25), {{"B0001", {Rectangle(-6, -4, 6, 4)}, 3}});
   EXPECT_EQ(made.proxy.up, Eigen::Vector3d::UnitZ());
 }
 
 TEST(MapScan, AMapOfAnotherPlaceIsRefused) {
-  const Captured captured = Scanned({testing::GableHouse()}, 0.3);
+  const Captured captured = Scanned({test::GableHouse()}, 0.3);
   const std::vector<MapEntry> map = {{"B0001", {Rectangle(-6, -4, 6, 4)}, 3}};
-  const Made made = Make(captured, testing::Displaced(map, 0, {10, 10}));
-  EXPECT_EQ(testing::Find(made.proxy, "B0001"), nullptr);
+  const FromScan made = MakeFromScan(captured, test::Displaced(map, 0, {10, 10}));
+  EXPECT_EQ(test::Find(made.proxy, "B0001"), nullptr);
   EXPECT_TRUE(std::ranges::any_of(made.findings.warnings, [](const std::string& warning) {
     return warning.find("map gives no shape") != std::string::npos;
   }));
 }
 
 TEST(MapScan, NormalsWithoutPhotosPointUp) {
-  const Captured captured = Scanned({testing::GableHouse()}, 0.3);
+  const Captured captured = Scanned({test::GableHouse()}, 0.3);
   Samples samples = ThinCloud(StreamOf(captured.cloud), {}, 100000, 0);
   const GridIndex index(samples.positions, 0.9);
   SmoothNormals(samples, index, 0.9, 1);

@@ -9,7 +9,7 @@
 
 #include "survey/triangulate.h"
 
-namespace stucco::testing {
+namespace stucco::test {
 
 Ring Rectangle(double x0, double y0, double x1, double y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
@@ -129,4 +129,4 @@ const Building* Find(const Proxy& proxy, const std::string& id) {
   return found == proxy.buildings.end() ? nullptr : &*found;
 }
 
-}  // namespace stucco::testing
+}  // namespace stucco::test

@@ -12,7 +12,7 @@
 #include "survey/proxy.h"
 #include "tests/proxy/scene.h"
 
-namespace stucco::testing {
+namespace stucco::test {
 
 // A building of a made map: rings as plans have them, the outer one counter-clockwise.
 struct MapEntry {
@@ -47,4 +47,4 @@ double VolumeOf(const Building& building);
 double AreaOf(const Building& building, FacetClass facet_class);
 const Building* Find(const Proxy& proxy, const std::string& id);
 
-}  // namespace stucco::testing
+}  // namespace stucco::test

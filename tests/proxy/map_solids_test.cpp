@@ -17,15 +17,15 @@
 namespace stucco {
 namespace {
 
-using testing::Captured;
-using testing::Court;
-using testing::Displaced;
-using testing::FlatHouse;
-using testing::MapEntry;
-using testing::Rectangle;
-using testing::VolumeOf;
+using test::Captured;
+using test::Court;
+using test::Displaced;
+using test::FlatHouse;
+using test::MapEntry;
+using test::Rectangle;
+using test::VolumeOf;
 
-constexpr testing::CaptureOptions kCapture{.spacing = 0.2, .noise = 0.02};
+constexpr test::CaptureOptions kCapture{.spacing = 0.2, .noise = 0.02};
 
 struct Made {
   Proxy proxy;
@@ -35,8 +35,8 @@ struct Made {
 Made Make(const Captured& captured, const std::vector<MapEntry>& map,
           const ProxyOptions& options = {}) {
   Made made;
-  ProxyInput input = testing::InputOf(captured, testing::MapGeoref());
-  input.plan = testing::PlanOf(map);
+  ProxyInput input = test::InputOf(captured, test::MapGeoref());
+  input.plan = test::PlanOf(map);
   made.proxy = AbstractCloud(input, options, 2, made.findings);
   EXPECT_EQ(FindProblem(made.proxy), std::nullopt);
   return made;
@@ -50,7 +50,7 @@ bool Says(const std::vector<std::string>& lines, const std::string& text) {
 // The building, closed, or a failed test.
 const Building& Closed(const Made& made, const std::string& id) {
   static const Building kNone;
-  const Building* building = testing::Find(made.proxy, id);
+  const Building* building = test::Find(made.proxy, id);
   EXPECT_NE(building, nullptr) << id;
   if (building == nullptr) return kNone;
   EXPECT_TRUE(building->watertight);
@@ -84,8 +84,7 @@ void ExpectFacades(const Building& building, size_t count) {
 }
 
 TEST(MapSolids, ClosesAGableHouse) {
-  const auto captured =
-      testing::Capture({testing::GableHouse()}, {testing::GroundSquare(25)}, kCapture);
+  const auto captured = test::Capture({test::GableHouse()}, {test::GroundSquare(25)}, kCapture);
   const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 9.5}});
   const Building& house = Closed(made, "B0001");
   EXPECT_EQ(Of(house, FacetClass::kWall).size(), 4u);
@@ -101,7 +100,7 @@ TEST(MapSolids, ClosesAGableHouse) {
 
 TEST(MapSolids, ClosesAHipRoof) {
   const auto captured =
-      testing::Capture({testing::HipHouse(14, 8, 5)}, {testing::GroundSquare(25)}, kCapture);
+      test::Capture({test::HipHouse(14, 8, 5)}, {test::GroundSquare(25)}, kCapture);
   const Made made = Make(captured, {{"B0001", {Rectangle(-7, -4, 7, 4)}, 9}});
   const Building& house = Closed(made, "B0001");
   EXPECT_EQ(Of(house, FacetClass::kRoof).size(), 4u);
@@ -112,11 +111,11 @@ TEST(MapSolids, ClosesAHipRoof) {
 }
 
 TEST(MapSolids, RoofsThatMeetHaveNoWallsBetweenThem) {
-  const testing::House house = testing::HipLHouse(4);
+  const test::House house = test::HipLHouse(4);
   for (const uint64_t seed : {1, 2, 3}) {
-    const auto captured = testing::Capture({house}, {testing::GroundSquare(25)},
-                                           {.spacing = 0.2, .noise = 0.03, .seed = seed});
-    const Made made = Make(captured, {{"B0001", {testing::HipLOutline()}, 7}});
+    const auto captured = test::Capture({house}, {test::GroundSquare(25)},
+                                        {.spacing = 0.2, .noise = 0.03, .seed = seed});
+    const Made made = Make(captured, {{"B0001", {test::HipLOutline()}, 7}});
     const Building& building = Closed(made, "B0001");
     EXPECT_EQ(Of(building, FacetClass::kWall).size(), 6u) << seed;
     EXPECT_EQ(Of(building, FacetClass::kRoof).size(), 6u) << seed;
@@ -126,10 +125,10 @@ TEST(MapSolids, RoofsThatMeetHaveNoWallsBetweenThem) {
 
 TEST(MapSolids, StepsBetweenTwoHeights) {
   // An L whose wings have flat roofs at 8 and 5 m.
-  testing::House tall = FlatHouse(Rectangle(-8, -5, 0, 5), 8);
-  testing::House low = FlatHouse(Rectangle(0, -5, 8, 0), 5);
+  test::House tall = FlatHouse(Rectangle(-8, -5, 0, 5), 8);
+  test::House low = FlatHouse(Rectangle(0, -5, 8, 0), 5);
   low.polygons.erase(low.polygons.begin() + 3);  // inside of the tall wing
-  const auto captured = testing::Capture({tall, low}, {testing::GroundSquare(25)}, kCapture);
+  const auto captured = test::Capture({tall, low}, {test::GroundSquare(25)}, kCapture);
   const Ring ring = {{-8, -5}, {8, -5}, {8, 0}, {0, 0}, {0, 5}, {-8, 5}};
   const Made made = Make(captured, {{"B0001", {ring}, 8}});
   const Building& house = Closed(made, "B0001");
@@ -146,7 +145,7 @@ TEST(MapSolids, StepsBetweenTwoHeights) {
 }
 
 TEST(MapSolids, KeepsCourtyards) {
-  testing::House block = FlatHouse(Rectangle(-11, -11, 11, 11), 5);
+  test::House block = FlatHouse(Rectangle(-11, -11, 11, 11), 5);
   block.polygons.pop_back();
   for (auto& polygon : FlatHouse(Court(-5, -5, 5, 5), 5).polygons) {
     if (polygon.name == "wall") block.polygons.push_back(polygon);
@@ -156,7 +155,7 @@ TEST(MapSolids, KeepsCourtyards) {
                            Rectangle(-11, -5, -5, 5), Rectangle(5, -5, 11, 5)}) {
     block.polygons.push_back(FlatHouse(ring, 5).polygons.back());
   }
-  const auto captured = testing::Capture({block}, {testing::GroundSquare(25)}, kCapture);
+  const auto captured = test::Capture({block}, {test::GroundSquare(25)}, kCapture);
   const Made made =
       Make(captured, {{"B0001", {Rectangle(-11, -11, 11, 11), Court(-5, -5, 5, 5)}, 5}});
   const Building& house = Closed(made, "B0001");
@@ -168,10 +167,10 @@ TEST(MapSolids, KeepsCourtyards) {
 }
 
 TEST(MapSolids, WithoutRoofPointsEndsWhereItsWallsEnd) {
-  testing::CaptureOptions options = kCapture;
+  test::CaptureOptions options = kCapture;
   options.hide = {"roof"};
   const auto captured =
-      testing::Capture({testing::BoxHouse(10, 8, 6)}, {testing::GroundSquare(25)}, options);
+      test::Capture({test::BoxHouse(10, 8, 6)}, {test::GroundSquare(25)}, options);
   const Made made = Make(captured, {{"B0001", {Rectangle(-5, -4, 5, 4)}, 9}});
   const Building& house = Closed(made, "B0001");
   EXPECT_EQ(house.facets.size(), 6u);
@@ -182,7 +181,7 @@ TEST(MapSolids, WithoutRoofPointsEndsWhereItsWallsEnd) {
 
 // A street of boxes of different sizes.
 struct Street {
-  std::vector<testing::House> houses;
+  std::vector<test::House> houses;
   std::vector<MapEntry> map;
 };
 
@@ -201,13 +200,13 @@ Street MakeStreet() {
 
 TEST(MapSolids, FindsADisplacedMap) {
   const Street street = MakeStreet();
-  const auto captured = testing::Capture(street.houses, {testing::GroundSquare(30)}, kCapture);
+  const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
   const Made made = Make(captured, Displaced(street.map, 0.3, {1.4, -1.4}));
   const std::vector<double> areas = {80, 63, 60, 77, 91};
   for (size_t i = 0; i < 5; ++i) {
     const Building& house = Closed(made, street.map[i].id);
     EXPECT_EQ(house.facets.size(), 6u);
-    EXPECT_NEAR(testing::AreaOf(house, FacetClass::kRoof), areas[i], 0.02 * areas[i]);
+    EXPECT_NEAR(test::AreaOf(house, FacetClass::kRoof), areas[i], 0.02 * areas[i]);
     // Each corner is where the house stands, not where the map has it.
     for (const Facet* roof : Of(house, FacetClass::kRoof)) {
       for (const auto& p : roof->outer) {
@@ -236,9 +235,9 @@ TEST(MapSolids, TellsEavesFromShifts) {
                    {Rectangle(low.x() - 0.5, low.y() - 0.5, high.x() + 0.5, high.y() + 0.5)},
                    street.map[i].top});
   }
-  testing::CaptureOptions options = kCapture;
+  test::CaptureOptions options = kCapture;
   options.hide = {"hidden"};
-  const auto captured = testing::Capture(street.houses, {testing::GroundSquare(30)}, options);
+  const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, options);
   const Made made = Make(captured, map);
   for (const MapEntry& entry : street.map) {
     const Building& house = Closed(made, entry.id);
@@ -255,7 +254,7 @@ TEST(MapSolids, TellsEavesFromShifts) {
 
 TEST(MapSolids, RefusesAMapOfAnotherTown) {
   const Street street = MakeStreet();
-  const auto captured = testing::Capture(street.houses, {testing::GroundSquare(30)}, kCapture);
+  const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
   const std::vector<MapEntry> elsewhere = {{"B0001", {Rectangle(-24, -2, -12, 2)}, 6},
                                            {"B0002", {Rectangle(-6, -3, 8, 3)}, 6},
                                            {"B0003", {Rectangle(14, -26, 20, 20)}, 6},
@@ -265,8 +264,7 @@ TEST(MapSolids, RefusesAMapOfAnotherTown) {
   EXPECT_TRUE(Says(with.findings.warnings, "the plan's map gives no shape"));
   // The same as without any map.
   ProxyFindings findings;
-  const Proxy without =
-      AbstractCloud(testing::InputOf(captured, testing::MapGeoref()), {}, 2, findings);
+  const Proxy without = AbstractCloud(test::InputOf(captured, test::MapGeoref()), {}, 2, findings);
   ASSERT_EQ(with.proxy.buildings.size(), without.buildings.size());
   for (size_t b = 0; b < without.buildings.size(); ++b) {
     EXPECT_EQ(with.proxy.buildings[b].id, without.buildings[b].id);
@@ -279,13 +277,13 @@ TEST(MapSolids, NamesWhatIsGoneAndWhatIsNew) {
   street.houses.erase(street.houses.begin() + 1);  // B0002 is no more
   const Ring fresh = Rectangle(16, 4, 25, 13);
   street.houses.push_back(FlatHouse(fresh, 6));  // no map has it
-  const auto captured = testing::Capture(street.houses, {testing::GroundSquare(30)}, kCapture);
+  const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
   const Made made = Make(captured, street.map);
-  EXPECT_EQ(testing::Find(made.proxy, "B0002"), nullptr);
+  EXPECT_EQ(test::Find(made.proxy, "B0002"), nullptr);
   EXPECT_TRUE(Says(made.findings.warnings, "B0002: not built, or demolished"));
   for (const char* id : {"B0001", "B0003", "B0004", "B0005"}) Closed(made, id);
   EXPECT_TRUE(Says(made.findings.notes, "on no footprint of the map"));
-  const Building* found = testing::Find(made.proxy, "C0001");
+  const Building* found = test::Find(made.proxy, "C0001");
   ASSERT_NE(found, nullptr);
   EXPECT_TRUE(found->watertight);
   EXPECT_NEAR(VolumeOf(*found), 81 * 6, 15);
@@ -295,7 +293,7 @@ TEST(MapSolids, ExtrudesWhatNobodySaw) {
   const Street street = MakeStreet();
   auto map = street.map;
   map.push_back({"B0009", {Rectangle(60, 60, 70, 70)}, 7});
-  const auto captured = testing::Capture(street.houses, {testing::GroundSquare(30)}, kCapture);
+  const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
   const Made made = Make(captured, map);
   const Building& house = Closed(made, "B0009");
   EXPECT_NEAR(VolumeOf(house), 700, 20);
@@ -304,10 +302,9 @@ TEST(MapSolids, ExtrudesWhatNobodySaw) {
 }
 
 TEST(MapSolids, TreesAreNoPartOfABuilding) {
-  auto captured =
-      testing::Capture({testing::BoxHouse(12, 9, 6)}, {testing::GroundSquare(25)}, kCapture);
-  testing::AddTree({9, 2, 5}, 2.8, 4000, 3, captured);  // beside the eastern wall, and over it
-  testing::AddTree({-3, 1, 9}, 2, 2500, 4, captured);   // over the roof
+  auto captured = test::Capture({test::BoxHouse(12, 9, 6)}, {test::GroundSquare(25)}, kCapture);
+  test::AddTree({9, 2, 5}, 2.8, 4000, 3, captured);  // beside the eastern wall, and over it
+  test::AddTree({-3, 1, 9}, 2, 2500, 4, captured);   // over the roof
   const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4.5, 6, 4.5)}, 6}});
   const Building& house = Closed(made, "B0001");
   EXPECT_EQ(house.facets.size(), 6u);
@@ -317,44 +314,44 @@ TEST(MapSolids, TreesAreNoPartOfABuilding) {
 
 TEST(MapSolids, LeavesAboveBareGroundAreNoRoof) {
   // Two patches of leaves as smooth as a roof, and a crown around them.
-  const testing::House crown{
+  const test::House crown{
       {{"low", {{14.5, -2.5, 4}, {17, -2.5, 5}, {17, 1.5, 5}, {14.5, 1.5, 4}}},
        {"high", {{17.3, -2, 6}, {19.6, -2, 6}, {19.6, 1.5, 7}, {17.3, 1.5, 7}}}}};
   auto captured =
-      testing::Capture({testing::BoxHouse(12, 9, 6), crown}, {testing::GroundSquare(25)}, kCapture);
-  testing::AddTree({17, -0.5, 5.5}, 2.5, 2500, 3, captured);
+      test::Capture({test::BoxHouse(12, 9, 6), crown}, {test::GroundSquare(25)}, kCapture);
+  test::AddTree({17, -0.5, 5.5}, 2.5, 2500, 3, captured);
   const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4.5, 6, 4.5)}, 6},
                                     {"B0002", {Rectangle(14, -3, 20, 2)}, 6}});
   Closed(made, "B0001");
-  EXPECT_EQ(testing::Find(made.proxy, "B0002"), nullptr);
+  EXPECT_EQ(test::Find(made.proxy, "B0002"), nullptr);
   EXPECT_TRUE(Says(made.findings.warnings, "B0002: not built, or demolished"));
 }
 
 TEST(MapSolids, ARoofOnPostsStands) {
   auto canopy = FlatHouse(Rectangle(12, -4, 20, 4), 4.5);
   canopy.polygons = {canopy.polygons.back()};
-  const auto captured = testing::Capture({testing::BoxHouse(10, 9, 6), canopy},
-                                         {testing::GroundSquare(25)}, kCapture);
+  const auto captured =
+      test::Capture({test::BoxHouse(10, 9, 6), canopy}, {test::GroundSquare(25)}, kCapture);
   const Made made = Make(captured, {{"B0001", {Rectangle(-5, -4.5, 5, 4.5)}, 6},
                                     {"B0002", {Rectangle(12, -4, 20, 4)}, 4.5}});
   EXPECT_NEAR(VolumeOf(Closed(made, "B0002")), 64 * 4.5, 10);
 }
 
 TEST(MapSolids, AParapetIsNoRoof) {
-  testing::House house = FlatHouse(Rectangle(-6, -4, 6, 4), 6);
+  test::House house = FlatHouse(Rectangle(-6, -4, 6, 4), 6);
   house.polygons.back().ring = {
       {-5.5, -3.5, 5.6}, {5.5, -3.5, 5.6}, {5.5, 3.5, 5.6}, {-5.5, 3.5, 5.6}};
   house.polygons.push_back({"rim", {{-6, -4, 6}, {6, -4, 6}, {5.5, -3.5, 5.6}, {-5.5, -3.5, 5.6}}});
   house.polygons.push_back({"rim", {{6, -4, 6}, {6, 4, 6}, {5.5, 3.5, 5.6}, {5.5, -3.5, 5.6}}});
   const auto captured =
-      testing::Capture({house}, {testing::GroundSquare(25)}, {.spacing = 0.1, .noise = 0.02});
+      test::Capture({house}, {test::GroundSquare(25)}, {.spacing = 0.1, .noise = 0.02});
   const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 6}});
   EXPECT_EQ(Closed(made, "B0001").facets.size(), 6u);
 }
 
 TEST(MapSolids, ARoofLiesOnItselfNotBetweenItAndItsRim) {
   constexpr double kRoof = 5.75;
-  testing::House house = FlatHouse(Rectangle(-6, -4, 6, 4), 6);
+  test::House house = FlatHouse(Rectangle(-6, -4, 6, 4), 6);
   house.polygons.back().ring = {
       {-5.2, -3.2, kRoof}, {5.2, -3.2, kRoof}, {5.2, 3.2, kRoof}, {-5.2, 3.2, kRoof}};
   for (const Ring& strip : {Rectangle(-6, -4, 6, -3.2), Rectangle(-6, 3.2, 6, 4),
@@ -364,7 +361,7 @@ TEST(MapSolids, ARoofLiesOnItselfNotBetweenItAndItsRim) {
     house.polygons.push_back({"rim", ring});
   }
   const auto captured =
-      testing::Capture({house}, {testing::GroundSquare(25)}, {.spacing = 0.1, .noise = 0.02});
+      test::Capture({house}, {test::GroundSquare(25)}, {.spacing = 0.1, .noise = 0.02});
   const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 6}});
   const auto roofs = Of(Closed(made, "B0001"), FacetClass::kRoof);
   ASSERT_EQ(roofs.size(), 1u);
@@ -373,10 +370,10 @@ TEST(MapSolids, ARoofLiesOnItselfNotBetweenItAndItsRim) {
 
 TEST(MapSolids, NeighboursKeepTouching) {
   // Two houses of different height wall to wall; the map is 0.4 m off.
-  testing::House tall = FlatHouse(Rectangle(-8, -4, 0, 4), 8);
-  testing::House low = FlatHouse(Rectangle(0, -4, 9, 4), 5);
+  test::House tall = FlatHouse(Rectangle(-8, -4, 0, 4), 8);
+  test::House low = FlatHouse(Rectangle(0, -4, 9, 4), 5);
   low.polygons.erase(low.polygons.begin() + 3);
-  const auto captured = testing::Capture({tall, low}, {testing::GroundSquare(25)}, kCapture);
+  const auto captured = test::Capture({tall, low}, {test::GroundSquare(25)}, kCapture);
   const Made made = Make(captured, Displaced({{"B0001", {Rectangle(-8, -4, 0, 4)}, 8},
                                               {"B0002", {Rectangle(0, -4, 9, 4)}, 5}},
                                              0, {0.4, 0.2}));
@@ -395,14 +392,14 @@ TEST(MapSolids, NeighboursKeepTouching) {
 }
 
 TEST(MapSolids, DetailsDoNotDependOnTheSizeOfTheSurvey) {
-  std::vector<testing::House> houses;
+  std::vector<test::House> houses;
   std::vector<MapEntry> map;
   for (const double x : {-14, 14}) {
     for (const double y : {-10, 10}) {
       const Ring ring = Rectangle(x - 6, y - 4, x + 6, y + 4);
       houses.push_back(FlatHouse(ring, 6));
       map.push_back({"B000" + std::to_string(houses.size()), {ring}, 8.5});
-      testing::House lift = FlatHouse(Rectangle(x - 1, y - 1, x + 1, y + 1), 8.5);
+      test::House lift = FlatHouse(Rectangle(x - 1, y - 1, x + 1, y + 1), 8.5);
       for (auto& polygon : lift.polygons) {
         for (auto& corner : polygon.ring) corner.z() = std::max(corner.z(), 6.0);
       }
@@ -410,7 +407,7 @@ TEST(MapSolids, DetailsDoNotDependOnTheSizeOfTheSurvey) {
     }
   }
   // The survey may have as many samples as one of its houses needs.
-  const auto captured = testing::Capture(houses, {testing::GroundSquare(40)}, {.noise = 0.02});
+  const auto captured = test::Capture(houses, {test::GroundSquare(40)}, {.noise = 0.02});
   const Made made = Make(captured, map, {.max_points = 50000});
   EXPECT_TRUE(Says(made.findings.warnings, "the level of detail is"));
   for (const MapEntry& entry : map) {
@@ -441,11 +438,10 @@ TEST(SetsOfBuildings, KeepNeighboursTogetherAndSamplesFew) {
 }
 
 TEST(MapSolids, UsesNoMapWhenToldSo) {
-  const auto captured =
-      testing::Capture({testing::GableHouse()}, {testing::GroundSquare(25)}, kCapture);
+  const auto captured = test::Capture({test::GableHouse()}, {test::GroundSquare(25)}, kCapture);
   const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 9.5}}, {.use_map = false});
-  EXPECT_EQ(testing::Find(made.proxy, "B0001"), nullptr);
-  EXPECT_NE(testing::Find(made.proxy, "C0001"), nullptr);
+  EXPECT_EQ(test::Find(made.proxy, "B0001"), nullptr);
+  EXPECT_NE(test::Find(made.proxy, "C0001"), nullptr);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ class RunProxyTest : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(root_); }
 
-  void WriteSurvey(const testing::Captured& captured) {
+  void WriteSurvey(const test::Captured& captured) {
     WritePly(captured.cloud, root_ / kCloudFile);
     Georef georef;
     georef.frame = "enu";
@@ -60,8 +60,8 @@ class RunProxyTest : public ::testing::Test {
 };
 
 TEST_F(RunProxyTest, WritesTheModelInThreeFormats) {
-  WriteSurvey(testing::Capture({testing::GableHouse()}, {testing::GroundSquare(20)},
-                               {.spacing = 0.15, .noise = 0.02}));
+  WriteSurvey(test::Capture({test::GableHouse()}, {test::GroundSquare(20)},
+                            {.spacing = 0.15, .noise = 0.02}));
   RunProxy({}, context_);
   const Proxy proxy = ReadProxy(root_ / "out/facets.json");
   ASSERT_EQ(proxy.buildings.size(), 2u);
@@ -73,8 +73,8 @@ TEST_F(RunProxyTest, WritesTheModelInThreeFormats) {
 }
 
 TEST_F(RunProxyTest, WritesTheSameBytesAgain) {
-  WriteSurvey(testing::Capture({testing::GableHouse()}, {testing::GroundSquare(20)},
-                               {.spacing = 0.2, .noise = 0.03, .outliers = 0.1}));
+  WriteSurvey(test::Capture({test::GableHouse()}, {test::GroundSquare(20)},
+                            {.spacing = 0.2, .noise = 0.03, .outliers = 0.1}));
   RunProxy({}, context_);
   StageContext again = context_;
   again.threads = 3;

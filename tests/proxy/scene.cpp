@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace stucco::testing {
+namespace stucco::test {
 namespace {
 
 using Eigen::Vector3d;
@@ -262,4 +262,4 @@ Eigen::Vector4d PlaneOf(const TruePolygon& polygon) {
   return plane;
 }
 
-}  // namespace stucco::testing
+}  // namespace stucco::test

@@ -10,7 +10,7 @@
 #include "proxy/cloud/input.h"
 #include "survey/point_cloud.h"
 
-namespace stucco::testing {
+namespace stucco::test {
 
 // A flat polygon of the true scene, counter-clockwise seen from outside.
 struct TruePolygon {
@@ -69,4 +69,4 @@ void MoveTo(const Eigen::Matrix3d& rotation, double scale, const Eigen::Vector3d
 // The plane of a true polygon: unit normal and offset.
 Eigen::Vector4d PlaneOf(const TruePolygon& polygon);
 
-}  // namespace stucco::testing
+}  // namespace stucco::test

@@ -18,8 +18,8 @@ namespace stucco {
 namespace {
 
 using Eigen::Vector3d;
-using testing::FlatHouse;
-using testing::Rectangle;
+using test::FlatHouse;
+using test::Rectangle;
 
 // A wall of 3 m height along a line, seen from above with the building on its left.
 Facet Wall(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double low,
@@ -85,18 +85,17 @@ TEST(AssignIdsByPlace, RoofsKeepTheirsWhateverTheirSize) {
 
 // The middle of what carries each id.
 std::map<std::string, Vector3d> Places(uint64_t seed) {
-  testing::House tall = FlatHouse(Rectangle(-8, -5, 0, 5), 8);
-  testing::House low = FlatHouse(Rectangle(0, -5, 8, 0), 5);
+  test::House tall = FlatHouse(Rectangle(-8, -5, 0, 5), 8);
+  test::House low = FlatHouse(Rectangle(0, -5, 8, 0), 5);
   low.polygons.erase(low.polygons.begin() + 3);  // inside of the tall wing
-  const testing::Captured captured = testing::Capture(
-      {tall, low}, {testing::GroundSquare(25)}, {.spacing = 0.2, .noise = 0.02, .seed = seed});
-  ProxyInput input = testing::InputOf(captured, testing::MapGeoref());
-  input.plan =
-      testing::PlanOf({{"B0001", {{{-8, -5}, {8, -5}, {8, 0}, {0, 0}, {0, 5}, {-8, 5}}}, 8}});
+  const test::Captured captured = test::Capture({tall, low}, {test::GroundSquare(25)},
+                                                {.spacing = 0.2, .noise = 0.02, .seed = seed});
+  ProxyInput input = test::InputOf(captured, test::MapGeoref());
+  input.plan = test::PlanOf({{"B0001", {{{-8, -5}, {8, -5}, {8, 0}, {0, 0}, {0, 5}, {-8, 5}}}, 8}});
   ProxyFindings findings;
   const Proxy proxy = AbstractCloud(input, {}, 2, findings);
   std::map<std::string, Vector3d> places;
-  const Building* building = testing::Find(proxy, "B0001");
+  const Building* building = test::Find(proxy, "B0001");
   if (building == nullptr) return places;
   for (const Facet& facet : building->facets) {
     Vector3d& middle = places.try_emplace(facet.id, Vector3d::Zero()).first->second;

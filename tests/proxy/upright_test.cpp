@@ -35,7 +35,7 @@ std::vector<SurveyPhoto> Around(double pitch_deg, double from_deg, double to_deg
     const Vector3d level(std::cos(yaw), std::sin(yaw), 0);
     const Vector3d forward = std::cos(pitch) * level + std::sin(pitch) * Vector3d::UnitZ();
     photos.emplace_back().cam_from_world =
-        testing::PoseOf(Vector3d::Zero(), forward, level.cross(Vector3d::UnitZ()));
+        test::PoseOf(Vector3d::Zero(), forward, level.cross(Vector3d::UnitZ()));
   }
   return photos;
 }

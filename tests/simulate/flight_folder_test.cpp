@@ -23,7 +23,7 @@ class FlightFolder : public ::testing::Test {
       std::filesystem::path(::testing::TempDir()) / ("flight_folder_" + std::to_string(getpid()));
 };
 
-Flight MadeFlight() {
+Flight FlightOfFour() {
   Random random(7);
   Flight flight;
   flight.scene = "town/scene";
@@ -62,7 +62,7 @@ Flight MadeFlight() {
 }
 
 TEST_F(FlightFolder, ReadsBackWhatWasWritten) {
-  const Flight flight = MadeFlight();
+  const Flight flight = FlightOfFour();
   WriteFlight(flight, survey_);
   const Flight back = ReadFlight(survey_);
   EXPECT_EQ(back.scene, flight.scene);
@@ -97,7 +97,7 @@ TEST_F(FlightFolder, ReadsBackWhatWasWritten) {
 }
 
 TEST_F(FlightFolder, ColmapModelHasThePhotosThatThereAre) {
-  const Flight flight = MadeFlight();
+  const Flight flight = FlightOfFour();
   WriteFlight(flight, survey_);
   const Reconstruction model = ReadColmapModel(survey_ / "truth/sparse");
   ASSERT_EQ(model.photos.size(), 2u);
@@ -112,13 +112,13 @@ TEST_F(FlightFolder, ColmapModelHasThePhotosThatThereAre) {
 
 TEST_F(FlightFolder, TheFlightIsWrittenBeforeItsColmapModel) {
   WriteFile(survey_ / "truth/sparse", "in the way of the folder");
-  EXPECT_THROW(WriteFlight(MadeFlight(), survey_), Error);
+  EXPECT_THROW(WriteFlight(FlightOfFour(), survey_), Error);
   EXPECT_EQ(ReadFlight(survey_).made_from, "abc");
 }
 
 TEST_F(FlightFolder, DamageIsNamed) {
   EXPECT_THROW(ReadFlight(survey_), Error);  // missing
-  WriteFlight(MadeFlight(), survey_);
+  WriteFlight(FlightOfFour(), survey_);
   const std::string whole = ReadFile(survey_ / kFlightFile);
   const auto fails_with = [&](const std::string& text, const char* reason) {
     WriteFile(survey_ / kFlightFile, text);
@@ -145,7 +145,7 @@ TEST_F(FlightFolder, DamageIsNamed) {
 
 TEST_F(FlightFolder, PhotosOutsideOfItsFoldersAreRefused) {
   const auto is_read = [&](const std::string& path, bool held_out) {
-    Flight flight = MadeFlight();
+    Flight flight = FlightOfFour();
     flight.photos[0].path = path;
     flight.photos[0].held_out = held_out;
     WriteFlight(flight, survey_);

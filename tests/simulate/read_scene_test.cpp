@@ -41,7 +41,7 @@ class ReadSceneTest : public ::testing::Test {
                                  "vt 0 1\nvt 0 0\nvt 1 0\nvt 1 1\no house/F00\nusemtl brick\n"
                                  "f 1/1 2/2 3/3 4/4\n");
   }
-  void WritePicture() { WriteImage(testing::Checkerboard(2, 1, 4), folder_ / "brick.png"); }
+  void WritePicture() { WriteImage(test::Checkerboard(2, 1, 4), folder_ / "brick.png"); }
 
   static constexpr char kWall[] = "v 0 3 0\nv 0 0 0\nv 4 0 0\nv 4 3 0\n";
   std::filesystem::path folder_;
@@ -73,7 +73,7 @@ TEST_F(ReadSceneTest, HashTellsAllThatPicturesDependOn) {
   EXPECT_TRUE(changes([](Scene& s) { s.textures[0].data.back() ^= 1; }));
   EXPECT_TRUE(changes([](Scene& s) { s.elements[0] += "a"; }));
   // A picture beside the model is part of the scene.
-  WriteImage(testing::Checkerboard(2, 1, 5), folder_ / "brick.png");
+  WriteImage(test::Checkerboard(2, 1, 5), folder_ / "brick.png");
   EXPECT_NE(HashScene(ReadScene(folder_ / "wall.obj")), hash);
 }
 

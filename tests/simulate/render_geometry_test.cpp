@@ -15,7 +15,7 @@
 namespace stucco::simulate {
 namespace {
 
-using testing::LookAt;
+using test::LookAt;
 
 constexpr int kColumns = 16;
 constexpr int kRows = 12;
@@ -24,10 +24,10 @@ constexpr double kSquare_m = 0.25;
 // A board upright at y = 0, its front to the south, with its middle at the origin.
 Scene BoardScene() {
   Scene scene;
-  const int material = testing::AddTexture(scene, testing::Checkerboard(kColumns, kRows, 25));
+  const int material = test::AddTexture(scene, test::Checkerboard(kColumns, kRows, 25));
   const auto width = static_cast<float>(kColumns * kSquare_m);
   const auto height = static_cast<float>(kRows * kSquare_m);
-  testing::AddQuad(scene, {{-width / 2, 0, height / 2}, {width, 0, 0}, {0, 0, -height}}, material);
+  test::AddQuad(scene, {{-width / 2, 0, height / 2}, {width, 0, 0}, {0, 0, -height}}, material);
   return scene;
 }
 
@@ -88,7 +88,7 @@ Agreement Compare(const Renderer& renderer, const Camera& usual, const Pose& cam
 }
 
 Camera With(CameraModel model, std::vector<double> distortion) {
-  Camera camera = testing::Pinhole(900, 700, 800);
+  Camera camera = test::Pinhole(900, 700, 800);
   camera.model = model;
   camera.params = {800, 790, 455.3, 346.8};
   camera.params.insert(camera.params.end(), distortion.begin(), distortion.end());
@@ -121,7 +121,7 @@ TEST(RenderGeometry, CornersAreWhereTheCameraModelSaysThem) {
 // place that the camera's formulas give for its centre.
 TEST(RenderGeometry, PixelsAreWhatTheTextureHasThere) {
   const Renderer renderer(BoardScene());
-  const Image board = testing::Checkerboard(kColumns, kRows, 25);
+  const Image board = test::Checkerboard(kColumns, kRows, 25);
   const Camera camera = With(CameraModel::kFullOpenCv, {-0.3, 0.1, 0.001, 0.002, 0, 0.05, 0, 0});
   const Pose cam_from_world = LookAt({1.1, -3.2, 0.6}, {0.1, 0, -0.1}, {0.2, 0, 1});
   Light albedo;
@@ -195,12 +195,12 @@ TEST(RenderGeometry, PixelsOutsideTheLensAreBlack) {
 TEST(RenderGeometry, TexturesAreUpright) {
   Scene scene;
   Image image{2, 2, 3, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}};
-  testing::AddQuad(scene, {{-1, 0, 1}, {2, 0, 0}, {0, 0, -2}}, testing::AddTexture(scene, image));
+  test::AddQuad(scene, {{-1, 0, 1}, {2, 0, 0}, {0, 0, -2}}, test::AddTexture(scene, image));
   const Renderer renderer(std::move(scene));
   Light albedo;
   albedo.lit = false;
   const Radiance picture =
-      renderer.Photograph(testing::Pinhole(100, 100, 100), LookAt({0, -2.5, 0}, {0, 0, 0}), albedo);
+      renderer.Photograph(test::Pinhole(100, 100, 100), LookAt({0, -2.5, 0}, {0, 0, 0}), albedo);
   const auto at = [&](int x, int y) {
     return Eigen::Vector3f(&picture.rgb[3 * (static_cast<size_t>(y) * 100 + x)]);
   };
@@ -215,8 +215,7 @@ TEST(RenderGeometry, FlattenReturnsTheTexture) {
   Scene scene;
   Image image{40, 30, 3, {}};
   for (int i = 0; i < 40 * 30 * 3; ++i) image.data.push_back(static_cast<uint8_t>(i * 37 % 256));
-  testing::AddQuad(scene, {{1, 2, 3}, {0.4f, 0, 0}, {0, 0, -0.3f}},
-                   testing::AddTexture(scene, image));
+  test::AddQuad(scene, {{1, 2, 3}, {0.4f, 0, 0}, {0, 0, -0.3f}}, test::AddTexture(scene, image));
   const Renderer renderer(std::move(scene));
   PicturePlane plane;
   plane.origin = {1, 2, 3};
@@ -234,9 +233,9 @@ TEST(RenderGeometry, FlattenReturnsTheTexture) {
 
 TEST(RenderGeometry, FlattenSeesOnlyWhatIsNear) {
   Scene scene;
-  const int material = testing::AddTexture(scene, testing::Plain(255));
-  testing::AddQuad(scene, {{0, -2, 1}, {1, 0, 0}, {0, 0, -1}}, material, "before");
-  testing::AddQuad(scene, {{0, 3.5f, 1}, {1, 0, 0}, {0, 0, -1}}, material, "behind");
+  const int material = test::AddTexture(scene, test::Plain(255));
+  test::AddQuad(scene, {{0, -2, 1}, {1, 0, 0}, {0, 0, -1}}, material, "before");
+  test::AddQuad(scene, {{0, 3.5f, 1}, {1, 0, 0}, {0, 0, -1}}, material, "behind");
   const Renderer renderer(std::move(scene));
   PicturePlane plane;
   plane.origin = {0, 0, 1};
@@ -255,9 +254,9 @@ TEST(RenderGeometry, FlattenSeesOnlyWhatIsNear) {
 
 TEST(RenderGeometry, CastTellsElementAndNormal) {
   Scene scene;
-  const int material = testing::AddTexture(scene, testing::Plain(255));
-  testing::AddBox(scene, {-1, -1, 0}, {1, 1, 2}, material, "house");
-  testing::AddQuad(scene, {{-9, 9, 0}, {18, 0, 0}, {0, -18, 0}}, material, "ground");
+  const int material = test::AddTexture(scene, test::Plain(255));
+  test::AddBox(scene, {-1, -1, 0}, {1, 1, 2}, material, "house");
+  test::AddQuad(scene, {{-9, 9, 0}, {18, 0, 0}, {0, -18, 0}}, material, "ground");
   const Renderer renderer(std::move(scene));
   const auto wall = renderer.Cast({0.3, -5, 1}, {0, 2, 0});
   ASSERT_TRUE(wall);

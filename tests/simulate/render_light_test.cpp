@@ -13,7 +13,7 @@
 namespace stucco::simulate {
 namespace {
 
-using testing::LookAt;
+using test::LookAt;
 
 constexpr float kFar = 40;
 
@@ -43,44 +43,43 @@ Light Albedo() {
 int AddBlack(Scene& scene) {
   Material material;
   material.colour.setZero();
-  return testing::AddMaterial(scene, material);
+  return test::AddMaterial(scene, material);
 }
 
 void AddGround(Scene& scene, int material, float z = 0) {
-  testing::AddQuad(scene, {{-kFar, kFar, z}, {2 * kFar, 0, 0}, {0, -2 * kFar, 0}}, material,
-                   "ground");
+  test::AddQuad(scene, {{-kFar, kFar, z}, {2 * kFar, 0, 0}, {0, -2 * kFar, 0}}, material, "ground");
 }
 
 // What a view straight down at (x, y) has in its middle.
 Eigen::Vector3f Down(const Renderer& renderer, double x, double y, double z, const Light& light) {
   const Pose pose = LookAt({x, y, z}, {x, y, z - 1}, Eigen::Vector3d::UnitY());
-  const Radiance picture = renderer.Photograph(testing::Pinhole(9, 9, 200), pose, light);
+  const Radiance picture = renderer.Photograph(test::Pinhole(9, 9, 200), pose, light);
   return Eigen::Vector3f(&picture.rgb[3 * 40]);
 }
 
 TEST(RenderLight, OpenGroundGetsTheWholeSky) {
   Scene scene;
-  AddGround(scene, testing::AddTexture(scene, testing::Plain(255)));
+  AddGround(scene, test::AddTexture(scene, test::Plain(255)));
   const Renderer renderer(std::move(scene));
   EXPECT_NEAR(Down(renderer, 3, 4, 20, SkyOnly()).x(), 1, 1e-5);
 }
 
 TEST(RenderLight, GroundTurnedTheWrongWayGetsTheWholeSky) {
   Scene scene;
-  testing::AddQuad(scene, {{-kFar, -kFar, 0}, {2 * kFar, 0, 0}, {0, 2 * kFar, 0}},
-                   testing::AddTexture(scene, testing::Plain(255)), "ground");
+  test::AddQuad(scene, {{-kFar, -kFar, 0}, {2 * kFar, 0, 0}, {0, 2 * kFar, 0}},
+                test::AddTexture(scene, test::Plain(255)), "ground");
   const Renderer renderer(std::move(scene));
   EXPECT_NEAR(Down(renderer, 3, 4, 20, SkyOnly()).x(), 1, 1e-5);
 }
 
 TEST(RenderLight, UndersidesOfSolidsGetNoSky) {
   Scene scene;
-  const int white = testing::AddTexture(scene, testing::Plain(255));
+  const int white = test::AddTexture(scene, test::Plain(255));
   AddGround(scene, AddBlack(scene));
-  testing::AddBox(scene, {-2, -2, 5}, {2, 2, 6}, white, "box");
+  test::AddBox(scene, {-2, -2, 5}, {2, 2, 6}, white, "box");
   const Renderer renderer(std::move(scene));
   const Pose up = LookAt({0, 0, 1}, {0, 0, 2}, Eigen::Vector3d::UnitY());
-  const Radiance picture = renderer.Photograph(testing::Pinhole(9, 9, 200), up, SkyOnly());
+  const Radiance picture = renderer.Photograph(test::Pinhole(9, 9, 200), up, SkyOnly());
   EXPECT_NEAR(picture.rgb[3 * 40], 0, 0.02);
 }
 
@@ -90,13 +89,11 @@ TEST(RenderLight, StreetGetsItsShareOfTheSky) {
   constexpr float kWidth = 10, kHeight = 8;
   Scene scene;
   const int black = AddBlack(scene);
-  const int white = testing::AddTexture(scene, testing::Plain(255));
+  const int white = test::AddTexture(scene, test::Plain(255));
   AddGround(scene, black);
-  testing::AddQuad(scene, {{-kFar, kWidth / 2, kHeight}, {2 * kFar, 0, 0}, {0, 0, -kHeight}},
-                   black);
-  testing::AddQuad(scene, {{kFar, -kWidth / 2, kHeight}, {-2 * kFar, 0, 0}, {0, 0, -kHeight}},
-                   black);
-  testing::AddQuad(scene, {{-1, 1, 0.02f}, {2, 0, 0}, {0, -2, 0}}, white);
+  test::AddQuad(scene, {{-kFar, kWidth / 2, kHeight}, {2 * kFar, 0, 0}, {0, 0, -kHeight}}, black);
+  test::AddQuad(scene, {{kFar, -kWidth / 2, kHeight}, {-2 * kFar, 0, 0}, {0, 0, -kHeight}}, black);
+  test::AddQuad(scene, {{-1, 1, 0.02f}, {2, 0, 0}, {0, -2, 0}}, white);
   const Renderer renderer(std::move(scene));
   const double expected = std::cos(std::atan(2 * kHeight / kWidth));
   EXPECT_NEAR(Down(renderer, 0, 0, 20, SkyOnly()).x(), expected, 0.03);
@@ -106,21 +103,21 @@ TEST(RenderLight, WallOverOpenGroundSeesHalfTheSky) {
   Scene scene;
   const int black = AddBlack(scene);
   AddGround(scene, black);
-  testing::AddQuad(scene, {{-4, 0, 8}, {8, 0, 0}, {0, 0, -8}},
-                   testing::AddTexture(scene, testing::Plain(255)), "wall");
+  test::AddQuad(scene, {{-4, 0, 8}, {8, 0, 0}, {0, 0, -8}},
+                test::AddTexture(scene, test::Plain(255)), "wall");
   const Renderer renderer(std::move(scene));
   const Radiance picture =
-      renderer.Photograph(testing::Pinhole(9, 9, 200), LookAt({0, -10, 4}, {0, 0, 4}), SkyOnly());
+      renderer.Photograph(test::Pinhole(9, 9, 200), LookAt({0, -10, 4}, {0, 0, 4}), SkyOnly());
   // The rest comes from the ground as bounced light: white on average by a vanishing area.
   EXPECT_NEAR(picture.rgb[3 * 40], 0.5, 0.02);
 }
 
 TEST(RenderLight, ShadowEndsWhereTheSunSays) {
   Scene scene;
-  const int white = testing::AddTexture(scene, testing::Plain(255));
+  const int white = test::AddTexture(scene, test::Plain(255));
   AddGround(scene, white);
   // A wall along x, 6 m high; the sun stands in the south at tan = 0.75: shadow of 8 m northwards.
-  testing::AddQuad(scene, {{-50, 0, 6}, {100, 0, 0}, {0, 0, -6}}, white, "wall");
+  test::AddQuad(scene, {{-50, 0, 6}, {100, 0, 0}, {0, 0, -6}}, white, "wall");
   const Renderer renderer(std::move(scene));
   const Light light = SunOnly({0, -0.8, 0.6});
   // Pixels of 5 mm. Where the sky is hidden there is bounced light, nowhere as much as in the sun.
@@ -133,12 +130,12 @@ TEST(RenderLight, ShadowEndsWhereTheSunSays) {
 
 TEST(RenderLight, SunBehindASurfaceDoesNotLightIt) {
   Scene scene;
-  testing::AddQuad(scene, {{-1, 0, 1}, {2, 0, 0}, {0, 0, -2}},
-                   testing::AddTexture(scene, testing::Plain(255)));
+  test::AddQuad(scene, {{-1, 0, 1}, {2, 0, 0}, {0, 0, -2}},
+                test::AddTexture(scene, test::Plain(255)));
   const Renderer renderer(std::move(scene));
   const auto seen_from = [&](double y) {
     const Radiance picture = renderer.Photograph(
-        testing::Pinhole(9, 9, 200), LookAt({0, y, 0}, {0, 0, 0}), SunOnly({0, -0.8, 0.6}));
+        test::Pinhole(9, 9, 200), LookAt({0, y, 0}, {0, 0, 0}), SunOnly({0, -0.8, 0.6}));
     return picture.rgb[3 * 40];
   };
   EXPECT_GT(seen_from(-5), 0.79f);
@@ -147,12 +144,12 @@ TEST(RenderLight, SunBehindASurfaceDoesNotLightIt) {
 
 TEST(RenderLight, FineCheckerFarAwayIsTheGreyOfLinearLight) {
   Scene scene;
-  const int board = testing::AddTexture(scene, testing::Checkerboard(512, 512, 1));
-  testing::AddQuad(scene, {{-50, 50, 0}, {100, 0, 0}, {0, -100, 0}}, board, "ground", 10);
+  const int board = test::AddTexture(scene, test::Checkerboard(512, 512, 1));
+  test::AddQuad(scene, {{-50, 50, 0}, {100, 0, 0}, {0, -100, 0}}, board, "ground", 10);
   const Renderer renderer(std::move(scene));
   // Squares of 2 cm from 30 m up and obliquely: 0.1 to 4 of them per pixel.
-  const Radiance picture = renderer.Photograph(testing::Pinhole(300, 200, 150),
-                                               LookAt({0, -20, 30}, {0, 8, 0}), Albedo());
+  const Radiance picture =
+      renderer.Photograph(test::Pinhole(300, 200, 150), LookAt({0, -20, 30}, {0, 8, 0}), Albedo());
   double lowest = 1, highest = 0;
   for (int y = 60; y < 140; ++y) {
     for (int x = 90; x < 210; ++x) {
@@ -173,12 +170,12 @@ TEST(RenderLight, StripesStaySharpAtGrazingAngles) {
     stripes.data.insert(stripes.data.end(), 3, (i % 64) / 8 % 2 != 0 ? 255 : 0);
   }
   // Repeats every 3.2 m: stripes of 0.4 m.
-  testing::AddQuad(scene, {{-32, 64, 0}, {64, 0, 0}, {0, -64, 0}},
-                   testing::AddTexture(scene, stripes), "ground", 20);
+  test::AddQuad(scene, {{-32, 64, 0}, {64, 0, 0}, {0, -64, 0}}, test::AddTexture(scene, stripes),
+                "ground", 20);
   const Renderer renderer(std::move(scene));
   // 20 m away and 2 m up: a pixel covers 0.05 m across and 0.5 m along the ground.
   const Radiance picture =
-      renderer.Photograph(testing::Pinhole(200, 100, 400), LookAt({0, 0, 2}, {0, 20, 0}), Albedo());
+      renderer.Photograph(test::Pinhole(200, 100, 400), LookAt({0, 0, 2}, {0, 20, 0}), Albedo());
   float lowest = 1, highest = 0;
   for (int x = 60; x < 140; ++x) {
     lowest = std::min(lowest, picture.rgb[3 * (static_cast<size_t>(50) * 200 + x)]);
@@ -190,12 +187,12 @@ TEST(RenderLight, StripesStaySharpAtGrazingAngles) {
 
 TEST(RenderLight, EdgesAreAntiAliased) {
   Scene scene;
-  const int white = testing::AddTexture(scene, testing::Plain(255));
+  const int white = test::AddTexture(scene, test::Plain(255));
   // Its right edge runs slantwise through the picture.
-  testing::AddQuad(scene, {{-5, 0, 5}, {5.5f, 0, 0}, {-1, 0, -10}}, white);
+  test::AddQuad(scene, {{-5, 0, 5}, {5.5f, 0, 0}, {-1, 0, -10}}, white);
   const Renderer renderer(std::move(scene));
-  const Radiance picture = renderer.Photograph(testing::Pinhole(100, 100, 100),
-                                               LookAt({0, -10, 0}, {0, 0, 0}), Albedo());
+  const Radiance picture =
+      renderer.Photograph(test::Pinhole(100, 100, 100), LookAt({0, -10, 0}, {0, 0, 0}), Albedo());
   double covered = 0;
   int between = 0;
   for (int y = 20; y < 80; ++y) {
@@ -215,12 +212,12 @@ TEST(RenderLight, EdgesInAMirrorAreAntiAliased) {
   Material pane;
   pane.gloss = 1;
   pane.colour.setZero();
-  testing::AddQuad(scene, {{-5, 0, 5}, {10, 0, 0}, {0, 0, -10}}, testing::AddMaterial(scene, pane));
+  test::AddQuad(scene, {{-5, 0, 5}, {10, 0, 0}, {0, 0, -10}}, test::AddMaterial(scene, pane));
   // Behind the camera, black before the sky; its edge runs slantwise.
-  testing::AddQuad(scene, {{5, -20, 15}, {-5.5f, 0, 0}, {1, 0, -30}}, AddBlack(scene));
+  test::AddQuad(scene, {{5, -20, 15}, {-5.5f, 0, 0}, {1, 0, -30}}, AddBlack(scene));
   const Renderer renderer(std::move(scene));
-  const Radiance picture = renderer.Photograph(testing::Pinhole(100, 100, 100),
-                                               LookAt({0, -10, 0}, {0, 0, 0}), SkyOnly());
+  const Radiance picture =
+      renderer.Photograph(test::Pinhole(100, 100, 100), LookAt({0, -10, 0}, {0, 0, 0}), SkyOnly());
   int black = 0, between = 0;
   for (int y = 5; y < 40; ++y) {  // above the horizon
     const auto at = [&](int x) { return picture.rgb[3 * (static_cast<size_t>(y) * 100 + x)]; };
@@ -237,12 +234,12 @@ TEST(RenderLight, EdgesInAMirrorAreAntiAliased) {
 
 TEST(RenderLight, CutOutLetsSightAndSunThrough) {
   Scene scene;
-  const int white = testing::AddTexture(scene, testing::Plain(255));
+  const int white = test::AddTexture(scene, test::Plain(255));
   Image half{2, 1, 4, {255, 0, 0, 255, 0, 0, 0, 0}};
-  const int leaf = testing::AddTexture(scene, half);
+  const int leaf = test::AddTexture(scene, half);
   scene.materials[leaf].cut_out = true;
   AddGround(scene, white);
-  testing::AddQuad(scene, {{-10, 10, 5}, {20, 0, 0}, {0, -20, 0}}, leaf, "leaf");
+  test::AddQuad(scene, {{-10, 10, 5}, {20, 0, 0}, {0, -20, 0}}, leaf, "leaf");
   const Renderer renderer(std::move(scene));
   const Light noon = SunOnly({0, 0, 1});
   const Eigen::Vector3f on_leaf = Down(renderer, -5, 0, 20, noon);
@@ -256,24 +253,24 @@ TEST(RenderLight, CutOutLetsSightAndSunThrough) {
 
 TEST(RenderLight, LeavesAreLitThroughFromBehind) {
   Scene scene;
-  const int leaf = testing::AddTexture(scene, Image{1, 1, 4, {255, 255, 255, 255}});
+  const int leaf = test::AddTexture(scene, Image{1, 1, 4, {255, 255, 255, 255}});
   scene.materials[leaf].cut_out = true;
-  testing::AddQuad(scene, {{-10, 10, 5}, {20, 0, 0}, {0, -20, 0}}, leaf, "leaf");
+  test::AddQuad(scene, {{-10, 10, 5}, {20, 0, 0}, {0, -20, 0}}, leaf, "leaf");
   const Renderer renderer(std::move(scene));
   const Pose up = LookAt({0, 0, 1}, {0, 0, 2}, Eigen::Vector3d::UnitY());
-  const Camera camera = testing::Pinhole(9, 9, 200);
+  const Camera camera = test::Pinhole(9, 9, 200);
   EXPECT_GT(renderer.Photograph(camera, up, SunOnly({0.1, 0, 1})).rgb[3 * 40], 0.3f);
   EXPECT_GT(Down(renderer, 0, 0, 20, SunOnly({0.1, 0, 1})).x(), 0.6f);
 }
 
 TEST(RenderLight, LeavesOutWhatIsNotWanted) {
   Scene scene;
-  const int white = testing::AddTexture(scene, testing::Plain(255));
+  const int white = test::AddTexture(scene, test::Plain(255));
   AddGround(scene, white);
-  testing::AddBox(scene, {-5, -5, 0}, {5, 5, 5}, AddBlack(scene), "house");
+  test::AddBox(scene, {-5, -5, 0}, {5, 5, 5}, AddBlack(scene), "house");
   const Renderer renderer(std::move(scene));
   const Pose pose = LookAt({0, 0, 30}, {0, 0, 0}, Eigen::Vector3d::UnitY());
-  const Camera camera = testing::Pinhole(9, 9, 200);
+  const Camera camera = test::Pinhole(9, 9, 200);
   EXPECT_EQ(renderer.Photograph(camera, pose, Albedo()).rgb[3 * 40], 0);
   RenderOptions options;
   options.left_out = {false, true};
@@ -286,17 +283,17 @@ TEST(RenderLight, LeavesOutWhatIsNotWanted) {
 
 Scene Village() {
   Scene scene;
-  const int ground = testing::AddTexture(scene, testing::Checkerboard(8, 8, 16));
-  const int wall = testing::AddTexture(scene, testing::Checkerboard(30, 20, 3));
+  const int ground = test::AddTexture(scene, test::Checkerboard(8, 8, 16));
+  const int wall = test::AddTexture(scene, test::Checkerboard(30, 20, 3));
   Material pane;
   pane.gloss = 1;
   pane.colour.setConstant(0.1f);
-  const int glass = testing::AddMaterial(scene, pane);
+  const int glass = test::AddMaterial(scene, pane);
   AddGround(scene, ground);
   for (int i = 0; i < 6; ++i) {
     const auto x = static_cast<float>(i % 3) * 20, y = static_cast<float>(i / 3) * 25;
-    testing::AddBox(scene, {x, y, 0}, {x + 11, y + 9, 6 + static_cast<float>(i)},
-                    i == 4 ? glass : wall, "house");
+    test::AddBox(scene, {x, y, 0}, {x + 11, y + 9, 6 + static_cast<float>(i)},
+                 i == 4 ? glass : wall, "house");
   }
   return scene;
 }
@@ -304,7 +301,7 @@ Scene Village() {
 TEST(RenderLight, SamePictureAtAnyNumberOfThreads) {
   const Renderer one(Village());
   const Renderer two(Village());
-  const Camera camera = testing::Pinhole(203, 151, 170);
+  const Camera camera = test::Pinhole(203, 151, 170);
   const Pose pose = LookAt({-20, -30, 25}, {25, 20, 2});
   Light light;
   light.haze_m = 400;
@@ -332,7 +329,7 @@ TEST(RenderLight, PicturesAreFiniteAndNotNegative) {
   for (const Pose& pose : {LookAt({-20, -30, 25}, {25, 20, 2}), LookAt({5, 4, 3}, {25, 20, 2}),
                            LookAt({0, 4, 3}, {25, 20, 2}),
                            LookAt({5, -20, 1}, {5, -20, 9}, Eigen::Vector3d::UnitY())}) {
-    const Radiance picture = renderer.Photograph(testing::Pinhole(80, 60, 50), pose, {});
+    const Radiance picture = renderer.Photograph(test::Pinhole(80, 60, 50), pose, {});
     for (const float value : picture.rgb) {
       ASSERT_TRUE(std::isfinite(value));
       ASSERT_GE(value, 0);
@@ -342,7 +339,7 @@ TEST(RenderLight, PicturesAreFiniteAndNotNegative) {
 
 TEST(RenderLight, EmptySceneIsSky) {
   const Renderer renderer{Scene{}};
-  const Camera camera = testing::Pinhole(8, 8, 10);
+  const Camera camera = test::Pinhole(8, 8, 10);
   const Pose pose = LookAt({0, 0, 0}, {0, 1, 0.5});
   EXPECT_GT(renderer.Photograph(camera, pose, {}).rgb[0], 0.1f);
   EXPECT_EQ(renderer.Photograph(camera, pose, Albedo()).rgb[0], 0);
@@ -352,11 +349,11 @@ TEST(RenderLight, EmptySceneIsSky) {
 
 TEST(RenderLight, RefusesWhatCannotBeDrawn) {
   const Renderer renderer(Village());
-  Camera camera = testing::Pinhole(8, 8, -1);
+  Camera camera = test::Pinhole(8, 8, -1);
   EXPECT_THROW(renderer.Photograph(camera, {}, {}), Error);
   Pose lost;
   lost.translation.x() = std::nan("");
-  EXPECT_THROW(renderer.Photograph(testing::Pinhole(8, 8, 9), lost, {}), Error);
+  EXPECT_THROW(renderer.Photograph(test::Pinhole(8, 8, 9), lost, {}), Error);
   Scene broken = Village();
   broken.triangles[0].x() = 1 << 20;
   EXPECT_THROW(Renderer{std::move(broken)}, Error);
@@ -367,7 +364,7 @@ TEST(RenderLight, RefusesWhatCannotBeDrawn) {
 
 TEST(RenderLight, OvercastSkyIsBrightestAboveAndClearSkyBelow) {
   const Renderer renderer{Scene{}};
-  const Camera camera = testing::Pinhole(9, 9, 500);
+  const Camera camera = test::Pinhole(9, 9, 500);
   const auto towards = [&](const Eigen::Vector3d& to, const Light& light) {
     const Radiance picture =
         renderer.Photograph(camera, LookAt({0, 0, 0}, to, {0.1, 0.9, 0.1}), light);

@@ -5,21 +5,21 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-namespace stucco::simulate::testing {
+namespace stucco::test {
 
-int AddMaterial(Scene& scene, const Material& material) {
+int AddMaterial(simulate::Scene& scene, const simulate::Material& material) {
   scene.materials.push_back(material);
   return static_cast<int>(scene.materials.size()) - 1;
 }
 
-int AddTexture(Scene& scene, const Image& image) {
+int AddTexture(simulate::Scene& scene, const Image& image) {
   scene.textures.push_back(image);
-  Material material;
+  simulate::Material material;
   material.texture = static_cast<int>(scene.textures.size()) - 1;
   return AddMaterial(scene, material);
 }
 
-void AddQuad(Scene& scene, const Quad& quad, int material, const std::string& element,
+void AddQuad(simulate::Scene& scene, const Quad& quad, int material, const std::string& element,
              float repeats) {
   const auto named = std::find(scene.elements.begin(), scene.elements.end(), element);
   const auto number = static_cast<int>(named - scene.elements.begin());
@@ -37,8 +37,8 @@ void AddQuad(Scene& scene, const Quad& quad, int material, const std::string& el
   }
 }
 
-void AddBox(Scene& scene, const Eigen::Vector3f& low, const Eigen::Vector3f& high, int material,
-            const std::string& element) {
+void AddBox(simulate::Scene& scene, const Eigen::Vector3f& low, const Eigen::Vector3f& high,
+            int material, const std::string& element) {
   const Eigen::Vector3f size = high - low;
   const Eigen::Vector3f x(size.x(), 0, 0), y(0, size.y(), 0), z(0, 0, size.z());
   AddQuad(scene, {low + z, x, -z}, material, element);           // south
@@ -85,4 +85,4 @@ Camera Pinhole(int width_px, int height_px, double focal_px) {
   return camera;
 }
 
-}  // namespace stucco::simulate::testing
+}  // namespace stucco::test

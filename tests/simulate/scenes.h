@@ -10,7 +10,7 @@
 #include "survey/image.h"
 #include "survey/pose.h"
 
-namespace stucco::simulate::testing {
+namespace stucco::test {
 
 // A parallelogram whose picture has its top-left corner at `top_left`, its top-right at
 // top_left + right and its bottom-left at top_left + down; the front is at down x right.
@@ -20,13 +20,14 @@ struct Quad {
   Eigen::Vector3f down;
 };
 
-int AddMaterial(Scene& scene, const Material& material);
-int AddTexture(Scene& scene, const Image& image);  // and a material with it: returns the material
-void AddQuad(Scene& scene, const Quad& quad, int material, const std::string& element = "part",
-             float repeats = 1);
+int AddMaterial(simulate::Scene& scene, const simulate::Material& material);
+int AddTexture(simulate::Scene& scene,
+               const Image& image);  // and a material with it: returns the material
+void AddQuad(simulate::Scene& scene, const Quad& quad, int material,
+             const std::string& element = "part", float repeats = 1);
 // Axis-aligned, walls outwards.
-void AddBox(Scene& scene, const Eigen::Vector3f& low, const Eigen::Vector3f& high, int material,
-            const std::string& element);
+void AddBox(simulate::Scene& scene, const Eigen::Vector3f& low, const Eigen::Vector3f& high,
+            int material, const std::string& element);
 
 // Squares of `square_px`, the top-left one black.
 Image Checkerboard(int columns, int rows, int square_px);
@@ -37,4 +38,4 @@ Pose LookAt(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
             const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
 Camera Pinhole(int width_px, int height_px, double focal_px);
 
-}  // namespace stucco::simulate::testing
+}  // namespace stucco::test

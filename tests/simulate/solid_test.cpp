@@ -14,7 +14,7 @@
 namespace stucco::simulate {
 namespace {
 
-Eigen::Vector3d AreaVector(const Solid& solid, const std::vector<int>& ring) {
+Eigen::Vector3d AreaOfRing(const Solid& solid, const std::vector<int>& ring) {
   Eigen::Vector3d area = Eigen::Vector3d::Zero();
   for (size_t i = 1; i + 1 < ring.size(); ++i) {
     area += (solid.vertices[ring[i]] - solid.vertices[ring[0]])
@@ -28,8 +28,8 @@ Eigen::Vector3d AreaVector(const Solid& solid, const std::vector<int>& ring) {
 double Volume(const Solid& solid) {
   double volume = 0;
   for (const Solid::Face& face : solid.faces) {
-    Eigen::Vector3d area = AreaVector(solid, face.outer);
-    for (const auto& hole : face.holes) area += AreaVector(solid, hole);
+    Eigen::Vector3d area = AreaOfRing(solid, face.outer);
+    for (const auto& hole : face.holes) area += AreaOfRing(solid, hole);
     volume += area.dot(solid.vertices[face.outer[0]]) / 3;
   }
   return volume;
@@ -38,7 +38,7 @@ double Volume(const Solid& solid) {
 double WorstDistanceFromPlane(const Solid& solid) {
   double worst = 0;
   for (const Solid::Face& face : solid.faces) {
-    const Eigen::Vector3d normal = AreaVector(solid, face.outer).normalized();
+    const Eigen::Vector3d normal = AreaOfRing(solid, face.outer).normalized();
     for (const int corner : face.outer) {
       worst = std::max(
           worst, std::abs(normal.dot(solid.vertices[corner] - solid.vertices[face.outer[0]])));

@@ -17,7 +17,7 @@ namespace {
 
 using internal::Footprint;
 using internal::TextureGrain;
-using testing::LookAt;
+using test::LookAt;
 
 constexpr int kSide = 256;
 
@@ -122,11 +122,10 @@ TEST(TextureGrain, BadPlacesAndSmallTexturesAreHarmless) {
 TEST(TextureGrain, BelongsToTheSurface) {
   Scene scene;
   // 10 m wide: texels of 39 mm.
-  testing::AddQuad(scene, {{-5, 0, 5}, {10, 0, 0}, {0, 0, -10}},
-                   testing::AddTexture(scene, Speckled(6)));
+  test::AddQuad(scene, {{-5, 0, 5}, {10, 0, 0}, {0, 0, -10}}, test::AddTexture(scene, Speckled(6)));
   const Renderer renderer(std::move(scene));
   const auto grain_from = [&](double distance, double focal) {
-    const Camera camera = testing::Pinhole(120, 120, focal);
+    const Camera camera = test::Pinhole(120, 120, focal);
     const Pose pose = LookAt({0, -distance, 0}, {0, 0, 0});
     Light flat;
     flat.sun.setZero();

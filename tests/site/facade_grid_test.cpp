@@ -9,14 +9,8 @@
 namespace stucco {
 namespace {
 
-// The south wall of a house of 20 m by 10 m and 9 m height is facade 0.
-Site House() {
-  return MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 10)},
-                  {.safe_altitude_m = 25, .heights_m = {9}});
-}
-
 TEST(FacadeGrid, HasCellsOfAboutASquareMetre) {
-  const Site site = House();
+  const Site site = LoneHouse();
   const FacadeGrid grid(site.facades[0]);
   EXPECT_EQ(grid.columns, 20);
   EXPECT_EQ(grid.rows, 9);
@@ -27,7 +21,7 @@ TEST(FacadeGrid, HasCellsOfAboutASquareMetre) {
 }
 
 TEST(FacadeGrid, OfSmallAndLargeFacadesHasAFewAndNotTooManyCells) {
-  Facade facade = House().facades[0];
+  Facade facade = LoneHouse().facades[0];
   facade.b = {0.4, 0};
   facade.z_m = {0, 0.5};
   EXPECT_EQ(FacadeGrid(facade).columns, 3);

@@ -13,18 +13,13 @@
 namespace stucco {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kReach_m = 80;
 constexpr FieldOfView kField{0.5 * 17.3 / 12.29, 0.5 * 13 / 12.29};
 
-// The south wall of a house of 20 m by 10 m and 9 m height is facade 0.
-Site House() {
-  return MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 10)},
-                  {.safe_altitude_m = 25, .heights_m = {9}});
-}
-
 Viewpoint Looking(const Eigen::Vector3d& from, double yaw_deg, double pitch_deg = 0) {
-  return {from, {LevelFrustum(kField, from, yaw_deg * kPi / 180, pitch_deg * kPi / 180, kReach_m)}};
+  return {from,
+          {LevelFrustum(kField, from, yaw_deg * std::numbers::pi / 180,
+                        pitch_deg * std::numbers::pi / 180, kReach_m)}};
 }
 
 FacadeViews ViewsFrom(const Site& site, const std::vector<Viewpoint>& places, double reach_m) {
@@ -39,17 +34,17 @@ size_t CellsSeen(const Site& site, const Viewpoint& place, int facade = 0) {
 }
 
 TEST(FacadeViews, AFrontalViewSeesTheWholeWall) {
-  EXPECT_EQ(CellsSeen(House(), Looking({10, -20, 4.5}, 0)), 180U);
+  EXPECT_EQ(CellsSeen(LoneHouse(), Looking({10, -20, 4.5}, 0)), 180U);
 }
 
 TEST(FacadeViews, ThePictureEndsTheView) {
   // At 10 m, half the picture is 10 * 17.3 / 12.29 / 2 = 7.0 m wide and 5.3 m high.
-  const size_t seen = CellsSeen(House(), Looking({0, -10, 4.5}, 0));
+  const size_t seen = CellsSeen(LoneHouse(), Looking({0, -10, 4.5}, 0));
   EXPECT_NEAR(static_cast<double>(seen), 7 * 9, 9);
 }
 
 TEST(FacadeViews, NothingIsSeenFromBehindFarAwaySteeplyOrLookingAway) {
-  const Site site = House();
+  const Site site = LoneHouse();
   EXPECT_EQ(CellsSeen(site, Looking({10, 30, 4.5}, 180)), 0U);
   EXPECT_EQ(CellsSeen(site, Looking({10, -81, 4.5}, 0)), 0U);
   EXPECT_GT(CellsSeen(site, Looking({10, -79, 4.5}, 0)), 0U);
@@ -66,7 +61,7 @@ TEST(FacadeViews, OtherBuildingsHideTheWall) {
 }
 
 TEST(FacadeViews, WhatIsSeenAndWhatIsNotAreTheWholeWall) {
-  const Site site = House();
+  const Site site = LoneHouse();
   const FacadeViews views =
       ViewsFrom(site, {Looking({0, -10, 4.5}, 0), Looking({4, -10, 4.5}, 0)}, kReach_m);
   std::vector<int> seen(views.grid(0).size());
@@ -96,8 +91,9 @@ TEST(FacadeViews, FindsWhatAskingEveryPhotoFinds) {
   for (Viewpoint& place : places) {
     place.position = {160 * unit(random) - 80, 160 * unit(random) - 80, 20 + 20 * unit(random)};
     for (int k = 0; k < 3; ++k) {
-      place.pictures.push_back(LevelFrustum(kField, place.position, 2 * kPi * unit(random),
-                                            -kPi / 3 * unit(random), reach));
+      place.pictures.push_back(LevelFrustum(kField, place.position,
+                                            2 * std::numbers::pi * unit(random),
+                                            -std::numbers::pi / 3 * unit(random), reach));
     }
   }
   const FacadeViews sight = ViewsFrom(site, places, reach);
@@ -114,7 +110,7 @@ TEST(FacadeViews, FindsWhatAskingEveryPhotoFinds) {
         for (uint32_t cell = 0; cell < grid.size(); ++cell) {
           const Eigen::Vector3d ray = p - grid.Center(cell);
           const double cosine = ray.head<2>().dot(site.facades[f].normal()) / ray.norm();
-          if (cosine < std::cos(75 * kPi / 180)) continue;
+          if (cosine < std::cos(75 * std::numbers::pi / 180)) continue;
           if (!places[h].pictures[k].Contains(grid.Center(cell))) continue;
           if (model.Sees(p, grid.Center(cell))) cells.push_back(cell);
         }

@@ -11,19 +11,18 @@
 namespace stucco {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // 60 degrees wide, 40 high.
 Frustum Looking(double yaw_rad, double pitch_rad) {
-  return LevelFrustum({std::tan(kPi / 6), std::tan(kPi / 9)}, {1, 2, 30}, yaw_rad, pitch_rad, 100);
+  return LevelFrustum({std::tan(std::numbers::pi / 6), std::tan(std::numbers::pi / 9)}, {1, 2, 30},
+                      yaw_rad, pitch_rad, 100);
 }
 
 TEST(Frustum, EndsAtTheFieldOfView) {
-  const Frustum east = Looking(kPi / 2, 0);
+  const Frustum east = Looking(std::numbers::pi / 2, 0);
   const auto at = [&](double right_rad, double up_rad) {
     return Eigen::Vector3d(1 + 10, 2 - 10 * std::tan(right_rad), 30 + 10 * std::tan(up_rad));
   };
-  const double degree = kPi / 180;
+  const double degree = std::numbers::pi / 180;
   EXPECT_TRUE(east.Contains(at(0, 0)));
   EXPECT_TRUE(east.Contains(at(29.9 * degree, 19.9 * degree)));
   EXPECT_TRUE(east.Contains(at(-29.9 * degree, -19.9 * degree)));
@@ -34,7 +33,7 @@ TEST(Frustum, EndsAtTheFieldOfView) {
 }
 
 TEST(Frustum, EndsAtItsReachAndBehindTheCamera) {
-  const Frustum east = Looking(kPi / 2, 0);
+  const Frustum east = Looking(std::numbers::pi / 2, 0);
   EXPECT_TRUE(east.Contains({1 + 99.9, 2, 30}));
   EXPECT_FALSE(east.Contains({1 + 100.1, 2, 30}));
   EXPECT_FALSE(east.Contains({1 - 10, 2, 30}));
@@ -42,7 +41,7 @@ TEST(Frustum, EndsAtItsReachAndBehindTheCamera) {
 }
 
 TEST(Frustum, LookingDownTheYawIsTheTopOfThePicture) {
-  const Frustum down = Looking(0, -kPi / 2);
+  const Frustum down = Looking(0, -std::numbers::pi / 2);
   EXPECT_NEAR((down.down - Eigen::Vector3d(0, -1, 0)).norm(), 0, 1e-12);
   EXPECT_TRUE(down.Contains({1 + 17, 2, 0}));   // half a width is 30 tan(30) = 17.3 m
   EXPECT_FALSE(down.Contains({1, 2 + 17, 0}));  // half a height is 10.9 m
@@ -54,7 +53,8 @@ TEST(Frustum, NoBoxWithAPointInThePictureIsLeftOut) {
   std::uniform_real_distribution<double> unit(0, 1);
   int out = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Frustum frustum = Looking(2 * kPi * unit(random), -0.5 * kPi * unit(random));
+    const Frustum frustum =
+        Looking(2 * std::numbers::pi * unit(random), -0.5 * std::numbers::pi * unit(random));
     const auto point = [&] {
       return Eigen::Vector3d(240 * unit(random) - 120, 240 * unit(random) - 120, 60 * unit(random));
     };

@@ -80,6 +80,11 @@ Site MadeSite(const std::vector<Ring>& footprints, const MadeSiteOptions& option
   return MadeSite(polygons, options);
 }
 
+Site LoneHouse() {
+  return MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 10)},
+                  {.safe_altitude_m = 25, .heights_m = {9}});
+}
+
 Ring Rectangle(double x0, double y0, double x1, double y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
 }

@@ -24,6 +24,9 @@ struct MadeSiteOptions {
 Site MadeSite(const std::vector<Polygon>& footprints, const MadeSiteOptions& options = {});
 Site MadeSite(const std::vector<Ring>& footprints, const MadeSiteOptions& options = {});
 
+// A house of 20 m by 10 m and 9 m height alone; its south wall is facade 0.
+Site LoneHouse();
+
 Ring Rectangle(double x0, double y0, double x1, double y1);  // counter-clockwise
 Ring Reversed(Ring ring);                                    // as a courtyard
 

@@ -13,8 +13,6 @@
 namespace stucco {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 constexpr FieldOfView kField{0.7, 0.53};
 constexpr double kReach_m = 90;
 
@@ -29,8 +27,8 @@ Viewpoint RandomPlace(std::mt19937& random) {
   const int pictures = 1 + static_cast<int>(5 * unit(random));
   for (int i = 0; i < pictures; ++i) {
     const bool nadir = unit(random) < 0.3;
-    const double pitch = nadir ? -kPi / 2 : -kPi / 2 * unit(random);
-    out.pictures.push_back(Picture(out.position, 2 * kPi * unit(random), pitch));
+    const double pitch = nadir ? -std::numbers::pi / 2 : -std::numbers::pi / 2 * unit(random);
+    out.pictures.push_back(Picture(out.position, 2 * std::numbers::pi * unit(random), pitch));
   }
   return out;
 }
@@ -77,7 +75,7 @@ TEST(Sightings, APlaceWithoutPicturesSeesNothing) {
   const SurfaceView view(site, kField, SampleSurface(site, {}), kReach_m);
   const Eigen::Vector3d above(5, 5, 40);
   EXPECT_TRUE(SightingsFrom({above, {}}, view).empty());
-  EXPECT_FALSE(SightingsFrom({above, {Picture(above, 0, -kPi / 2)}}, view).empty());
+  EXPECT_FALSE(SightingsFrom({above, {Picture(above, 0, -std::numbers::pi / 2)}}, view).empty());
 }
 
 TEST(SampleIndex, NearFindsAllOfTheSquareAndNothingBeyondItsCells) {

@@ -23,7 +23,7 @@ GreyPicture Shifted(const GridShift& shift) {
       for (int part = 0; part < 9; ++part) {
         const Eigen::Vector2d at(x + (part % 3 + 0.5) / 3, y + (part / 3 + 0.5) / 3);
         const Eigen::Vector2d wall = at - shift.At(at);
-        sum += testing::WallColour(0.01 * wall.x(), 3 - 0.01 * wall.y()).mean() / 9;
+        sum += test::WallColour(0.01 * wall.x(), 3 - 0.01 * wall.y()).mean() / 9;
       }
       picture.grey.push_back(static_cast<uint8_t>(sum));
     }

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace stucco::testing {
+namespace stucco::test {
 namespace {
 
 double SumOf(const std::vector<float>& values, int width, const CellRectangle& cells) {
@@ -58,4 +58,4 @@ TEST(BestRectangle, IsEmptyWhereNothingIsPositive) {
 }
 
 }  // namespace
-}  // namespace stucco::testing
+}  // namespace stucco::test

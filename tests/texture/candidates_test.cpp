@@ -11,9 +11,9 @@
 namespace stucco {
 namespace {
 
-using testing::LookFrom;
-using testing::MakeProxy;
-using testing::MakeWall;
+using test::LookFrom;
+using test::MakeProxy;
+using test::MakeWall;
 
 class MeasuredWall : public ::testing::Test {
  protected:

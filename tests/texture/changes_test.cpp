@@ -12,9 +12,9 @@
 namespace stucco {
 namespace {
 
-using testing::Colour;
-using testing::MakeWall;
-using testing::WallPicture;
+using test::Colour;
+using test::MakeWall;
+using test::WallPicture;
 
 // A wall of 256 x 192 texels, painted by one photo.
 FacetPicture Wall() {

@@ -14,14 +14,14 @@
 namespace stucco {
 namespace {
 
-constexpr int kWidth = 30;
-constexpr int kHeight = 20;
+constexpr int kPictureWidth = 30;
+constexpr int kPictureHeight = 20;
 
 RasterPicture Plain(float grey) {
   RasterPicture picture;
-  picture.sight.assign(kWidth * kHeight, Sight::kFree);
-  picture.cost.assign(kWidth * kHeight, 0);
-  picture.rgb.assign(3 * kWidth * kHeight, grey);
+  picture.sight.assign(kPictureWidth * kPictureHeight, Sight::kFree);
+  picture.cost.assign(kPictureWidth * kPictureHeight, 0);
+  picture.rgb.assign(3 * kPictureWidth * kPictureHeight, grey);
   return picture;
 }
 
@@ -29,15 +29,15 @@ RasterPicture Plain(float grey) {
 // before the second's left half, and the first looks past the top row.
 PaintRecord MadeRecord() {
   PaintRecord record;
-  record.raster.grid.width = kWidth;
-  record.raster.grid.height = kHeight;
-  record.raster.inside.assign(kWidth * kHeight, 1);
+  record.raster.grid.width = kPictureWidth;
+  record.raster.grid.height = kPictureHeight;
+  record.raster.inside.assign(kPictureWidth * kPictureHeight, 1);
   record.photos = {1, 0};
   record.pictures = {Plain(100), Plain(200)};
-  for (int i = 0; i < kWidth * kHeight; ++i) {
-    record.owner.push_back(i % kWidth < 20 ? 0 : 1);
-    if (i % kWidth < 15) record.pictures[1].sight[i] = Sight::kBehind;
-    if (i < kWidth) record.pictures[0].sight[i] = Sight::kBeyond;
+  for (int i = 0; i < kPictureWidth * kPictureHeight; ++i) {
+    record.owner.push_back(i % kPictureWidth < 20 ? 0 : 1);
+    if (i % kPictureWidth < 15) record.pictures[1].sight[i] = Sight::kBehind;
+    if (i < kPictureWidth) record.pictures[0].sight[i] = Sight::kBeyond;
   }
   return record;
 }
@@ -49,8 +49,8 @@ std::array<int, 3> At(const Image& image, int x, int y) {
 
 TEST(CandidateSheet, ShowsWhatStandsBeforeAFacetAndWhatIsBeyond) {
   const std::vector<SurveyPhoto> photos = {
-      testing::LookFrom("a.jpg", {0, -5, 0}, {0, 0, 0}, {40, 30, 50}),
-      testing::LookFrom("b.jpg", {1, -5, 0}, {0, 0, 0}, {40, 30, 50})};
+      test::LookFrom("a.jpg", {0, -5, 0}, {0, 0, 0}, {40, 30, 50}),
+      test::LookFrom("b.jpg", {1, -5, 0}, {0, 0, 0}, {40, 30, 50})};
   const Image sheet = CandidateSheet(MadeRecord(), photos);
   // Cells of 316 x 334 pixels; pictures of 300 x 200 that begin at (8, 8).
   ASSERT_EQ(sheet.width_px, 4 * 316);
@@ -64,10 +64,10 @@ TEST(CandidateSheet, ShowsWhatStandsBeforeAFacetAndWhatIsBeyond) {
 
 TEST(OwnerMap, GivesEachPhotoAColourAndDrawsTheSeam) {
   PaintRecord record = MadeRecord();
-  for (int y = 0; y < kHeight; ++y) record.owner[y * kWidth] = -1;
+  for (int y = 0; y < kPictureHeight; ++y) record.owner[y * kPictureWidth] = -1;
   const Image map = OwnerMap(record);
   ASSERT_EQ(map.width_px, 1600);
-  const double scale = 1600.0 / kWidth;
+  const double scale = 1600.0 / kPictureWidth;
   const auto at = [&](double x, double y) {
     return At(map, static_cast<int>(x * scale), static_cast<int>(y * scale));
   };
@@ -93,7 +93,7 @@ TEST(ReliefMap, TellsBeforeFromBehind) {
 // The pictures that explain a facet are left also where the facet itself comes from a checkpoint,
 // and change nothing in what is painted.
 TEST(RunTexture, LeavesExplanationsWhenAsked) {
-  testing::WallSurvey survey;
+  test::WallSurvey survey;
   survey.Add("a.jpg", {2, -4.2, 1.5}, {2, 0, 1.5});
   survey.Add("b.jpg", {3.5, -4.5, 2}, {2, 0, 1.5}, 0.7);
   TextureOptions options;

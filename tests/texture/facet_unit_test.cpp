@@ -57,9 +57,9 @@ TEST(FacetFiles, SurvivePacking) {
 TEST(FilesKey, ChangesWithWhatTheFacetDependsOnOnly) {
   TextureInput input;
   input.geometry_hash = "g";
-  const Facet wall = testing::MakeWall(4, 3);
+  const Facet wall = test::MakeWall(4, 3);
   for (const char* name : {"a", "b", "c"}) {
-    input.photos.push_back(testing::LookFrom(name, {2, -5, 1}, {2, 0, 1}, {100, 100, 100}));
+    input.photos.push_back(test::LookFrom(name, {2, -5, 1}, {2, 0, 1}, {100, 100, 100}));
   }
   FacetLook look;
   look.candidates = {{0, 1, 1}, {1, 1, 1}};
@@ -98,9 +98,9 @@ TEST(FilesKey, ChangesWithWhatTheFacetDependsOnOnly) {
 
 TEST(FilesKey, ChangesWithThePlannedPhotosOfTheFacade) {
   TextureInput input;
-  Facet wall = testing::MakeWall(4, 3);
+  Facet wall = test::MakeWall(4, 3);
   wall.planned_facades = {"B0009/F01"};
-  input.photos = {testing::LookFrom("a", {2, -5, 1}, {2, 0, 1}, {100, 100, 100})};
+  input.photos = {test::LookFrom("a", {2, -5, 1}, {2, 0, 1}, {100, 100, 100})};
   FacetLook look;
   look.candidates = {{0, 1, 1}};
   const std::vector<Eigen::Vector3d> gains(1, Eigen::Vector3d::Ones());

@@ -12,16 +12,16 @@
 namespace stucco {
 namespace {
 
-constexpr int kWidth = 150;
-constexpr int kHeight = 110;
+constexpr int kColumns = 150;
+constexpr int kRows = 110;
 
 // Bricks: periodic, so that what is missing can be copied from elsewhere.
 Image Bricks() {
   Image image;
-  image.width_px = kWidth;
-  image.height_px = kHeight;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  image.width_px = kColumns;
+  image.height_px = kRows;
+  for (int y = 0; y < kRows; ++y) {
+    for (int x = 0; x < kColumns; ++x) {
       const int shifted = x + (y / 10 % 2) * 8;
       const bool joint = y % 10 < 2 || shifted % 16 < 2;
       for (int k = 0; k < 3; ++k) image.data.push_back(joint ? 200 : 90 + 20 * k);
@@ -31,9 +31,9 @@ Image Bricks() {
 }
 
 std::vector<uint8_t> Square(int x0, int y0, int side) {
-  std::vector<uint8_t> mask(kWidth * kHeight, 0);
+  std::vector<uint8_t> mask(kColumns * kRows, 0);
   for (int y = y0; y < y0 + side; ++y) {
-    for (int x = x0; x < x0 + side; ++x) mask[y * kWidth + x] = 1;
+    for (int x = x0; x < x0 + side; ++x) mask[y * kColumns + x] = 1;
   }
   return mask;
 }
@@ -44,16 +44,16 @@ std::vector<uint8_t> Inverse(std::vector<uint8_t> mask) {
 }
 
 TEST(FillSmoothly, KeepsKnownTexelsAndAPlainColour) {
-  std::vector<float> rgb(3 * kWidth * kHeight, 0);
-  std::vector<uint8_t> known(kWidth * kHeight, 0);
-  for (int i = 0; i < kWidth * kHeight; i += 97) {
+  std::vector<float> rgb(3 * kColumns * kRows, 0);
+  std::vector<uint8_t> known(kColumns * kRows, 0);
+  for (int i = 0; i < kColumns * kRows; i += 97) {
     known[i] = 1;
     rgb[3 * i] = 50;
     rgb[3 * i + 1] = 60;
     rgb[3 * i + 2] = 70;
   }
-  FillSmoothly(rgb, known, kWidth, kHeight);
-  for (int i = 0; i < kWidth * kHeight; ++i) {
+  FillSmoothly(rgb, known, kColumns, kRows);
+  for (int i = 0; i < kColumns * kRows; ++i) {
     EXPECT_NEAR(rgb[3 * i], 50, 1e-3);
     EXPECT_NEAR(rgb[3 * i + 2], 70, 1e-3);
   }
@@ -82,11 +82,11 @@ TEST(FillPictureSmoothly, ChangesOnlyTheUnknown) {
   const Image truth = Bricks();
   Image picture = truth;
   const auto hole = Square(60, 40, 24);
-  for (int i = 0; i < kWidth * kHeight; ++i) {
+  for (int i = 0; i < kColumns * kRows; ++i) {
     if (hole[i]) picture.data[3 * i] = picture.data[3 * i + 1] = picture.data[3 * i + 2] = 0;
   }
   FillPictureSmoothly(picture, Inverse(hole));
-  for (int i = 0; i < kWidth * kHeight; ++i) {
+  for (int i = 0; i < kColumns * kRows; ++i) {
     if (hole[i]) {
       EXPECT_GT(picture.data[3 * i], 80);
     } else {
@@ -100,12 +100,12 @@ TEST(FillWithPatches, ContinuesAPattern) {
   const auto hole = Square(60, 40, 24);
   Image picture = truth;
   FillPictureSmoothly(picture, Inverse(hole));
-  const double smooth = testing::Psnr(picture, truth, hole);
+  const double smooth = test::Psnr(picture, truth, hole);
   FillWithPatches(picture, hole, Inverse(hole), 512, 1);
-  const double patched = testing::Psnr(picture, truth, hole);
+  const double patched = test::Psnr(picture, truth, hole);
   EXPECT_GT(patched, smooth + 4);
   EXPECT_GT(patched, 20);
-  EXPECT_GT(testing::Psnr(picture, truth, Inverse(hole)), 90);
+  EXPECT_GT(test::Psnr(picture, truth, Inverse(hole)), 90);
 }
 
 TEST(FillWithPatches, IsTheSameEveryTime) {

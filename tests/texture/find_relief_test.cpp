@@ -9,7 +9,7 @@
 #include "tests/texture/wall_survey.h"
 #include "texture/grid/relief_file.h"
 
-namespace stucco::testing {
+namespace stucco::test {
 namespace {
 
 const Balcony kBalcony = {{1.3, 1.2}, {2.7, 2.0}, 0.6};
@@ -86,4 +86,4 @@ TEST(RunTexture, FindsNoReliefOnAFlatWall) {
 }
 
 }  // namespace
-}  // namespace stucco::testing
+}  // namespace stucco::test

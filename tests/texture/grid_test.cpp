@@ -12,7 +12,7 @@
 namespace stucco {
 namespace {
 
-using testing::MakeWall;
+using test::MakeWall;
 
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 

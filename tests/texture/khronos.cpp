@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdio>
 
-namespace stucco::testing {
+namespace stucco::test {
 
 std::optional<std::string> KhronosFindings(const std::filesystem::path& glb) {
   const std::filesystem::path root = STUCCO_ROOT;
@@ -26,4 +26,4 @@ std::optional<std::string> KhronosFindings(const std::filesystem::path& glb) {
   return findings;
 }
 
-}  // namespace stucco::testing
+}  // namespace stucco::test

@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
-namespace stucco::testing {
+namespace stucco::test {
 
 // Errors and warnings of the Khronos glTF validator about a GLB, one a line, empty for none.
 // Nothing where the validator is not installed (scripts/install_checkers.sh does that).
 std::optional<std::string> KhronosFindings(const std::filesystem::path& glb);
 
-}  // namespace stucco::testing
+}  // namespace stucco::test

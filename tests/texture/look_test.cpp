@@ -12,8 +12,8 @@
 namespace stucco {
 namespace {
 
-using testing::LookFrom;
-using testing::MakeWall;
+using test::LookFrom;
+using test::MakeWall;
 
 SurveyPhoto KnownLens(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   SurveyPhoto photo = LookFrom("a", from, to, {640, 480, 600});
@@ -36,7 +36,7 @@ TEST(PhotosThatMaySee, LeavesOutWhatCannot) {
 
 TEST(PhotosThatMaySee, KeepsEveryPhotoThatSeesSomething) {
   const Facet wall = MakeWall(4, 3);
-  const OcclusionScene nothing(testing::MakeProxy({wall}));
+  const OcclusionScene nothing(test::MakeProxy({wall}));
   const TexelGrid grid = MakeGrid(wall, Eigen::Vector3d::UnitZ(), 0.25, 100);
   const FacetRaster raster{grid, std::vector<uint16_t>(grid.size(), 1), 1};
   std::mt19937 random(7);

@@ -13,7 +13,7 @@ constexpr uint64_t kMegabyte = 1'000'000;
 
 uint64_t Bytes(const Facet& facet, int candidates, int photo_side_px) {
   const std::vector<SurveyPhoto> photos = {
-      testing::LookFrom("a", {2, -5, 1}, {2, 0, 1}, {photo_side_px, photo_side_px, 500})};
+      test::LookFrom("a", {2, -5, 1}, {2, 0, 1}, {photo_side_px, photo_side_px, 500})};
   PaintScene scene;
   scene.sights.photos = photos;
   FacetLook look;
@@ -23,17 +23,17 @@ uint64_t Bytes(const Facet& facet, int candidates, int photo_side_px) {
 }
 
 TEST(PaintingBytes, CountsThePictureThePhotoAndTheCandidates) {
-  const Facet wall = testing::MakeWall(4, 3);
+  const Facet wall = test::MakeWall(4, 3);
   EXPECT_EQ(Bytes(wall, 0, 100), 0U);
   EXPECT_LT(Bytes(wall, 2, 100), 20 * kMegabyte);
   EXPECT_GT(Bytes(wall, 2, 5000), 100 * kMegabyte);  // 25 megapixels and their halvings
   EXPECT_GT(Bytes(wall, 100, 100), Bytes(wall, 2, 100));
-  EXPECT_GT(Bytes(testing::MakeWall(40, 30), 2, 100), 24 * 12 * kMegabyte);
+  EXPECT_GT(Bytes(test::MakeWall(40, 30), 2, 100), 24 * 12 * kMegabyte);
 }
 
 // The more photos, the coarser the rasters of a large facet: what they hold stays bounded.
 TEST(PaintingBytes, IsBounded) {
-  const Facet wall = testing::MakeWall(80, 80);
+  const Facet wall = test::MakeWall(80, 80);
   const uint64_t picture = 24 * 64 * kMegabyte;
   EXPECT_LT(Bytes(wall, 254, 5000), picture + 1300 * kMegabyte);
 }

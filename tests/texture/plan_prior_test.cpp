@@ -12,7 +12,7 @@ namespace {
 std::vector<SurveyPhoto> Photos(const std::vector<std::string>& names) {
   std::vector<SurveyPhoto> photos;
   for (const std::string& name : names) {
-    photos.push_back(testing::LookFrom(name, {2, -5, 1}, {2, 0, 1}, {100, 100, 100}));
+    photos.push_back(test::LookFrom(name, {2, -5, 1}, {2, 0, 1}, {100, 100, 100}));
   }
   return photos;
 }
@@ -21,7 +21,7 @@ TEST(PlanPrior, PrefersThePhotosThatAreMeantForTheFacade) {
   std::vector<SurveyPhoto> photos = Photos({"a.jpg", "b.jpg", "c.jpg", "d.jpg", "new.jpg"});
   photos[0].planned_facades = {"B0007/F02"};
   photos[1].planned_facades = {"B0007/F02", "B0007/F03"};
-  Facet wall = testing::MakeWall(4, 3);
+  Facet wall = test::MakeWall(4, 3);
   wall.planned_facades = {"B0007/F03"};
   EXPECT_FALSE(IsPlannedFor(wall, photos[0]));
   EXPECT_TRUE(IsPlannedFor(wall, photos[1]));
@@ -40,7 +40,7 @@ TEST(PlanPrior, PhotosOfEveryFacadeThatAWallSpansAreMeantForIt) {
   std::vector<SurveyPhoto> photos = Photos({"a.jpg", "b.jpg"});
   photos[0].planned_facades = {"B0007/F02"};
   photos[1].planned_facades = {"B0008/F00"};
-  Facet wall = testing::MakeWall(4, 3);
+  Facet wall = test::MakeWall(4, 3);
   wall.planned_facades = {"B0007/F02"};
   EXPECT_FALSE(IsPlannedFor(wall, photos[1]));
   wall.planned_facades.push_back("B0008/F00");
@@ -50,7 +50,7 @@ TEST(PlanPrior, PhotosOfEveryFacadeThatAWallSpansAreMeantForIt) {
 
 TEST(PlanPrior, AWallThatIsNotInThePlanHasNoPlannedPhotos) {
   std::vector<SurveyPhoto> photos = Photos({"a.jpg"});
-  Facet wall = testing::MakeWall(4, 3);
+  Facet wall = test::MakeWall(4, 3);
   photos[0].planned_facades = {wall.id};  // a plan whose ids look like ours
   EXPECT_FALSE(IsPlannedFor(wall, photos[0]));
 }

@@ -12,8 +12,8 @@
 namespace stucco {
 namespace {
 
-using testing::LookFrom;
-using testing::MakeWall;
+using test::LookFrom;
+using test::MakeWall;
 
 class Quality : public ::testing::Test {
  protected:

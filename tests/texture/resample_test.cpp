@@ -12,13 +12,13 @@
 namespace stucco {
 namespace {
 
-using testing::LookFrom;
-using testing::MakeWall;
-using testing::Psnr;
-using testing::Render;
-using testing::TemporaryFolder;
-using testing::WallPicture;
-using testing::WallScene;
+using test::LookFrom;
+using test::MakeWall;
+using test::Psnr;
+using test::Render;
+using test::TemporaryFolder;
+using test::WallPicture;
+using test::WallScene;
 
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-namespace stucco::testing {
+namespace stucco::test {
 namespace {
 
 constexpr int kRays = 2;  // a pixel side
@@ -180,4 +180,4 @@ double Psnr(const Image& a, const Image& b, const std::vector<uint8_t>& mask) {
   return 10 * std::log10(255.0 * 255.0 * count / std::max(1e-9, sum));
 }
 
-}  // namespace stucco::testing
+}  // namespace stucco::test

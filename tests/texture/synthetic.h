@@ -15,7 +15,7 @@
 #include "tests/survey/temporary_folder.h"
 #include "texture/grid/grid.h"
 
-namespace stucco::testing {
+namespace stucco::test {
 
 using Colour = Eigen::Vector3d;  // 0 to 255
 
@@ -63,6 +63,4 @@ Image WallPicture(const TexelGrid& grid, const std::optional<Balcony>& balcony =
 // Peak signal-to-noise ratio in decibels over texels whose `mask` is not zero (all without one).
 double Psnr(const Image& a, const Image& b, const std::vector<uint8_t>& mask = {});
 
-using test::TemporaryFolder;
-
-}  // namespace stucco::testing
+}  // namespace stucco::test

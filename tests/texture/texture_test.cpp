@@ -25,17 +25,17 @@ namespace stucco {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::DiscScene;
-using testing::GridOf;
-using testing::LookFrom;
-using testing::MakeProxy;
-using testing::MakeWall;
-using testing::Psnr;
-using testing::Render;
-using testing::TemporaryFolder;
-using testing::WallPicture;
-using testing::WallScene;
-using Survey = testing::WallSurvey;
+using test::DiscScene;
+using test::GridOf;
+using test::LookFrom;
+using test::MakeProxy;
+using test::MakeWall;
+using test::Psnr;
+using test::Render;
+using test::TemporaryFolder;
+using test::WallPicture;
+using test::WallScene;
+using Survey = test::WallSurvey;
 
 double TruthPsnr(const Survey& survey, const TexturedFacet& facet) {
   return Psnr(survey.Picture(facet), WallPicture(GridOf(facet)));
@@ -152,10 +152,10 @@ TEST(RunTexture, JoinsPhotosThatEachSeeAPart) {
 TEST(RunTexture, PaintsALongWallWithTheTwentyPhotosItNeeds) {
   Survey survey;
   survey.SetProxy(MakeProxy({MakeWall(20, 0.6)}));
-  const testing::Scene bricks = [](const Eigen::Vector3d& from, const Eigen::Vector3d& way) {
+  const test::Scene bricks = [](const Eigen::Vector3d& from, const Eigen::Vector3d& way) {
     const Eigen::Vector3d point = from - from.y() / way.y() * way;
     const bool dark = (std::lround(6 * point.x()) + std::lround(9 * point.z())) % 2 == 0;
-    return std::optional<testing::Colour>(testing::Colour::Constant(dark ? 90 : 150));
+    return std::optional<test::Colour>(test::Colour::Constant(dark ? 90 : 150));
   };
   for (int i = 0; i < 20; ++i) {
     const double x = i + 0.5;  // each shows 1.1 m
@@ -205,11 +205,11 @@ TEST(RunTexture, KeepsAWhiteRoofWithoutPoints) {
   for (auto& vertex : roof.outer) vertex = {vertex.x(), vertex.z(), 0};
   survey.SetProxy(MakeProxy({roof}));
   // The left quarter is a smooth white membrane, of which stereo gives no points.
-  const testing::Scene scene = [](const Eigen::Vector3d& from, const Eigen::Vector3d& way) {
+  const test::Scene scene = [](const Eigen::Vector3d& from, const Eigen::Vector3d& way) {
     const Eigen::Vector3d point = from - from.z() / way.z() * way;
-    return std::optional<testing::Colour>(
-        point.x() < 1 ? testing::Colour(240, 240, 240)
-                      : testing::Colour(0.6 * testing::WallColour(point.x(), point.y())));
+    return std::optional<test::Colour>(
+        point.x() < 1 ? test::Colour(240, 240, 240)
+                      : test::Colour(0.6 * test::WallColour(point.x(), point.y())));
   };
   survey.Add("a.jpg", {2, 1.4, 4.2}, {2, 1.5, 0}, 1, scene);
   PointCloud cloud;

@@ -27,8 +27,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using testing::MakeWall;
-using testing::TemporaryFolder;
+using test::MakeWall;
+using test::TemporaryFolder;
 
 constexpr int kPicture_px = 100;
 constexpr double kTexel_m = 0.05;
@@ -201,7 +201,7 @@ TEST_F(Street, KhronosValidatorFindsNothingInTheTiles) {
   Write();
   for (const auto& entry : fs::recursive_directory_iterator(out_)) {
     if (entry.path().extension() != ".glb") continue;
-    const auto findings = testing::KhronosFindings(entry.path());
+    const auto findings = test::KhronosFindings(entry.path());
     if (!findings) GTEST_SKIP() << "the Khronos validator is not installed";
     EXPECT_EQ(*findings, "") << entry.path();
   }

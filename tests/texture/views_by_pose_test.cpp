@@ -24,7 +24,7 @@ Georef Here() {
 }
 
 // Views every 5 m along a street, two of each stop: one looks north, one down to the east.
-Plan Street() {
+Plan StreetPlan() {
   Plan plan;
   plan.origin = {50, 14, 200};
   for (int i = 0; i < 8; ++i) {
@@ -68,7 +68,7 @@ std::vector<SurveyPhoto> Photos(const Plan& plan, const Eigen::Vector3d& shift) 
 }
 
 TEST(NameViewsByPose, FindsTheViewsThroughAShiftOfTheFrame) {
-  const Plan plan = Street();
+  const Plan plan = StreetPlan();
   std::vector<SurveyPhoto> photos = Photos(plan, {1.2, -1.5, 240});
   NameViewsByPose(plan, Here(), photos);
   for (size_t v = 0; v < photos.size(); ++v) {
@@ -77,7 +77,7 @@ TEST(NameViewsByPose, FindsTheViewsThroughAShiftOfTheFrame) {
 }
 
 TEST(NameViewsByPose, AViewHasOnePhoto) {
-  const Plan plan = Street();
+  const Plan plan = StreetPlan();
   std::vector<SurveyPhoto> photos = Photos(plan, Eigen::Vector3d::Zero());
   photos.push_back(PhotoOf(plan.views[3], plan, {1, 0, 0}));    // taken again, farther off
   photos.push_back(PhotoOf(plan.views[3], plan, {0, -40, 0}));  // of no view
@@ -88,7 +88,7 @@ TEST(NameViewsByPose, AViewHasOnePhoto) {
 }
 
 TEST(NameViewsByPose, LeavesNamesAndOtherFlightsAlone) {
-  const Plan plan = Street();
+  const Plan plan = StreetPlan();
   std::vector<SurveyPhoto> named = Photos(plan, Eigen::Vector3d::Zero());
   named[5].captured.view = "h0v1";
   NameViewsByPose(plan, Here(), named);

@@ -9,9 +9,9 @@
 namespace stucco {
 namespace {
 
-using testing::LookFrom;
-using testing::MakeProxy;
-using testing::MakeWall;
+using test::LookFrom;
+using test::MakeProxy;
+using test::MakeWall;
 
 TEST(OcclusionScene, FacetsBlockSegmentsThatCrossThem) {
   const OcclusionScene scene(MakeProxy({MakeWall(4, 3)}));

@@ -11,7 +11,7 @@
 #include "tests/survey/stage_support.h"
 #include "texture/texture.h"
 
-namespace stucco::testing {
+namespace stucco::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -119,4 +119,4 @@ TexelGrid GridOf(const TexturedFacet& facet) {
   return grid;
 }
 
-}  // namespace stucco::testing
+}  // namespace stucco::test

@@ -16,7 +16,7 @@
 #include "tests/texture/synthetic.h"
 #include "texture/options/texture_options.h"
 
-namespace stucco::testing {
+namespace stucco::test {
 
 // A survey folder with a wall of 4 x 3 m, rendered photos and their poses.
 class WallSurvey {
@@ -55,4 +55,4 @@ class WallSurvey {
 // Without the normal, which pictures do not depend on.
 TexelGrid GridOf(const TexturedFacet& facet);
 
-}  // namespace stucco::testing
+}  // namespace stucco::test

@@ -22,9 +22,9 @@ namespace stucco {
 namespace {
 
 using nlohmann::json;
-using testing::MakeProxy;
-using testing::MakeWall;
-using testing::TemporaryFolder;
+using test::MakeProxy;
+using test::MakeWall;
+using test::TemporaryFolder;
 
 // A textured wall with a hole and an untextured one behind it.
 class Model : public ::testing::Test {
@@ -156,7 +156,7 @@ TEST_F(Model, GlbIsValidAndEmbedsItsPictures) {
 
 TEST_F(Model, KhronosValidatorFindsNothingInTheGlb) {
   WriteGlb(proxy_, textures_, folder_.path(), {4096, 90});
-  const auto findings = testing::KhronosFindings(folder_.path() / "model.glb");
+  const auto findings = test::KhronosFindings(folder_.path() / "model.glb");
   if (!findings) GTEST_SKIP() << "the Khronos validator is not installed";
   EXPECT_EQ(*findings, "");
 }

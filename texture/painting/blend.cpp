@@ -12,7 +12,7 @@ namespace stucco {
 namespace {
 
 // One float per texel: 1 where the layer with this index owns it.
-cv::Mat Ownership(const std::vector<int>& labels, int owner, int width, int height) {
+cv::Mat MaskOf(const std::vector<int>& labels, int owner, int width, int height) {
   cv::Mat weight(height, width, CV_32F);
   std::transform(labels.begin(), labels.end(), weight.begin<float>(),
                  [&](int label) { return label == owner ? 1.0f : 0.0f; });
@@ -83,7 +83,7 @@ std::vector<float> BlendLayers(std::span<const Layer> layers, const std::vector<
   const cv::Mat mosaic_mat(height, width, CV_32FC3, mosaic.data());
   std::vector<cv::Mat> bands(LevelsFor(width, height) + 1);
   // Texels of nobody belong to the mosaic, so that weights add up to one everywhere.
-  AddLayer(mosaic_mat, Ownership(labels, -1, width, height), bands);
+  AddLayer(mosaic_mat, MaskOf(labels, -1, width, height), bands);
   for (size_t layer = 0; layer < layers.size(); ++layer) {
     if (texels[layer] == 0) continue;
     cv::Mat picture = mosaic_mat.clone();
@@ -91,7 +91,7 @@ std::vector<float> BlendLayers(std::span<const Layer> layers, const std::vector<
       if (!layers[layer].valid[i]) continue;
       std::copy_n(&layers[layer].rgb[3 * i], 3, picture.ptr<float>() + 3 * i);
     }
-    AddLayer(picture, Ownership(labels, static_cast<int>(layer), width, height), bands);
+    AddLayer(picture, MaskOf(labels, static_cast<int>(layer), width, height), bands);
   }
   cv::Mat result = bands.back();
   for (size_t level = bands.size() - 1; level-- > 0;) {

@@ -18,10 +18,10 @@ constexpr float kWorthAsking = 0.1f;
 constexpr double kMostHeights = 6;  // tried before the plane, and as many behind it
 constexpr float kSameColour = 10;   // no better one is looked for
 constexpr double kFewestCompared = 50;
-constexpr float kOther = 0.5f;        // a disagreement that shows something else, not haze
-constexpr double kLeastContrast = 5;  // standard deviation in grey levels
+constexpr float kOther = 0.5f;           // a disagreement that shows something else, not haze
+constexpr double kComparedContrast = 5;  // standard deviation in grey levels
 
-float Median(std::vector<float>& values) {
+float MedianInPlace(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   if (values.size() % 2 == 1) return *middle;
@@ -43,7 +43,7 @@ int MedianColour(std::span<const RasterPicture> pictures, size_t i, float* rgb) 
       if (picture.sight[i] >= least) values.push_back(picture.rgb[3 * i + k]);
     }
     if (values.empty()) return 0;
-    rgb[k] = Median(values);
+    rgb[k] = MedianInPlace(values);
   }
   return static_cast<int>(values.size());
 }
@@ -191,7 +191,7 @@ float Haze(const RasterPicture& picture, const Consensus& consensus,
     sum_bb += b * b;
   }
   const double variance = n * sum_bb - sum_b * sum_b;
-  if (n < kFewestCompared || !(variance > kLeastContrast * kLeastContrast * n * n)) return 0;
+  if (n < kFewestCompared || !(variance > kComparedContrast * kComparedContrast * n * n)) return 0;
   const double slope = (n * sum_ab - sum_a * sum_b) / variance;
   return static_cast<float>(std::clamp(1 - slope, 0.0, 1.0));
 }

@@ -17,7 +17,7 @@ constexpr double kGreenShare = 0.25;    // of a window: crowns have gaps
 constexpr double kRestless = 0.1;       // of what is green: standard deviation over mean brightness
 constexpr double kSamePattern = 0.5;    // correlation of windows
 constexpr double kMoved = 2;            // raster texels: windows of leaves are no longer alike
-constexpr double kMostDropped = 0.3;
+constexpr double kMostLeaves = 0.3;
 
 bool IsGreen(const float* rgb) {
   const float sum = rgb[0] + rgb[1] + rgb[2];
@@ -149,7 +149,7 @@ bool WouldLoseTooMuch(std::span<const RasterPicture> pictures,
     if (is_seen) seen += inside[i];
     if (is_left) left += inside[i];
   }
-  return seen - left > kMostDropped * seen;
+  return seen - left > kMostLeaves * seen;
 }
 
 }  // namespace

@@ -123,20 +123,20 @@ void FillData(const CostedPictures& costed, const FacetRaster& raster, int cell,
   }
 }
 
-struct Region {
+struct LabelRegion {
   int label = -1;
   std::vector<size_t> cells;
 };
 
 // Connected regions of equal label, in order of their first cell; `region_of` gives each cell's.
-std::vector<Region> FindRegions(const LabelProblem& problem, const Labels& labels,
-                                std::vector<int>& region_of) {
-  std::vector<Region> regions;
+std::vector<LabelRegion> FindRegions(const LabelProblem& problem, const Labels& labels,
+                                     std::vector<int>& region_of) {
+  std::vector<LabelRegion> regions;
   region_of.assign(labels.size(), -1);
   const auto width = static_cast<size_t>(problem.width);
   for (size_t start = 0; start < labels.size(); ++start) {
     if (labels[start] < 0 || region_of[start] >= 0) continue;
-    Region region{labels[start], {start}};
+    LabelRegion region{labels[start], {start}};
     const int number = static_cast<int>(regions.size());
     region_of[start] = number;
     for (size_t k = 0; k < region.cells.size(); ++k) {
@@ -159,7 +159,7 @@ std::vector<Region> FindRegions(const LabelProblem& problem, const Labels& label
 
 // Length of the border that a region shares with each label.
 std::vector<size_t> BorderWith(const LabelProblem& problem, const Labels& labels,
-                               const Region& region) {
+                               const LabelRegion& region) {
   std::vector<size_t> border(problem.labels, 0);
   const auto width = static_cast<size_t>(problem.width);
   for (size_t cell : region.cells) {
@@ -176,7 +176,7 @@ std::vector<size_t> BorderWith(const LabelProblem& problem, const Labels& labels
 }
 
 // A label that may replace a region's: it can paint nine tenths of the cells.
-int BestNeighbour(const LabelProblem& problem, const Labels& labels, const Region& region) {
+int BestNeighbour(const LabelProblem& problem, const Labels& labels, const LabelRegion& region) {
   const std::vector<size_t> border = BorderWith(problem, labels, region);
   int best = -1;
   for (int label = 0; label < problem.labels; ++label) {
@@ -318,11 +318,11 @@ void MergeSmallRegions(const LabelProblem& problem, size_t min_cells, Labels& la
   std::vector<int> region_of;
   for (bool changed = true; changed;) {
     changed = false;
-    std::vector<Region> regions = FindRegions(problem, labels, region_of);
-    std::stable_sort(regions.begin(), regions.end(), [](const Region& a, const Region& b) {
-      return a.cells.size() < b.cells.size();
-    });
-    for (const Region& region : regions) {
+    std::vector<LabelRegion> regions = FindRegions(problem, labels, region_of);
+    std::stable_sort(
+        regions.begin(), regions.end(),
+        [](const LabelRegion& a, const LabelRegion& b) { return a.cells.size() < b.cells.size(); });
+    for (const LabelRegion& region : regions) {
       if (region.cells.size() >= min_cells) break;
       const int heir = BestNeighbour(problem, labels, region);
       if (heir < 0) continue;
