@@ -12,15 +12,15 @@
 namespace stucco::evaluate {
 namespace {
 
-using UnorderedJson = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr int kStatsVersion = 1;
 
-PlanFigures FiguresFrom(const UnorderedJson& json) {
+PlanFigures FiguresFrom(const Json& json) {
   if (json.at("version").get<int>() != kStatsVersion) {
     throw Error(ErrorKind::kBadInput, fmt::format("is not of version {}", kStatsVersion));
   }
-  const UnorderedJson& mean = json.at("mean_by_length");
+  const Json& mean = json.at("mean_by_length");
   PlanFigures figures;
   json.at("method").get_to(figures.method);
   json.at("photos").get_to(figures.photos);
@@ -41,7 +41,7 @@ PlanFigures ReadPlanFigures(const std::filesystem::path& stats) {
   const std::string text = ReadFile(stats);
   std::string reason;
   try {
-    return FiguresFrom(UnorderedJson::parse(text));
+    return FiguresFrom(Json::parse(text));
   } catch (const std::exception& error) {  // ours, or the JSON library's
     reason = error.what();
   }

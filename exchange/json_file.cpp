@@ -11,7 +11,7 @@
 
 namespace stucco {
 
-using FileJson = nlohmann::json;
+using Json = nlohmann::json;
 
 bool JsonPlace::Has(const std::string& member) const {
   return value_->is_object() && value_->contains(member);
@@ -72,8 +72,8 @@ void JsonPlace::Fail(const std::string& reason, const std::string& remedy) const
 
 JsonFile::JsonFile(const std::filesystem::path& path) : name_(path.string()) {
   try {
-    content_ = FileJson::parse(ReadFile(path));
-  } catch (const FileJson::exception& e) {
+    content_ = Json::parse(ReadFile(path));
+  } catch (const Json::exception& e) {
     // "... at line 3, column 7: ...", after the library's own number of the error.
     const std::string what = e.what();
     const size_t text = what.find("] ");

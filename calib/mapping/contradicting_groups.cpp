@@ -18,7 +18,6 @@
 namespace stucco {
 namespace {
 
-constexpr double kUnlikelyMean = 21.1;  // the square of three normal variables, one in ten thousand
 constexpr size_t kNearestTied = 5;
 constexpr int kLeastShared = 30;
 constexpr size_t kLeastPhotos = 3;
@@ -84,7 +83,7 @@ void Test(const std::vector<int>& group, const std::vector<Differences>& all,
   const double count = static_cast<double>(told.size());
   mean /= count;
   const double variance = kCommonShare + (1 - kCommonShare) / count;
-  if (mean.squaredNorm() <= kUnlikelyMean * variance) return;
+  if (mean.squaredNorm() <= kUnlikelySquare * variance) return;
   for (const int photo : told) {
     if ((all[photo].*kind)->dot(mean) >= mean.squaredNorm() / 2) off.insert(photo);
   }

@@ -8,6 +8,9 @@
 
 namespace stucco {
 
+// The square of three normal variables that one in ten thousand exceeds (chi squared).
+inline constexpr double kUnlikelySquare = 21.1;
+
 // Photos that are off their records together, ascending: each by no more than records are off, but
 // all the same way, as a part that hangs on the rest by little is when it is bent. Groups are a
 // photo and those that share most points with it; the mean of their differences in attitude and

@@ -32,8 +32,8 @@ constexpr size_t kMatchesOfPair = 300;
 constexpr int kLeastRelative = 25;  // matches that a relative pose must explain
 // Relative rotations of gimbals farther from those of the matches are not those of the same pair.
 constexpr double kSameRotation = 12 * kDegree;
-constexpr double kLeastAgreeingShare =
-    0.3;  // of the pairs; below it the records contradict the photos
+// Of the pairs; where fewer agree, the records contradict the photos.
+constexpr double kLeastAgreeingShare = 0.3;
 constexpr double kRelativeSigma = 0.5 * kDegree;  // with lenses that are not calibrated yet
 constexpr double kLeastGimbalSigma = 0.2 * kDegree;
 constexpr double kMostGimbalSigma = 5 * kDegree;

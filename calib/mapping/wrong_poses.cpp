@@ -18,8 +18,6 @@
 namespace stucco {
 namespace {
 
-// The square of three normal variables that one in ten thousand exceeds (chi squared).
-constexpr double kUnlikely = 21.1;
 // What single records may be off by that are usually better, and the adjustment itself.
 constexpr double kPoseSigma_m = 0.1;
 constexpr double kPoseSigma_rad = 0.3 * std::numbers::pi / 180;
@@ -70,7 +68,7 @@ int NumTrustedPartners(const Scene& scene, int photo) {
   for (size_t i = 0; i < shared.size(); ++i) {
     if (shared[i] < kLeastPoints) continue;
     const ScenePhoto& other = scene.photos[i];
-    count += AttitudeSquare(other) <= kUnlikely && PositionSquare(other) <= kUnlikely;
+    count += AttitudeSquare(other) <= kUnlikelySquare && PositionSquare(other) <= kUnlikelySquare;
   }
   return count;
 }
@@ -179,8 +177,8 @@ bool SeesSeveralPlanes(const Scene& scene, int photo) {
 
 RecordVerdict JudgePose(const Scene& scene, int photo) {
   assert(scene.photos[photo].pose);
-  if (AttitudeSquare(scene.photos[photo]) > kUnlikely) return RecordVerdict::kContradicts;
-  if (PositionSquare(scene.photos[photo]) <= kUnlikely) return RecordVerdict::kAgrees;
+  if (AttitudeSquare(scene.photos[photo]) > kUnlikelySquare) return RecordVerdict::kContradicts;
+  if (PositionSquare(scene.photos[photo]) <= kUnlikelySquare) return RecordVerdict::kAgrees;
   const bool holds =
       NumTrustedPartners(scene, photo) >= kEnoughPartners || SeesSeveralPlanes(scene, photo);
   return holds ? RecordVerdict::kPositionOff : RecordVerdict::kContradicts;

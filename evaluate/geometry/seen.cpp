@@ -16,8 +16,8 @@ namespace {
 using Eigen::Vector3d;
 
 const double kLeastCosine = std::cos(kMaxShownIncidence_rad);
-constexpr double kLiftM = 0.01;        // off the surface, so that it does not hide itself
-constexpr size_t kPointsOfTask = 256;  // points for one task
+constexpr double kLiftM = 0.01;  // off the surface, so that it does not hide itself
+constexpr size_t kPointsOfTask = 256;
 
 struct Station {
   const simulate::FlownPhoto* photo;

@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr size_t kDistancesOfTask = 1024;  // distances for one task
+constexpr size_t kDistancesOfTask = 1024;
 
 // Ericson, "Real-Time Collision Detection" (2005), section 5.1.5.
 Vector3d NearestOnTriangle(const Vector3d& p, const Vector3d& a, const Vector3d& b,

@@ -23,8 +23,6 @@ namespace {
 // Walls nearer than kSnap_m would be one.
 constexpr double kGap_m = kSnap_m + 0.01;
 constexpr double kCell_m = 30;
-// Obstacles farther than this from the area of flights and from buildings do not matter.
-constexpr double kObstaclesWithin_m = 300;
 
 double HeightOf(const MapObstacle& obstacle) {
   return obstacle.height_m.value_or(std::numeric_limits<double>::infinity());
@@ -163,7 +161,7 @@ void AddObstacles(std::vector<MapObstacle> obstacles, Site& site) {
   for (const Footprint& footprint : site.footprints) reach.extend(BoundsOf(footprint.outline));
   std::erase_if(obstacles, [&](const MapObstacle& obstacle) {
     const Eigen::AlignedBox2d box = BoundsOf(obstacle.outline);
-    return reach.squaredExteriorDistance(box) > kObstaclesWithin_m * kObstaclesWithin_m;
+    return reach.squaredExteriorDistance(box) > kSurroundings_m * kSurroundings_m;
   });
   std::ranges::stable_sort(obstacles, std::greater<>{}, HeightOf);
   Cutter(obstacles, site).Cut();

@@ -13,6 +13,9 @@
 
 namespace stucco::plan {
 
+// Buildings and obstacles farther than this from where drones may be do not matter.
+inline constexpr double kSurroundings_m = 300;
+
 // A tree, a crane, a wire: what is in the way and is no building.
 struct MapObstacle {
   std::string id;  // O0003

@@ -31,8 +31,6 @@ namespace {
 
 // The frame is a plane with scale 1: beyond this lengths are off by a millimetre in a kilometre.
 constexpr double kWidestSite_m = 30000;
-// Buildings farther than this from where drones may be do not matter.
-constexpr double kSurroundings_m = 300;
 
 Eigen::AlignedBox2d BoundsOf(const MapFeature& feature) {
   Eigen::AlignedBox2d bounds;

@@ -29,7 +29,6 @@ constexpr int kPx4 = 12;
 constexpr int kQuadrotor = 2;
 constexpr int kRelativeAltitude = 1;
 constexpr int kMavlinkTargeting = 2;
-constexpr double kSmallYawTurn = 0.05;  // degrees
 
 double Degrees8(double degrees) {
   return std::round(degrees * 1e8) / 1e8;
@@ -83,12 +82,12 @@ void AddStop(const MissionStop& stop, const MissionOptions& options, Items& item
   const PlannedView* before = nullptr;
   for (const PlannedView& view : stop.views) {
     // PX4 turns on the spot at a waypoint that differs in yaw alone.
-    if (std::abs(SignedDegrees(view.yaw_deg - yaw)) > kSmallYawTurn) {
+    if (std::abs(SignedDegrees(view.yaw_deg - yaw)) > kSmallTurn_deg) {
       items.AddPlace(kWaypoint, {hold_s, 0, 0, Centi(CompassDegrees(view.yaw_deg))}, stop.geodetic,
                      stop.height_m);
       yaw = view.yaw_deg;
     }
-    if (before == nullptr || std::abs(view.pitch_deg - before->pitch_deg) > kSmallYawTurn) {
+    if (before == nullptr || std::abs(view.pitch_deg - before->pitch_deg) > kSmallTurn_deg) {
       items.AddCommand(kGimbal, {Centi(view.pitch_deg), 0, 0, 0, 0, 0, kMavlinkTargeting});
     }
     items.AddCommand(kDelay, {options.pace.hold_s, -1, -1, -1});

@@ -39,6 +39,9 @@ std::vector<MissionRoute> MissionRoutes(const Plan& plan);
 std::vector<MissionStop> WithApproach(const Plan& plan, const MissionRoute& route,
                                       std::vector<MissionStop> stops);
 
+// Smaller turns of drone and camera are not commanded: the drone does not hold them either.
+inline constexpr double kSmallTurn_deg = 0.05;
+
 // In (-180, 180] and [0, 360).
 double SignedDegrees(double degrees);
 double CompassDegrees(double degrees);

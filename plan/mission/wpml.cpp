@@ -16,8 +16,6 @@
 namespace stucco::plan {
 namespace {
 
-// Smaller turns are not commanded: the drone does not hold them either.
-constexpr double kSmallTurn = 0.05;  // degrees
 // What DJI's controllers accept as height of safe take-off.
 constexpr double kLowestTakeOff = 1.2;
 constexpr double kHighestTakeOff = 1500;
@@ -147,10 +145,10 @@ void AddActions(pugi::xml_node placemark, const MissionStop& stop, size_t index,
   for (const PlannedView& view : stop.views) {
     const double yaw = before == nullptr ? stop.yaw_deg : before->yaw_deg;
     // The first turn repeats the heading on arrival, in case the leg was too short for it.
-    if (before == nullptr || std::abs(SignedDegrees(view.yaw_deg - yaw)) > kSmallTurn) {
+    if (before == nullptr || std::abs(SignedDegrees(view.yaw_deg - yaw)) > kSmallTurn_deg) {
       AddTurn(group, action, yaw, view.yaw_deg);
     }
-    if (before == nullptr || std::abs(view.pitch_deg - before->pitch_deg) > kSmallTurn) {
+    if (before == nullptr || std::abs(view.pitch_deg - before->pitch_deg) > kSmallTurn_deg) {
       AddTilt(group, action, view.pitch_deg, options);
     }
     AddPhoto(group, action, view.id, options);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "simulate/floor.h"
 #include "survey/srgb.h"
 
 namespace stucco::simulate::internal {
@@ -53,12 +54,6 @@ int Covered(int size, int at, int level) {
 int Wrapped(int at, int size) {
   const int rest = at % size;
   return rest < 0 ? rest + size : rest;
-}
-
-// std::floor is a call where processors of 2003 are to run the program.
-int FloorOf(float value) {
-  const int whole = static_cast<int>(value);
-  return whole - (value < static_cast<float>(whole));
 }
 
 // log2 to 0.01, exact at powers of two: a table-free cubic on the mantissa.
@@ -175,8 +170,8 @@ void MipTexture::FillFromFiner(size_t level) {
 
 // x, y in texels of the level, its first texel's centre at 0.5.
 Eigen::Array4f MipTexture::Bilinear(const Level& level, float x, float y) const {
-  int x0 = FloorOf(x - 0.5f);
-  int y0 = FloorOf(y - 0.5f);
+  int x0 = Floor(x - 0.5f);
+  int y0 = Floor(y - 0.5f);
   const float tx = x - 0.5f - static_cast<float>(x0);
   const float ty = y - 0.5f - static_cast<float>(y0);
   int x1 = x0 + 1;

@@ -6,19 +6,13 @@
 #include <numbers>
 
 #include "plan/evaluate/facade_sight.h"
+#include "tests/plan/made_hovers.h"
 #include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {
 
 constexpr double kDMax = 80;
-
-Hover Looking(const Eigen::Vector3d& from, double yaw_deg, double pitch_deg = 0) {
-  return {from,
-          {{.yaw_rad = yaw_deg * std::numbers::pi / 180,
-            .pitch_rad = pitch_deg * std::numbers::pi / 180,
-            .targets = {}}}};
-}
 
 TEST(FacadeSight, MeasuresAPartByItsShareFrontalityAndDistance) {
   const Site site = LoneHouse();

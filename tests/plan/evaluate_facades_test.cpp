@@ -8,19 +8,13 @@
 #include <numbers>
 
 #include "plan/planar/grid_hovers.h"
+#include "tests/plan/made_hovers.h"
 #include "tests/site/made_site.h"
 
 namespace stucco::plan {
 namespace {
 
 constexpr double kFarthest_m = 80;
-
-Hover LookingFrom(const Eigen::Vector3d& from, double yaw_deg, double pitch_deg = 0) {
-  return {from,
-          {{.yaw_rad = yaw_deg * std::numbers::pi / 180,
-            .pitch_rad = pitch_deg * std::numbers::pi / 180,
-            .targets = {}}}};
-}
 
 const CameraPreset& Camera() {
   static const CameraPreset camera = FindCamera("mavic-3e");
@@ -38,7 +32,7 @@ FacadeReport South(const Site& site, const std::vector<Hover>& hovers) {
 
 TEST(EvaluateFacades, OneFrontalViewOfAllIsPerfect) {
   const Site site = LoneHouse();
-  const FacadeReport report = South(site, Assigned(site, {LookingFrom({10, -20, 4.5}, 0)}));
+  const FacadeReport report = South(site, Assigned(site, {Looking({10, -20, 4.5}, 0)}));
   EXPECT_NEAR(report.meant.q_s, 1, 1e-9);
   EXPECT_NEAR(report.meant.q_u, 1, 1e-9);
   EXPECT_NEAR(report.meant.q_c, 1, 1e-9);
@@ -50,18 +44,18 @@ TEST(EvaluateFacades, OneFrontalViewOfAllIsPerfect) {
 TEST(EvaluateFacades, OppositeViewsAreWorseThanAlikeOnes) {
   const Site site = LoneHouse();
   const FacadeReport opposite =
-      South(site, {LookingFrom({-4, -20, 4.5}, 35), LookingFrom({24, -20, 4.5}, -35)});
+      South(site, {Looking({-4, -20, 4.5}, 35), Looking({24, -20, 4.5}, -35)});
   // Both are as frontal; their mean direction is not.
   const double cosine = std::cos(35 * std::numbers::pi / 180);
   EXPECT_NEAR(opposite.all.q_s, 0.5 * (cosine + cosine), 1e-9);
   const FacadeReport alike =
-      South(site, {LookingFrom({-4, -20, 4.5}, 35), LookingFrom({-6, -20, 4.5}, 35)});
+      South(site, {Looking({-4, -20, 4.5}, 35), Looking({-6, -20, 4.5}, 35)});
   EXPECT_NEAR(alike.all.q_s, 0.5 * (cosine + 1), 1e-9);
 }
 
 TEST(EvaluateFacades, OnlyPhotosWithATargetAreMeant) {
   const Site site = LoneHouse();
-  std::vector<Hover> hovers{LookingFrom({10, -20, 4.5}, 0), LookingFrom({10, -20, 20}, 0, -35)};
+  std::vector<Hover> hovers{Looking({10, -20, 4.5}, 0), Looking({10, -20, 20}, 0, -35)};
   EXPECT_EQ(South(site, hovers).views, 0);
   EXPECT_EQ(South(site, hovers).meant.sum(), 0);
   hovers[1].shots[0].targets.push_back({0, {0, 10}, {0, 9}});
@@ -83,7 +77,7 @@ TEST(EvaluateFacades, WithoutPhotosEveryTermIsNothing) {
 
 TEST(MeantCells, AreThoseInATarget) {
   const Site site = LoneHouse();
-  std::vector<Hover> hovers{LookingFrom({10, -20, 4.5}, 0)};
+  std::vector<Hover> hovers{Looking({10, -20, 4.5}, 0)};
   auto& targets = hovers[0].shots[0].targets;
   targets = {{0, {0, 3}, {0, 2}}, {0, {18, 20}, {0, 9}}, {1, {0, 10}, {0, 9}}};
   const FacadeSight sight(site, Camera(), kFarthest_m, hovers);
@@ -97,9 +91,8 @@ TEST(MeantCells, AreThoseInATarget) {
 
 TEST(AssignViews, TakesTheBestViewAndNoMoreThanItTakes) {
   const Site site = LoneHouse();
-  const auto hovers =
-      Assigned(site, {LookingFrom({10, -20, 24}, 0, -45), LookingFrom({10, -20, 4.5}, 0),
-                      LookingFrom({-10, -20, 4.5}, 45), LookingFrom({10, -70, 4.5}, 0)});
+  const auto hovers = Assigned(site, {Looking({10, -20, 24}, 0, -45), Looking({10, -20, 4.5}, 0),
+                                      Looking({-10, -20, 4.5}, 45), Looking({10, -70, 4.5}, 0)});
   ASSERT_EQ(hovers[1].shots[0].targets.size(), 1U);
   EXPECT_EQ(hovers[1].shots[0].targets[0].facade, 0);
   EXPECT_NEAR(hovers[1].shots[0].targets[0].along_m.length_m(), 20, 1e-9);
@@ -117,9 +110,8 @@ TEST(AssignViews, WeighsPhotosByWhatTheyNewlyCover) {
                              {.safe_altitude_m = 25, .heights_m = {9}});
   // They show 0 to 24 m, 4 to 26 m and 22 to 40 m of the south wall: the second is worth more than
   // the third only as long as the first is not chosen.
-  const auto hovers =
-      Assigned(site, {LookingFrom({12, -17, 4.5}, 0), LookingFrom({15, -15.6, 4.5}, 0),
-                      LookingFrom({34, -17, 4.5}, 0)});
+  const auto hovers = Assigned(
+      site, {Looking({12, -17, 4.5}, 0), Looking({15, -15.6, 4.5}, 0), Looking({34, -17, 4.5}, 0)});
   EXPECT_EQ(hovers[0].shots[0].targets.size(), 1U);
   EXPECT_EQ(hovers[1].shots[0].targets.size(), 0U);
   ASSERT_EQ(hovers[2].shots[0].targets.size(), 1U);
@@ -146,7 +138,7 @@ TEST(AssignViews, CoversAllThatAnyPhotoSees) {
 
 TEST(AssignViews, LeavesTargetsAloneAndFillsTheRest) {
   const Site site = LoneHouse();
-  std::vector<Hover> hovers{LookingFrom({10, -20, 4.5}, 0), LookingFrom({10, -20, 20}, 0, -35)};
+  std::vector<Hover> hovers{Looking({10, -20, 4.5}, 0), Looking({10, -20, 20}, 0, -35)};
   hovers[0].shots[0].targets.push_back({0, {0, 12}, {0, 9}});
   const auto assigned = Assigned(site, hovers);
   ASSERT_EQ(assigned[0].shots[0].targets.size(), 1U);

@@ -38,6 +38,13 @@ Hover Five(const Vector3d& position) {
 
 }  // namespace
 
+Hover Looking(const Eigen::Vector3d& from, double yaw_deg, double pitch_deg) {
+  return {from,
+          {{.yaw_rad = yaw_deg * std::numbers::pi / 180,
+            .pitch_rad = pitch_deg * std::numbers::pi / 180,
+            .targets = {}}}};
+}
+
 std::vector<Hover> RandomHovers(int count, uint64_t seed) {
   std::mt19937_64 random(seed);
   const double side = 15 * std::sqrt(count);

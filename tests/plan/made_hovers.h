@@ -12,6 +12,9 @@
 
 namespace stucco::plan {
 
+// One photo, for no facade.
+Hover Looking(const Eigen::Vector3d& from, double yaw_deg, double pitch_deg = 0);
+
 // One level photo each, in a square with about 225 m2 for each, at 60 m.
 std::vector<Hover> RandomHovers(int count, uint64_t seed);
 

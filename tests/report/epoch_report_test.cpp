@@ -61,34 +61,30 @@ class EpochReport : public testing::Test {
   Epoch epoch_;
 };
 
-bool PageHas(const std::string& page, const std::string& text) {
-  return page.find(text) != std::string::npos;
-}
-
 TEST_F(EpochReport, SaysThatNothingChanged) {
   const std::string page = Page();
-  EXPECT_TRUE(PageHas(page, "Nothing that these photos show has changed"));
-  EXPECT_FALSE(PageHas(page, "What changed in the world"));
-  EXPECT_FALSE(PageHas(page, "class=\"then-now\""));
-  EXPECT_TRUE(PageHas(page, "it has not changed"));
-  EXPECT_TRUE(PageHas(page, "0.25 px"));
+  EXPECT_TRUE(Has(page, "Nothing that these photos show has changed"));
+  EXPECT_FALSE(Has(page, "What changed in the world"));
+  EXPECT_FALSE(Has(page, "class=\"then-now\""));
+  EXPECT_TRUE(Has(page, "it has not changed"));
+  EXPECT_TRUE(Has(page, "0.25 px"));
 }
 
 TEST_F(EpochReport, ShowsWhatIsAnotherBeforeAndNow) {
   const std::string id = Replace(0).id;
   const std::string page = Page();
-  EXPECT_TRUE(PageHas(page, "1 surface has changed"));
-  EXPECT_TRUE(PageHas(page, "39 % of it in another colour"));
-  EXPECT_TRUE(PageHas(page, "43 % of what both show changed"));
-  EXPECT_TRUE(PageHas(page, "alt=\"" + id + " before\""));
-  EXPECT_TRUE(PageHas(page, "alt=\"" + id + " now\""));
+  EXPECT_TRUE(Has(page, "1 surface has changed"));
+  EXPECT_TRUE(Has(page, "39 % of it in another colour"));
+  EXPECT_TRUE(Has(page, "43 % of what both show changed"));
+  EXPECT_TRUE(Has(page, "alt=\"" + id + " before\""));
+  EXPECT_TRUE(Has(page, "alt=\"" + id + " now\""));
 }
 
 // One mirrored window is not worth naming.
 TEST_F(EpochReport, LeavesSmallChangesOut) {
   epoch_.facets[1].both = epoch_.facets[1].compared = 1;
   epoch_.facets[1].other = 0.004;
-  EXPECT_FALSE(PageHas(Page(), "What changed in the world"));
+  EXPECT_FALSE(Has(Page(), "What changed in the world"));
 }
 
 TEST_F(EpochReport, EscapesWhatFilesAndPhotosAreCalled) {
@@ -96,16 +92,16 @@ TEST_F(EpochReport, EscapesWhatFilesAndPhotosAreCalled) {
   epoch_.photos[0].why = "<b>why</b>";
   epoch_.facets[0].why = "\"><img src=x>";
   const std::string page = Page();
-  EXPECT_FALSE(PageHas(page, "<script>alert"));
-  EXPECT_FALSE(PageHas(page, "<b>why"));
-  EXPECT_FALSE(PageHas(page, "<img src=x>"));
+  EXPECT_FALSE(Has(page, "<script>alert"));
+  EXPECT_FALSE(Has(page, "<b>why"));
+  EXPECT_FALSE(Has(page, "<img src=x>"));
 }
 
 TEST_F(EpochReport, SaysWhichPictureIsDamaged) {
   Replace(0);
   WriteFile(folder_ / "out" / "textures.json", ReadFile(folder_ / kTexturesFile));
   fs::remove_all(folder_ / "out/textures");
-  EXPECT_TRUE(PageHas(Page(), " is missing"));
+  EXPECT_TRUE(Has(Page(), " is missing"));
   WriteFile(folder_ / kTexturesFile, "{");
   EXPECT_THROW(Page(), Error);
 }

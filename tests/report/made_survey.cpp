@@ -260,4 +260,8 @@ void WriteSurvey(const MadeSurvey& made, const std::filesystem::path& survey) {
   }
 }
 
+bool Has(const std::string& page, const std::string& text) {
+  return page.find(text) != std::string::npos;
+}
+
 }  // namespace stucco

@@ -37,4 +37,7 @@ MadeSurvey MakeSurvey(const MadeSurveyOptions& options = {});
 // Writes every result, and pictures of walls with windows and label maps for the textures.
 void WriteSurvey(const MadeSurvey& made, const std::filesystem::path& survey);
 
+// Whether a page has a text: pages are too long for what a matcher prints.
+bool Has(const std::string& page, const std::string& text);
+
 }  // namespace stucco

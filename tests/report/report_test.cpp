@@ -44,11 +44,6 @@ size_t CountOf(const std::string& text, const std::string& part) {
   return count;
 }
 
-// A page is too long to be printed by a matcher.
-bool Has(const std::string& page, const std::string& text) {
-  return page.find(text) != std::string::npos;
-}
-
 // The page without its own style and script: what comes from data.
 std::string Content(const std::string& page) {
   return page.substr(page.find("<body>"), page.rfind("<script>") - page.find("<body>"));

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "simulate/floor.h"
+
 namespace stucco::simulate::internal {
 
 // A well mixed 32-bit word of three. Wherever a number is drawn, it is drawn from the integer
@@ -35,11 +37,6 @@ inline float Normal(int a, int b, uint32_t seed) {
   const uint32_t h = Hash(static_cast<uint32_t>(a), static_cast<uint32_t>(b), seed);
   const int sum = (h & 255) + ((h >> 8) & 255) + ((h >> 16) & 255) + (h >> 24);
   return static_cast<float>(sum - 510) * (1.0f / 147.8f);
-}
-
-inline int Floor(float value) {
-  const int whole = static_cast<int>(value);
-  return whole - (value < static_cast<float>(whole) ? 1 : 0);
 }
 
 inline float Smooth(float low, float high, float value) {
