@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "simulate/floor.h"
 #include "simulate/paint/car_shape.h"
 #include "simulate/paint/internal/openings.h"
 #include "simulate/paint/internal/tile.h"
@@ -130,7 +131,7 @@ void PaintEnd(Tile& tile, const CarLook& look, float left, bool tail) {
   } else {
     Fill(tile, {middle - 0.42f, top + 0.8f, middle + 0.42f, top + 0.92f},
          [&](float, float y, Colour) {
-           const float slat = y * 40 - static_cast<float>(internal::Floor(y * 40));
+           const float slat = y * 40 - static_cast<float>(Floor(y * 40));
            return Grey(slat < 0.4f ? 0.06f : 0.01f);
          });
   }
