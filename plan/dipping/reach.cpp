@@ -35,32 +35,35 @@ Vector2d MiddleOf(const Facade& wall, const Interval& stretch) {
   return wall.a + wall.along() * ((stretch.from_m + stretch.to_m) / 2);
 }
 
-// Distances at which whole stretches are seen, the least by stretch.
+bool SeesWhole(const Intervals& seen, const Interval& stretch) {
+  constexpr double kRounded_m = 0.011;  // parts end on whole centimetres
+  return std::any_of(seen.begin(), seen.end(), [&](const Interval& part) {
+    return stretch.from_m >= part.from_m - kRounded_m && stretch.to_m <= part.to_m + kRounded_m;
+  });
+}
+
+// The least distance at which the whole stretch is seen, from within 45 degrees where it is at all.
+double NearestView(const Facade& wall, const std::vector<WallObserver>& observers,
+                   const Interval& stretch) {
+  double frontal = kNone, any = kNone;
+  for (const WallObserver& observer : observers) {
+    if (!SeesWhole(*observer.seen, stretch)) continue;
+    const Vector2d ray = observer.candidate->position - MiddleOf(wall, stretch);
+    const double distance = ray.norm();
+    any = std::min(any, distance);
+    if (ray.dot(wall.normal()) >= kFrontal * distance) frontal = std::min(frontal, distance);
+  }
+  return std::isfinite(frontal) ? frontal : any;
+}
+
 std::vector<double> LimitsOf(const Facade& wall, const std::vector<WallObserver>& observers,
                              double near_enough) {
-  const size_t count = Stretches(wall);
-  std::vector<double> frontal(count, kNone), any(count, kNone);
-  for (const WallObserver& observer : observers) {
-    const Vector2d& p = observer.candidate->position;
-    for (const Interval& part : *observer.seen) {
-      for (size_t i = 0; i < count; ++i) {
-        const Interval stretch = Stretch(wall, i, count);
-        // Parts end on whole centimetres.
-        if (stretch.from_m < part.from_m - 0.011 || stretch.to_m > part.to_m + 0.011) continue;
-        const Vector2d ray = p - MiddleOf(wall, stretch);
-        const double distance = ray.norm();
-        any[i] = std::min(any[i], distance);
-        if (ray.dot(wall.normal()) >= kFrontal * distance) {
-          frontal[i] = std::min(frontal[i], distance);
-        }
-      }
-    }
+  std::vector<double> limits(Stretches(wall));
+  for (size_t i = 0; i < limits.size(); ++i) {
+    const Interval stretch = Stretch(wall, i, limits.size());
+    limits[i] = std::max(Reach::kFarther * NearestView(wall, observers, stretch), near_enough);
   }
-  for (size_t i = 0; i < count; ++i) {
-    const double nearest = std::isfinite(frontal[i]) ? frontal[i] : any[i];
-    any[i] = std::max(Reach::kFarther * nearest, near_enough);
-  }
-  return any;
+  return limits;
 }
 
 }  // namespace
