@@ -8,12 +8,14 @@
 #include <iterator>
 #include <optional>
 
+#include "proxy/cloud/grid_index.h"
 #include "proxy/facets/facets.h"
 #include "proxy/facets/plane_view.h"
 #include "proxy/map/map_solids.h"
 #include "proxy/map/outlines.h"
 #include "proxy/map/stable_ids.h"
 #include "proxy/map/wall_facets.h"
+#include "proxy/planes/consolidate.h"
 #include "proxy/scene/ground.h"
 #include "proxy/scene/scene.h"
 #include "proxy/solids/solid.h"
@@ -52,12 +54,13 @@ PlaneTable TableOf(const PlanarScene& scene) {
   return table;
 }
 
-// The open facets of each plane, cut along the planes of its own building and the ground.
+// The open facets of each plane, cut along the planes of its own building and the ground. Sets
+// `warnings` to what went wrong.
 std::vector<std::vector<Facet>> OpenFacets(const PlanarScene& scene, const PlaneTable& table,
                                            const std::vector<PlaneView>& views, int threads,
-                                           ProxyFindings& findings) {
+                                           std::vector<std::string>& warnings) {
   std::vector<std::vector<Facet>> facets(views.size());
-  std::vector<std::vector<std::string>> warnings(views.size());
+  std::vector<std::vector<std::string>> of_planes(views.size());
   ParallelFor(views.size(), threads, [&](size_t p) {
     const bool ground = table.building[p] < 0;
     std::vector<const PlaneView*> others;
@@ -72,15 +75,36 @@ std::vector<std::vector<Facet>> OpenFacets(const PlanarScene& scene, const Plane
                                    3 * scene.tolerances.level_of_detail);
       return OutlineFacets(scene.samples, views[p], creases, scene.tolerances, ground);
     };
-    facets[p] = OutlineOrWarn(outline, warnings[p]);
+    facets[p] = OutlineOrWarn(outline, of_planes[p]);
   });
+  warnings.clear();
   for (size_t p = 0; p < views.size(); ++p) {
     const std::string owner = table.building[p] < 0 ? "G0" : ClusterId(table.building[p]);
-    for (const auto& warning : warnings[p]) {
-      findings.warnings.push_back(fmt::format("{}: {}", owner, warning));
+    for (const auto& warning : of_planes[p]) {
+      warnings.push_back(fmt::format("{}: {}", owner, warning));
     }
   }
   return facets;
+}
+
+// Takes apart what made no facet of its own and is a part of what did; true where anything was.
+bool TakeApartIdle(const PlanarScene& scene, const std::vector<std::vector<Facet>>& facets,
+                   const ProxyOptions& options, PlaneTable& table) {
+  std::vector<bool> idle(table.planes.size());
+  for (size_t p = 0; p < idle.size(); ++p) idle[p] = table.building[p] >= 0 && facets[p].empty();
+  if (std::find(idle.begin(), idle.end(), true) == idle.end()) return false;
+  TakeApartIdle(scene.samples, GridIndex(scene.samples.positions, scene.tolerances.radius),
+                scene.tolerances, options.normal_angle_deg, idle, table.building, table.planes);
+  const auto gone = [](const Plane& plane) { return plane.points.empty(); };
+  if (std::none_of(table.planes.begin(), table.planes.end(), gone)) return false;
+  PlaneTable left;
+  for (size_t p = 0; p < table.planes.size(); ++p) {
+    if (gone(table.planes[p])) continue;
+    left.planes.push_back(std::move(table.planes[p]));
+    left.building.push_back(table.building[p]);
+  }
+  table = std::move(left);
+  return true;
 }
 
 // A solid that is none in the files stays open.
@@ -162,10 +186,18 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   std::optional<MapModel> mapped;
   if (GoesByMap(input, options)) mapped = BuildFromMap(scene, input, options, threads, findings);
   if (mapped) scene.buildings = OffTheMap(scene, mapped->outlines, findings);
-  const PlaneTable table = TableOf(scene);
-  const auto views =
-      ViewPlanes(scene, table.planes, table.planes.size() - scene.ground.size(), threads);
-  auto facets = OpenFacets(scene, table, views, threads, findings);
+  PlaneTable table = TableOf(scene);
+  const auto view = [&] {
+    return ViewPlanes(scene, table.planes, table.planes.size() - scene.ground.size(), threads);
+  };
+  auto views = view();
+  std::vector<std::string> warnings;
+  auto facets = OpenFacets(scene, table, views, threads, warnings);
+  if (TakeApartIdle(scene, facets, options, table)) {
+    views = view();
+    facets = OpenFacets(scene, table, views, threads, warnings);
+  }
+  findings.warnings.insert(findings.warnings.end(), warnings.begin(), warnings.end());
   Proxy proxy;
   proxy.up = scene.up;
   proxy.metric = input.georef.metric;

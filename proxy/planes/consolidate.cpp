@@ -4,8 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <set>
 #include <utility>
 
 namespace stucco {
@@ -42,6 +45,44 @@ void MovePoints(Plane& from, Plane& to) {
   from.points.clear();
 }
 
+constexpr int kNoPlane = -1;
+
+// The plane of each sample.
+std::vector<int> PlaneOfEach(const Samples& samples, const std::vector<Plane>& planes) {
+  std::vector<int> plane_of(samples.size(), kNoPlane);
+  for (size_t p = 0; p < planes.size(); ++p) {
+    for (const int i : planes[p].points) plane_of[i] = static_cast<int>(p);
+  }
+  return plane_of;
+}
+
+double AdoptionCos(double normal_angle_deg) {
+  return CosDeg(std::min(85.0, 1.3 * normal_angle_deg));
+}
+
+// The points of one plane that lie on another one.
+std::vector<int> PointsOn(const Samples& samples, const Plane& plane, const Plane& other,
+                          double distance, double min_cos) {
+  std::vector<int> on;
+  std::copy_if(plane.points.begin(), plane.points.end(), std::back_inserter(on), [&](int i) {
+    return std::abs(other.DistanceTo(samples.positions[i])) <= distance &&
+           other.normal.dot(samples.normals[i]) >= min_cos;
+  });
+  return on;
+}
+
+// The planes of the samples near a plane's own.
+std::set<int> Beside(const Samples& samples, const GridIndex& index, double radius,
+                     const std::vector<int>& plane_of, const Plane& plane) {
+  std::set<int> beside;
+  for (const int i : plane.points) {
+    index.ForEachNear(samples.positions[i], radius, [&](int j) {
+      if (plane_of[j] != plane_of[i] && plane_of[j] != kNoPlane) beside.insert(plane_of[j]);
+    });
+  }
+  return beside;
+}
+
 }  // namespace
 
 void MergeCoplanar(const Samples& samples, const Tolerances& tolerances, double normal_angle_deg,
@@ -70,35 +111,67 @@ void MergeCoplanar(const Samples& samples, const Tolerances& tolerances, double 
 void AdoptNeighbours(const Samples& samples, const GridIndex& index, const Tolerances& tolerances,
                      double normal_angle_deg, std::vector<Plane>& planes) {
   constexpr int kRounds = 3;
-  const double min_cos = CosDeg(std::min(85.0, 1.3 * normal_angle_deg));
-  std::vector<int> plane_of(samples.size(), -1);
-  for (size_t p = 0; p < planes.size(); ++p) {
-    for (const int i : planes[p].points) plane_of[i] = static_cast<int>(p);
-  }
+  const double min_cos = AdoptionCos(normal_angle_deg);
+  std::vector<int> plane_of = PlaneOfEach(samples, planes);
   for (int round = 0; round < kRounds; ++round) {
     std::vector<std::pair<int, int>> adopted;  // sample, plane
     for (size_t i = 0; i < samples.size(); ++i) {
-      if (plane_of[i] >= 0) continue;
-      int best = -1;
+      if (plane_of[i] != kNoPlane) continue;
+      int best = kNoPlane;
       double best_distance = tolerances.epsilon;
-      int last = -1;
+      int last = kNoPlane;
       index.ForEachNear(samples.positions[i], tolerances.radius, [&](int j) {
         const int p = plane_of[j];
-        if (p < 0 || p == last) return;
+        if (p == kNoPlane || p == last) return;
         last = p;
         const double distance = std::abs(planes[p].DistanceTo(samples.positions[i]));
         if (distance > best_distance || planes[p].normal.dot(samples.normals[i]) < min_cos) return;
-        if (distance == best_distance && p >= best && best >= 0) return;
+        if (distance == best_distance && p >= best && best != kNoPlane) return;
         best_distance = distance;
         best = p;
       });
-      if (best >= 0) adopted.emplace_back(static_cast<int>(i), best);
+      if (best != kNoPlane) adopted.emplace_back(static_cast<int>(i), best);
     }
     for (const auto& [i, p] : adopted) {
       plane_of[i] = p;
       planes[p].points.push_back(i);
     }
     if (adopted.empty()) break;
+  }
+  for (Plane& plane : planes) std::sort(plane.points.begin(), plane.points.end());
+}
+
+void TakeApartIdle(const Samples& samples, const GridIndex& index, const Tolerances& tolerances,
+                   double normal_angle_deg, const std::vector<bool>& idle,
+                   const std::vector<int>& building, std::vector<Plane>& planes) {
+  assert(idle.size() == planes.size() && building.size() == planes.size());
+  constexpr double kLeastShare = 0.5;
+  const double min_cos = AdoptionCos(normal_angle_deg);
+  std::vector<int> plane_of = PlaneOfEach(samples, planes);
+  const auto take_apart = [&](size_t p) {
+    Plane& plane = planes[p];
+    std::vector<int> most;
+    int host = kNoPlane;
+    for (const int q : Beside(samples, index, tolerances.radius, plane_of, plane)) {
+      if (idle[q] || building[q] != building[p]) continue;
+      auto on = PointsOn(samples, plane, planes[q], tolerances.level_of_detail, min_cos);
+      if (on.size() <= most.size()) continue;
+      most = std::move(on);
+      host = q;
+    }
+    if (double(most.size()) < kLeastShare * double(plane.points.size())) return false;
+    for (const int i : plane.points) plane_of[i] = kNoPlane;
+    for (const int i : most) plane_of[i] = host;
+    plane.points = std::move(most);
+    MovePoints(plane, planes[host]);
+    return true;
+  };
+  // What goes may bring the next one beside a plane.
+  for (bool any = true; any;) {
+    any = false;
+    for (size_t p = 0; p < planes.size(); ++p) {
+      if (idle[p] && !planes[p].points.empty()) any |= take_apart(p);
+    }
   }
   for (Plane& plane : planes) std::sort(plane.points.begin(), plane.points.end());
 }

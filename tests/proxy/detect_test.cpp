@@ -111,5 +111,60 @@ TEST(MergeCoplanar, JoinsThePartsOfAWallAndNothingElse) {
   EXPECT_GT(found.planes[0].points.size(), 1.8 * double(found.planes[1].points.size()));
 }
 
+// A wall in the plane y = 0 that looks at y < 0, with what stands beside its right end: `depth`
+// behind the wall, turned by `turn_deg`, after a gap. Planes are in this order.
+Found WallWithPart(double depth, double turn_deg, double gap) {
+  Captured captured;
+  const double turn = turn_deg * std::numbers::pi / 180;
+  const auto add = [&](double x, double y, double z, const Eigen::Vector3f& normal) {
+    captured.cloud.positions.emplace_back(x, y, z);
+    captured.cloud.normals.push_back(normal);
+  };
+  for (int z = 0; z < 20; ++z) {
+    for (int x = 0; x < 40; ++x) add(0.1 * x, 0, 0.1 * z, {0, -1, 0});
+    for (int x = 0; x < 10; ++x) {
+      const double along = 0.1 * x;
+      add(4 + gap + along * std::cos(turn), depth + along * std::sin(turn), 0.1 * z,
+          {float(std::sin(turn)), -float(std::cos(turn)), 0});
+    }
+  }
+  Found found;
+  found.samples = ThinCloud(StreamOf(captured.cloud), captured.photos, 1000000, 0);
+  found.planes.resize(2);
+  for (size_t i = 0; i < found.samples.size(); ++i) {
+    found.planes[found.samples.positions[i].x() < 3.95 ? 0 : 1].points.push_back(int(i));
+  }
+  found.planes[0].normal = found.planes[1].normal = -Eigen::Vector3d::UnitY();
+  for (Plane& plane : found.planes) Refit(found.samples, plane);
+  return found;
+}
+
+// How many points each plane of such a wall is left with.
+std::pair<size_t, size_t> LeftTo(Found found, bool part_is_idle, int part_building = 0) {
+  TakeApartIdle(found.samples, GridIndex(found.samples.positions, 0.4),
+                {.level_of_detail = 0.3, .radius = 0.4}, 35, {false, part_is_idle}, {0, part_building},
+                found.planes);
+  return {found.planes[0].points.size(), found.planes[1].points.size()};
+}
+
+TEST(TakeApartIdle, AWallTakesWhatStandsBackInItByLessThanADetail) {
+  EXPECT_EQ(LeftTo(WallWithPart(0.2, 0, 0), true), (std::pair<size_t, size_t>{1000, 0}));
+  EXPECT_EQ(LeftTo(WallWithPart(0, 12, 0), true), (std::pair<size_t, size_t>{1000, 0}));
+}
+
+TEST(TakeApartIdle, PointsBeyondADetailAreNobodys) {
+  // Turned by 25 degrees the part is farther than 0.3 m behind the wall after 0.71 m of its 0.9 m.
+  EXPECT_EQ(LeftTo(WallWithPart(0, 25, 0), true), (std::pair<size_t, size_t>{960, 0}));
+}
+
+TEST(TakeApartIdle, LeavesWhatIsFartherApartOrMadeAFacet) {
+  const std::pair<size_t, size_t> as_they_were{800, 200};
+  EXPECT_EQ(LeftTo(WallWithPart(0.4, 0, 0), true), as_they_were);  // a step of its own
+  EXPECT_EQ(LeftTo(WallWithPart(0, 60, 0), true), as_they_were);   // another wall
+  EXPECT_EQ(LeftTo(WallWithPart(0.2, 0, 2), true), as_they_were);  // not beside it
+  EXPECT_EQ(LeftTo(WallWithPart(0.2, 0, 0), false), as_they_were);
+  EXPECT_EQ(LeftTo(WallWithPart(0.2, 0, 0), true, 1), as_they_were);  // another building's
+}
+
 }  // namespace
 }  // namespace stucco
