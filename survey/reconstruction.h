@@ -33,7 +33,7 @@ struct RegisteredImage {
 struct TrackElement {
   PhotoId photo;
   uint32_t observation = 0;  // index into RegisteredImage::observations
-  auto operator<=>(const TrackElement&) const = default;
+  auto operator<=>(const TrackElement&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 struct TrackPoint {

@@ -275,18 +275,20 @@ void AddSeams(std::span<const RasterPicture> pictures, size_t i, size_t j, float
 
 void FillSeams(std::span<const RasterPicture> pictures, const FacetRaster& raster,
                const SelectOptions& options, LabelProblem& problem) {
-  problem.seams.assign(problem.cells() * 2 * problem.labels * problem.labels, 0);
+  const size_t of_border = static_cast<size_t>(problem.labels) * problem.labels;
+  problem.seams.assign(problem.cells() * 2 * of_border, 0);
   const auto scale = static_cast<float>(options.seam_cost / options.cell);
+  const auto fill = [&](int x, int y, int direction) {
+    const size_t c = static_cast<size_t>(y) * problem.width + x;
+    float* costs = &problem.seams[(c * 2 + direction) * of_border];
+    ForEachBorderPair(raster.grid, options.cell, {x, y, direction}, [&](size_t i, size_t j) {
+      if (raster.inside[i] == 0 || raster.inside[j] == 0) return;
+      AddSeams(pictures, i, j, scale, costs);
+    });
+  };
   for (int y = 0; y < problem.height; ++y) {
     for (int x = 0; x < problem.width; ++x) {
-      const size_t c = static_cast<size_t>(y) * problem.width + x;
-      for (int direction = 0; direction < 2; ++direction) {
-        float* costs = &problem.seams[(c * 2 + direction) * problem.labels * problem.labels];
-        ForEachBorderPair(raster.grid, options.cell, {x, y, direction}, [&](size_t i, size_t j) {
-          if (raster.inside[i] == 0 || raster.inside[j] == 0) return;
-          AddSeams(pictures, i, j, scale, costs);
-        });
-      }
+      for (int direction = 0; direction < 2; ++direction) fill(x, y, direction);
     }
   }
 }
