@@ -21,10 +21,10 @@ void MergeCoplanar(const Samples& samples, const Tolerances& tolerances, double 
 void AdoptNeighbours(const Samples& samples, const GridIndex& index, const Tolerances& tolerances,
                      double normal_angle_deg, std::vector<Plane>& planes);
 
-// Takes planes of which nothing could be made (`idle`) apart where one beside them has at least half
-// of their points within the level of detail: a door that stands back in its wall, a kink of a roof.
-// The one that has most of them gets those. It is of the same building and not idle. What is taken
-// apart is left without points. Requires `idle` and `building` for each plane.
+// Takes planes of which nothing could be made (`idle`) apart where one beside them has at least
+// half of their points within the level of detail: a door that stands back in its wall, a kink of a
+// roof. The one that has most of them gets those. It is of the same building and not idle. What is
+// taken apart is left without points. Requires `idle` and `building` for each plane.
 void TakeApartIdle(const Samples& samples, const GridIndex& index, const Tolerances& tolerances,
                    double normal_angle_deg, const std::vector<bool>& idle,
                    const std::vector<int>& building, std::vector<Plane>& planes);
