@@ -8,7 +8,6 @@
 #include <iterator>
 #include <optional>
 
-#include "proxy/cloud/grid_index.h"
 #include "proxy/facets/facets.h"
 #include "proxy/facets/plane_view.h"
 #include "proxy/map/map_solids.h"
@@ -90,11 +89,12 @@ std::vector<std::vector<Facet>> OpenFacets(const PlanarScene& scene, const Plane
 // Takes apart what made no facet of its own and is a part of what did; true where anything was.
 bool TakeApartIdle(const PlanarScene& scene, const std::vector<std::vector<Facet>>& facets,
                    const ProxyOptions& options, PlaneTable& table) {
-  std::vector<bool> idle(table.planes.size());
-  for (size_t p = 0; p < idle.size(); ++p) idle[p] = table.building[p] >= 0 && facets[p].empty();
-  if (std::find(idle.begin(), idle.end(), true) == idle.end()) return false;
-  TakeApartIdle(scene.samples, GridIndex(scene.samples.positions, scene.tolerances.radius),
-                scene.tolerances, options.normal_angle_deg, idle, table.building, table.planes);
+  PlaneUse use{.idle = std::vector<bool>(table.planes.size()), .building = table.building};
+  for (size_t p = 0; p < facets.size(); ++p) {
+    use.idle[p] = table.building[p] >= 0 && facets[p].empty();
+  }
+  if (std::find(use.idle.begin(), use.idle.end(), true) == use.idle.end()) return false;
+  TakeApartIdle(scene.samples, scene.tolerances, options.normal_angle_deg, use, table.planes);
   const auto gone = [](const Plane& plane) { return plane.points.empty(); };
   if (std::none_of(table.planes.begin(), table.planes.end(), gone)) return false;
   PlaneTable left;

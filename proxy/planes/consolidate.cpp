@@ -94,10 +94,9 @@ void MergeCoplanar(const Samples& samples, const Tolerances& tolerances, double 
     for (size_t a = 0; a < planes.size(); ++a) {
       const size_t before = planes[a].points.size();
       for (size_t b = a + 1; b < planes.size(); ++b) {
-        if (!planes[b].points.empty() &&
-            LiesOn(samples, planes[b], planes[a], tolerances.epsilon, min_cos)) {
-          MovePoints(planes[b], planes[a]);
-        }
+        if (planes[b].points.empty()) continue;
+        if (!LiesOn(samples, planes[b], planes[a], tolerances.epsilon, min_cos)) continue;
+        MovePoints(planes[b], planes[a]);
       }
       if (planes[a].points.size() == before) continue;
       std::sort(planes[a].points.begin(), planes[a].points.end());
@@ -141,19 +140,19 @@ void AdoptNeighbours(const Samples& samples, const GridIndex& index, const Toler
   for (Plane& plane : planes) std::sort(plane.points.begin(), plane.points.end());
 }
 
-void TakeApartIdle(const Samples& samples, const GridIndex& index, const Tolerances& tolerances,
-                   double normal_angle_deg, const std::vector<bool>& idle,
-                   const std::vector<int>& building, std::vector<Plane>& planes) {
-  assert(idle.size() == planes.size() && building.size() == planes.size());
+void TakeApartIdle(const Samples& samples, const Tolerances& tolerances, double normal_angle_deg,
+                   const PlaneUse& use, std::vector<Plane>& planes) {
+  assert(use.idle.size() == planes.size() && use.building.size() == planes.size());
   constexpr double kLeastShare = 0.5;
   const double min_cos = AdoptionCos(normal_angle_deg);
+  const GridIndex index(samples.positions, tolerances.radius);
   std::vector<int> plane_of = PlaneOfEach(samples, planes);
   const auto take_apart = [&](size_t p) {
     Plane& plane = planes[p];
     std::vector<int> most;
     int host = kNoPlane;
     for (const int q : Beside(samples, index, tolerances.radius, plane_of, plane)) {
-      if (idle[q] || building[q] != building[p]) continue;
+      if (use.idle[q] || use.building[q] != use.building[p]) continue;
       auto on = PointsOn(samples, plane, planes[q], tolerances.level_of_detail, min_cos);
       if (on.size() <= most.size()) continue;
       most = std::move(on);
@@ -170,7 +169,7 @@ void TakeApartIdle(const Samples& samples, const GridIndex& index, const Toleran
   for (bool any = true; any;) {
     any = false;
     for (size_t p = 0; p < planes.size(); ++p) {
-      if (idle[p] && !planes[p].points.empty()) any |= take_apart(p);
+      if (use.idle[p] && !planes[p].points.empty()) any |= take_apart(p);
     }
   }
   for (Plane& plane : planes) std::sort(plane.points.begin(), plane.points.end());

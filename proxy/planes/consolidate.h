@@ -21,13 +21,18 @@ void MergeCoplanar(const Samples& samples, const Tolerances& tolerances, double 
 void AdoptNeighbours(const Samples& samples, const GridIndex& index, const Tolerances& tolerances,
                      double normal_angle_deg, std::vector<Plane>& planes);
 
-// Takes planes of which nothing could be made (`idle`) apart where one beside them has at least
-// half of their points within the level of detail: a door that stands back in its wall, a kink of a
-// roof. The one that has most of them gets those. It is of the same building and not idle. What is
-// taken apart is left without points. Requires `idle` and `building` for each plane.
-void TakeApartIdle(const Samples& samples, const GridIndex& index, const Tolerances& tolerances,
-                   double normal_angle_deg, const std::vector<bool>& idle,
-                   const std::vector<int>& building, std::vector<Plane>& planes);
+// What came of each plane.
+struct PlaneUse {
+  std::vector<bool> idle;     // nothing could be made of it
+  std::vector<int> building;  // that it belongs to
+};
+
+// Takes idle planes apart where one beside them has at least half of their points within the level
+// of detail: a door that stands back in its wall, a kink of a roof. The one that has most of them
+// gets those. It is of the same building and not idle. What is taken apart is left without points.
+// Requires the use of every plane.
+void TakeApartIdle(const Samples& samples, const Tolerances& tolerances, double normal_angle_deg,
+                   const PlaneUse& use, std::vector<Plane>& planes);
 
 // Drops planes that are no surfaces: points spread evenly through the tolerance or normals that
 // disagree with the plane and with each other (leaves, clutter), or too small an area.
