@@ -87,8 +87,8 @@ std::vector<std::vector<Facet>> OpenFacets(const PlanarScene& scene, const Plane
 }
 
 // Takes apart what made no facet of its own and is a part of what did; true where anything was.
-bool TakeApartIdle(const PlanarScene& scene, const std::vector<std::vector<Facet>>& facets,
-                   const ProxyOptions& options, PlaneTable& table) {
+bool TakeApart(const PlanarScene& scene, const std::vector<std::vector<Facet>>& facets,
+               const ProxyOptions& options, PlaneTable& table) {
   PlaneUse use{.idle = std::vector<bool>(table.planes.size()), .building = table.building};
   for (size_t p = 0; p < facets.size(); ++p) {
     use.idle[p] = table.building[p] >= 0 && facets[p].empty();
@@ -193,7 +193,8 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   auto views = view();
   std::vector<std::string> warnings;
   auto facets = OpenFacets(scene, table, views, threads, warnings);
-  if (TakeApartIdle(scene, facets, options, table)) {
+  // Beside the map's buildings only solids count, which are made of planes.
+  if (!mapped && TakeApart(scene, facets, options, table)) {
     views = view();
     facets = OpenFacets(scene, table, views, threads, warnings);
   }

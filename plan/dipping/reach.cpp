@@ -56,6 +56,7 @@ double NearestView(const Facade& wall, const std::vector<WallObserver>& observer
   return std::isfinite(frontal) ? frontal : any;
 }
 
+// How far from each stretch of the wall a photo may stand.
 std::vector<double> LimitsOf(const Facade& wall, const std::vector<WallObserver>& observers,
                              double near_enough) {
   std::vector<double> limits(Stretches(wall));

@@ -18,6 +18,11 @@ double CosDeg(double angle_deg) {
   return std::cos(angle_deg * std::numbers::pi / 180);
 }
 
+bool IsOn(const Samples& samples, int i, const Plane& plane, double distance, double min_cos) {
+  return std::abs(plane.DistanceTo(samples.positions[i])) <= distance &&
+         plane.normal.dot(samples.normals[i]) >= min_cos;
+}
+
 bool LiesOn(const Samples& samples, const Plane& small, const Plane& large, double epsilon,
             double min_cos) {
   // The rough test first: most pairs fail it.
@@ -27,9 +32,7 @@ bool LiesOn(const Samples& samples, const Plane& small, const Plane& large, doub
   const size_t stride = std::max<size_t>(1, small.points.size() / kProbes);
   size_t near = 0, tried = 0;
   for (size_t k = 0; k < small.points.size(); k += stride, ++tried) {
-    const int i = small.points[k];
-    near += std::abs(large.DistanceTo(samples.positions[i])) <= epsilon &&
-            large.normal.dot(samples.normals[i]) >= min_cos;
+    near += IsOn(samples, small.points[k], large, epsilon, min_cos);
   }
   return near >= kShare * static_cast<double>(tried);
 }
@@ -64,10 +67,8 @@ double AdoptionCos(double normal_angle_deg) {
 std::vector<int> PointsOn(const Samples& samples, const Plane& plane, const Plane& other,
                           double distance, double min_cos) {
   std::vector<int> on;
-  std::copy_if(plane.points.begin(), plane.points.end(), std::back_inserter(on), [&](int i) {
-    return std::abs(other.DistanceTo(samples.positions[i])) <= distance &&
-           other.normal.dot(samples.normals[i]) >= min_cos;
-  });
+  std::copy_if(plane.points.begin(), plane.points.end(), std::back_inserter(on),
+               [&](int i) { return IsOn(samples, i, other, distance, min_cos); });
   return on;
 }
 
@@ -147,6 +148,8 @@ void TakeApartIdle(const Samples& samples, const Tolerances& tolerances, double 
   const double min_cos = AdoptionCos(normal_angle_deg);
   const GridIndex index(samples.positions, tolerances.radius);
   std::vector<int> plane_of = PlaneOfEach(samples, planes);
+  std::vector<size_t> before;
+  for (const Plane& plane : planes) before.push_back(plane.points.size());
   const auto take_apart = [&](size_t p) {
     Plane& plane = planes[p];
     std::vector<int> most;
@@ -172,7 +175,11 @@ void TakeApartIdle(const Samples& samples, const Tolerances& tolerances, double 
       if (use.idle[p] && !planes[p].points.empty()) any |= take_apart(p);
     }
   }
-  for (Plane& plane : planes) std::sort(plane.points.begin(), plane.points.end());
+  for (size_t p = 0; p < planes.size(); ++p) {
+    if (planes[p].points.size() == before[p]) continue;
+    std::sort(planes[p].points.begin(), planes[p].points.end());
+    Measure(samples, 2.5 * tolerances.spacing, planes[p]);
+  }
 }
 
 double NormalScatterDeg(const Samples& samples, const Plane& plane) {

@@ -141,7 +141,7 @@ Found WallWithPart(double depth, double turn_deg, double gap) {
 
 // How many points each plane of such a wall is left with.
 std::pair<size_t, size_t> LeftTo(Found found, bool part_is_idle, int part_building = 0) {
-  TakeApartIdle(found.samples, {.level_of_detail = 0.3, .radius = 0.4}, 35,
+  TakeApartIdle(found.samples, {.level_of_detail = 0.3, .spacing = 0.1, .radius = 0.4}, 35,
                 {.idle = {false, part_is_idle}, .building = {0, part_building}}, found.planes);
   return {found.planes[0].points.size(), found.planes[1].points.size()};
 }
