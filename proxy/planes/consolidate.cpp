@@ -149,6 +149,7 @@ void TakeApartIdle(const Samples& samples, const Tolerances& tolerances, double 
   const GridIndex index(samples.positions, tolerances.radius);
   std::vector<int> plane_of = PlaneOfEach(samples, planes);
   std::vector<size_t> before;
+  before.reserve(planes.size());
   for (const Plane& plane : planes) before.push_back(plane.points.size());
   const auto take_apart = [&](size_t p) {
     Plane& plane = planes[p];
