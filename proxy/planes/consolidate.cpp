@@ -148,9 +148,6 @@ void TakeApartIdle(const Samples& samples, const Tolerances& tolerances, double 
   const double min_cos = AdoptionCos(normal_angle_deg);
   const GridIndex index(samples.positions, tolerances.radius);
   std::vector<int> plane_of = PlaneOfEach(samples, planes);
-  std::vector<size_t> before;
-  before.reserve(planes.size());
-  for (const Plane& plane : planes) before.push_back(plane.points.size());
   const auto take_apart = [&](size_t p) {
     Plane& plane = planes[p];
     std::vector<int> most;
@@ -176,10 +173,9 @@ void TakeApartIdle(const Samples& samples, const Tolerances& tolerances, double 
       if (use.idle[p] && !planes[p].points.empty()) any |= take_apart(p);
     }
   }
-  for (size_t p = 0; p < planes.size(); ++p) {
-    if (planes[p].points.size() == before[p]) continue;
-    std::sort(planes[p].points.begin(), planes[p].points.end());
-    Measure(samples, 2.5 * tolerances.spacing, planes[p]);
+  for (Plane& plane : planes) {
+    std::sort(plane.points.begin(), plane.points.end());
+    Measure(samples, 2.5 * tolerances.spacing, plane);
   }
 }
 
