@@ -11,6 +11,7 @@
 #include "proxy/facets/contour_lines.h"
 #include "proxy/facets/raster.h"
 #include "proxy/map/cell_labels.h"
+#include "proxy/map/eaves.h"
 #include "survey/median.h"
 
 namespace stucco {
@@ -376,6 +377,7 @@ RoofCells LabelRoof(const FittedBuilding& building, const RoofEvidence& evidence
       heights.push_back(evidence.samples.positions[i].z());
     }
   }
+  LevelEaves(building, evidence, planes, tolerances, roof.roofs);
   const CoverOfRoofs cover = CoverOf(building, evidence, planes, tolerances);
   roof.roofs.push_back({.height = Median(heights).value_or(building.ground + kRaised_m)});
   roof.lines = LinesOf(building, evidence, cover, roof.roofs, tolerances);
