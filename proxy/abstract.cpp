@@ -17,6 +17,7 @@
 #include "proxy/planes/consolidate.h"
 #include "proxy/scene/ground.h"
 #include "proxy/scene/scene.h"
+#include "proxy/solids/party_walls.h"
 #include "proxy/solids/solid.h"
 #include "proxy/solids/soundness.h"
 #include "proxy/solids/written_check.h"
@@ -223,6 +224,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   for (Building& building : proxy.buildings) {
     building.source == "map" ? AssignIdsByPlace(building) : AssignIds(building);
   }
+  if (proxy.metric) MeasureParty(proxy.buildings);
   return proxy;
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr char kHeader[] =
     "id,building,facade,class,verdict,findings,unit,area,painted,inpainted,seen,inferred,gsd,"
     "misregistration_px,sharpness,photos,q_s,q_d,q_u,q_c,plane_rms,epoch,"
-    "planned_q_s,planned_q_d,planned_q_u,planned_q_c";
+    "planned_q_s,planned_q_d,planned_q_u,planned_q_c,party";
 
 // Empty where the value is not known.
 std::string Number(bool known, double value) {
@@ -66,7 +66,8 @@ std::string FacadesCsv(const SurveyData& data, const std::vector<FacetRow>& rows
         Number(planned, predicted.q_s),
         Number(planned, predicted.q_d),
         Number(planned, predicted.q_u),
-        Number(planned, predicted.q_c)};
+        Number(planned, predicted.q_c),
+        Number(has_facet, facet.party)};
     bool first = true;
     for (const std::string& field : fields) {
       csv += (first ? "" : ",") + CsvField(field);

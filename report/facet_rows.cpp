@@ -34,11 +34,30 @@ struct Limit {
   double Passed(Verdict verdict) const { return verdict == Verdict::kRed ? red : amber; }
 };
 
+VisibleShares SharesOf(const FacetRow& row) {
+  const double party = row.facet != nullptr ? row.facet->party : 0;
+  const double visible = std::max(1e-9, 1 - party);
+  VisibleShares shares;
+  if (row.texture != nullptr) {
+    shares.painted = std::clamp(row.texture->painted / visible, 0.0, 1.0);
+    shares.inpainted = std::clamp((row.texture->inpainted - party) / visible, 0.0, 1.0);
+  }
+  if (row.facet != nullptr) {
+    shares.inferred = std::clamp((row.facet->inferred - party) / visible, 0.0, 1.0);
+  }
+  return shares;
+}
+
 class Judge {
  public:
-  explicit Judge(const ReportOptions& options) : options_(options) {}
+  Judge(const ReportOptions& options, bool metric) : options_(options), metric_(metric) {}
 
   void Fill(FacetRow& row) const {
+    if (const std::string why = WhyExempt(row); !why.empty()) {
+      row.exempt = true;
+      row.findings = {{Verdict::kUnknown, why}};
+      return;
+    }
     if (row.texture_outdated) {
       row.findings = {{Verdict::kUnknown, "its picture is of an older model; texture it again"}};
       return;
@@ -50,7 +69,7 @@ class Judge {
     }
     if (row.facet != nullptr) {
       const Limit limit{options_.inferred_amber_above, options_.inferred_red_above};
-      Add(row, limit, row.facet->inferred, [](double value, double bound) {
+      Add(row, limit, row.shares.inferred, [](double value, double bound) {
         return fmt::format("{} without measured points (limit {})", Percent(value), Percent(bound));
       });
     }
@@ -63,7 +82,7 @@ class Judge {
   void JudgeTexture(FacetRow& row) const {
     const TexturedFacet& texture = *row.texture;
     Add(row, {options_.coverage_amber_below, options_.coverage_red_below, /*low_is_bad=*/true},
-        texture.painted, [](double value, double bound) {
+        row.shares.painted, [](double value, double bound) {
           return fmt::format("{} painted from photos (limit {})", Percent(value), Percent(bound));
         });
     if (row.gsd_ratio > 0) {
@@ -73,7 +92,7 @@ class Judge {
                                value, bound);
           });
     }
-    Add(row, {options_.inpainted_amber_above, options_.inpainted_red_above}, texture.inpainted,
+    Add(row, {options_.inpainted_amber_above, options_.inpainted_red_above}, row.shares.inpainted,
         [](double value, double bound) {
           return fmt::format("{} filled in without a photo (limit {})", Percent(value),
                              Percent(bound));
@@ -93,6 +112,20 @@ class Judge {
     }
   }
 
+  // A wall that a neighbour stands against, or a piece too small to measure, such as a step between
+  // roofs. Facades of the plan have a verdict as long as anything of them can be seen.
+  std::string WhyExempt(const FacetRow& row) const {
+    constexpr double kHidden = 0.95;
+    if (row.facet == nullptr) return "";
+    const double party = row.facet->party;
+    if (party > kHidden) {
+      return fmt::format("not rated: a neighbour stands against {} of it", Percent(party));
+    }
+    const double visible = row.facet->area * (1 - party);
+    if (!metric_ || row.planned != nullptr || visible >= options_.least_area_m2) return "";
+    return fmt::format("not rated: {} of it can be seen", Area(visible, metric_));
+  }
+
   template <typename Text>
   static void Add(FacetRow& row, const Limit& limit, double value, Text text) {
     const Verdict verdict = limit.Judge(value);
@@ -101,6 +134,7 @@ class Judge {
   }
 
   const ReportOptions& options_;
+  bool metric_;
 };
 
 // Whether the textures may be of another model than the proxy: texturing was not finished since.
@@ -219,9 +253,10 @@ std::optional<double> MedianGsd(const SurveyData& data) {
 std::vector<FacetRow> MakeFacetRows(const SurveyData& data, const ReportOptions& options) {
   std::vector<FacetRow> rows = ListFacets(data);
   JoinPlan(data, rows);
+  for (FacetRow& row : rows) row.shares = SharesOf(row);
   if (!data.textures) return rows;
   const double median = MedianGsd(data).value_or(0);
-  const Judge judge(options);
+  const Judge judge(options, data.metric);
   for (FacetRow& row : rows) {
     if (row.texture != nullptr && median > 0) row.gsd_ratio = row.texture->gsd_m / median;
     judge.Fill(row);
@@ -247,6 +282,10 @@ VerdictCounts CountVerdicts(const std::vector<FacetRow>& rows, bool walls_only) 
   VerdictCounts counts;
   for (const FacetRow& row : rows) {
     if (walls_only && row.facet_class != FacetClass::kWall) continue;
+    if (row.exempt) {
+      ++counts.exempt;
+      continue;
+    }
     switch (row.verdict) {
       case Verdict::kGreen:
         ++counts.green;

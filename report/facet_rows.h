@@ -15,6 +15,14 @@ enum class Verdict { kGreen, kAmber, kRed, kUnknown };
 
 std::string Name(Verdict verdict);  // "green", "amber", "red", "unknown"
 
+// The shares of a facet's area that its verdict is made of: of what of it can be seen, which is all
+// but what another building stands against (Facet::party).
+struct VisibleShares {
+  double painted = 0;
+  double inpainted = 0;
+  double inferred = 0;
+};
+
 // One measure held against its limits.
 struct Finding {
   Verdict verdict = Verdict::kGreen;
@@ -31,6 +39,8 @@ struct FacetRow {
   bool texture_outdated = false;           // there is a picture, but of an older model
   FacetClass facet_class = FacetClass::kWall;
   double gsd_ratio = 0;  // size of a photo pixel on it over the survey's median; 0: not known
+  VisibleShares shares;  // 0 where they are not known
+  bool exempt = false;   // nothing of it to speak of can be seen, so it has no verdict
   Verdict verdict = Verdict::kUnknown;
   std::vector<Finding> findings;  // amber and red ones, worst first
 
@@ -55,7 +65,8 @@ struct VerdictCounts {
   int amber = 0;
   int red = 0;
   int unknown = 0;
-  int Total() const { return green + amber + red + unknown; }
+  int exempt = 0;
+  int Total() const { return green + amber + red + unknown; }  // without the exempt
 };
 
 VerdictCounts CountVerdicts(const std::vector<FacetRow>& rows, bool walls_only);

@@ -21,7 +21,7 @@ std::string FormOf(const Building& building) {
 
 struct Surface {
   int facets = 0;
-  double area = 0;
+  double area = 0;  // that can be seen: no neighbour stands against it
   double seen = 0;  // of the area
 };
 
@@ -30,7 +30,7 @@ Surface SurfaceOf(const Building& building) {
   for (const Facet& facet : building.facets) {
     if (facet.facet_class == FacetClass::kGround) continue;  // the floor that closes a solid
     ++out.facets;
-    out.area += facet.area;
+    out.area += facet.area * (1 - facet.party);
     out.seen += facet.area * facet.seen;
   }
   return out;

@@ -91,8 +91,8 @@ std::string Measures(const PageContent& page, const FacetRow& row) {
   std::string html = "<dl class=\"measures\">";
   if (row.IsPainted()) {
     const TexturedFacet& texture = *row.texture;
-    html += Figure("Painted from photos", Percent(texture.painted));
-    html += Figure("Filled in", Percent(texture.inpainted));
+    html += Figure("Painted from photos", Percent(row.shares.painted));
+    html += Figure("Filled in", Percent(row.shares.inpainted));
     html += Figure("Photo pixel", PixelSize(texture.gsd_m, metric),
                    row.gsd_ratio > 0 ? fmt::format("{:.1f} x the median", row.gsd_ratio) : "");
     html += Figure("Misfit between photos", texture.misregistration_px >= 0
@@ -106,7 +106,12 @@ std::string Measures(const PageContent& page, const FacetRow& row) {
   if (row.facet != nullptr) {
     const Facet& facet = *row.facet;
     html += Figure("Area", Area(facet.area, metric));
-    html += Figure("Seen by points", Percent(facet.seen), Count(facet.support, "point", "points"));
+    if (facet.party > 0) {
+      html += Figure("Behind a neighbour", Percent(facet.party),
+                     "of the area; shares here are of the rest, which can be seen");
+    }
+    html += Figure("Seen by points", Percent(1 - row.shares.inferred),
+                   Count(facet.support, "point", "points"));
     html += Figure("Distance of points", Length(facet.rms, metric), "rms from the plane");
     html += Figure("Surface from", EscapeHtml(facet.source));
   }

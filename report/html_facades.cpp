@@ -62,12 +62,11 @@ std::string TableRow(const PageContent& page, size_t index, size_t rank) {
   html += VerdictCell(row, rank);
   html += NumberCell("Area", has_facet, has_facet ? row.facet->area : 0,
                      has_facet ? Area(row.facet->area, metric) : "");
-  html += NumberCell("Painted", painted, texture.painted, Percent(texture.painted));
+  html += NumberCell("Painted", painted, row.shares.painted, Percent(row.shares.painted));
   html += NumberCell("Photo pixel", painted && texture.gsd_m > 0, texture.gsd_m,
                      PixelSize(texture.gsd_m, metric));
-  html += NumberCell("Filled in", painted, texture.inpainted, Percent(texture.inpainted));
-  html += NumberCell("Inferred", has_facet, has_facet ? row.facet->inferred : 0,
-                     has_facet ? Percent(row.facet->inferred) : "");
+  html += NumberCell("Filled in", painted, row.shares.inpainted, Percent(row.shares.inpainted));
+  html += NumberCell("Inferred", has_facet, row.shares.inferred, Percent(row.shares.inferred));
   html += NumberCell("Misfit", painted && texture.misregistration_px >= 0,
                      texture.misregistration_px, Decimal(texture.misregistration_px, 1) + " tx");
   html += NumberCell("Photos", painted, static_cast<double>(texture.photos.size()),
@@ -85,10 +84,10 @@ std::string Head() {
       {"Facade", "", false},
       {"Verdict", "the worst of its measures", false},
       {"Area", "", true},
-      {"Painted", "share of the area painted from photos", true},
+      {"Painted", "share of the area that can be seen, painted from photos", true},
       {"Photo pixel", "median size of a photo pixel on the facade", true},
-      {"Filled in", "share of the area painted without a photo", true},
-      {"Inferred", "share of the area without measured points", true},
+      {"Filled in", "share of the area that can be seen, painted without a photo", true},
+      {"Inferred", "share of the area that can be seen, without measured points", true},
       {"Misfit", "median shift between overlapping photos, in texels (tx)", true},
       {"Photos", "photos that paint it", true}};
   std::string html = "<thead><tr><td class=\"pic\"></td>";

@@ -106,7 +106,8 @@ std::string WorstList(const PageContent& page) {
   size_t listed = 0;
   for (const size_t i : WorstFirst(page.rows)) {
     const FacetRow& row = page.rows[i];
-    const bool listable = row.facet_class == FacetClass::kWall && !row.findings.empty();
+    const bool listable =
+        row.facet_class == FacetClass::kWall && !row.exempt && !row.findings.empty();
     if (!listable || listed == kMost) continue;
     ++listed;
     items += fmt::format(
@@ -146,6 +147,7 @@ std::string Figure(std::string_view name, std::string_view value, std::string_vi
 
 std::vector<size_t> WorstFirst(const std::vector<FacetRow>& rows) {
   const auto badness = [](const FacetRow& row) {
+    if (row.exempt) return -1;
     switch (row.verdict) {
       case Verdict::kRed:
         return 3;
@@ -197,7 +199,8 @@ std::string SummarySection(const PageContent& page) {
     html += "<div class=\"tiles\" role=\"group\" aria-label=\"Show only facades with a verdict\">";
     html += Tile(Verdict::kGreen, counts.green) + Tile(Verdict::kAmber, counts.amber) +
             Tile(Verdict::kRed, counts.red);
-    if (counts.unknown > 0) html += Tile(Verdict::kUnknown, counts.unknown);
+    const int not_rated = counts.unknown + counts.exempt;
+    if (not_rated > 0) html += Tile(Verdict::kUnknown, not_rated);
     html += "</div>" + Bar(counts) + WorstList(page);
   }
   return html + "</div>" + SiteMap(page) + "</section>";

@@ -18,6 +18,7 @@ struct ReportOptions {
   double inferred_red_above = 0.8;
   double misregistration_amber_above = 2;  // texels between overlapping photos
   double misregistration_red_above = 5;
+  double least_area_m2 = 2;   // of what of a facet can be seen; smaller ones have no verdict
   int picture_px = 900;       // longer side of the facade pictures in the page
   bool record_times = false;  // times and memory in the outputs, which then differ between runs
 };

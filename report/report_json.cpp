@@ -30,11 +30,8 @@ Json VerdictJson(Verdict verdict) {
 }
 
 Json CountsJson(const VerdictCounts& counts) {
-  return {{"total", counts.Total()},
-          {"green", counts.green},
-          {"amber", counts.amber},
-          {"red", counts.red},
-          {"unknown", counts.unknown}};
+  return {{"total", counts.Total()}, {"green", counts.green},     {"amber", counts.amber},
+          {"red", counts.red},       {"unknown", counts.unknown}, {"exempt", counts.exempt}};
 }
 
 Json FindingsJson(const FacetRow& row) {
@@ -85,6 +82,7 @@ Json FacadeJson(const SurveyData& data, const FacetRow& row) {
   json["support"] = facet != nullptr ? Json(facet->support) : Json(nullptr);
   json["seen"] = facet != nullptr ? Json(facet->seen) : Json(nullptr);
   json["inferred"] = facet != nullptr ? Json(facet->inferred) : Json(nullptr);
+  json["party"] = facet != nullptr ? Json(facet->party) : Json(nullptr);
   json["image"] = painted ? Json(CleanUtf8(texture->image)) : Json(nullptr);
   json["epoch"] = "original";
   return json;
@@ -262,7 +260,8 @@ Json LimitsJson(const ReportOptions& options) {
           {"inferred_amber_above", options.inferred_amber_above},
           {"inferred_red_above", options.inferred_red_above},
           {"misregistration_amber_above", options.misregistration_amber_above},
-          {"misregistration_red_above", options.misregistration_red_above}};
+          {"misregistration_red_above", options.misregistration_red_above},
+          {"least_area_m2", options.least_area_m2}};
 }
 
 }  // namespace

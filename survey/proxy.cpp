@@ -63,8 +63,8 @@ std::optional<std::string> FindFacetProblem(const Facet& facet) {
   for (const auto& hole : facet.holes) {
     if (auto problem = FindRingProblem(facet, hole, /*is_hole=*/true)) return problem;
   }
-  for (const double share : {facet.seen, facet.inferred}) {
-    if (!(share >= 0 && share <= 1)) return "seen and inferred must be in [0, 1]";
+  for (const double share : {facet.seen, facet.inferred, facet.party}) {
+    if (!(share >= 0 && share <= 1)) return "seen, inferred and party must be in [0, 1]";
   }
   return std::nullopt;
 }
@@ -144,6 +144,7 @@ static void Fields(Archive& archive, T& facet) {
   archive.Required("rms_m", facet.rms);
   archive.Required("seen", facet.seen);
   archive.Required("inferred", facet.inferred);
+  archive.Optional("party", facet.party);
   archive.Optional("support", facet.support);
   archive.Optional("source", facet.source);
   archive.Required("normal", facet.normal);

@@ -31,6 +31,7 @@ struct Facet {
   int support = 0;      // number of cloud points
   double seen = 0;      // share of the area with points
   double inferred = 0;  // share of the area without: 1 - seen
+  double party = 0;     // share of the area that another building stands against: nobody sees it
   std::string source;   // "planes", "footprint", "extruded"
 };
 

@@ -79,12 +79,25 @@ double AreaOf(const MapBuilding& building) {
 // What of the map stands, by what the cloud shows inside its outline.
 enum class Standing { kStands, kGone, kUnseen };
 
-// Nobody sees the ground below a building; below trees one does, between the leaves, and leaves are
-// no planes. What stands open may still be a roof on posts or a ring of walls with a yard.
+constexpr double kRoofed = 0.3;  // of the footprint
+
+// Nobody sees the ground below a building; below trees one does, between the leaves.
+bool ShowsGround(const BuildingEvidence& evidence) {
+  constexpr double kBare = 0.5;  // of what is seen of the footprint
+  constexpr double kSeen = 0.2;  // of the footprint
+  const RoofEvidence& roof = evidence.roof;
+  return roof.seen_m2 > kSeen * AreaOf(evidence.fitted.building) &&
+         roof.bare_m2 > kBare * roof.seen_m2;
+}
+
+// What a building is that does not stand.
+Standing AbsenceOf(const BuildingEvidence& evidence) {
+  return ShowsGround(evidence) ? Standing::kGone : Standing::kUnseen;
+}
+
+// Leaves are no planes. What stands open may still be a roof on posts or a ring of walls with a
+// yard.
 Standing StandingOf(const BuildingEvidence& evidence) {
-  constexpr double kBare = 0.5;         // of what is seen of the footprint
-  constexpr double kSeen = 0.2;         // of the footprint
-  constexpr double kRoofed = 0.3;       // of the footprint
   constexpr double kSmooth = 0.75;      // of what lies above it
   constexpr double kHeld = 0.4;         // of the walls
   constexpr double kHeldAround = 0.75;  // of the walls, where the ground shows between them
@@ -98,10 +111,26 @@ Standing StandingOf(const BuildingEvidence& evidence) {
   }
   const bool smooth =
       static_cast<double>(on_planes) > kSmooth * static_cast<double>(roof.samples.size());
-  const bool open = roof.seen_m2 > kSeen * area && roof.bare_m2 > kBare * roof.seen_m2;
-  const bool walled = evidence.fitted.held > (open ? kHeldAround : kHeld);
+  const bool walled = evidence.fitted.held > (ShowsGround(evidence) ? kHeldAround : kHeld);
   if (walled || (smooth && roofed > kRoofed * area)) return Standing::kStands;
-  return open ? Standing::kGone : Standing::kUnseen;
+  return AbsenceOf(evidence);
+}
+
+// Whether the cloud shows what was made of it. Crowns of trees hold edges of a map by leaves that
+// stand upright, and roofs by leaves that lie flat, but fill neither walls nor roofs.
+bool ShowsWhatStands(const std::vector<Facet>& facets) {
+  constexpr double kWalled = 0.2;  // of the walls, without party walls where facades are known
+  const bool has_facades = std::ranges::any_of(
+      facets, [](const Facet& facet) { return !facet.planned_facades.empty(); });
+  double walls = 0, walls_seen = 0, roofs = 0, roofs_seen = 0;
+  for (const Facet& facet : facets) {
+    const bool wall = facet.facet_class == FacetClass::kWall;
+    if (wall && has_facades && facet.planned_facades.empty()) continue;
+    if (!wall && facet.facet_class != FacetClass::kRoof) continue;
+    (wall ? walls : roofs) += facet.area;
+    (wall ? walls_seen : roofs_seen) += facet.area * facet.seen;
+  }
+  return walls_seen > kWalled * walls || roofs_seen > kRoofed * roofs;
 }
 
 // One way to close a building.
@@ -283,6 +312,17 @@ Outcome CloseOne(const UprightSurvey& survey, const BuildingCloser& closer,
   const bool wanted = outcome.standing == Standing::kStands ||
                       (outcome.standing == Standing::kUnseen && mapped.to_capture);
   if (wanted) outcome.closed = closer.Close(evidence, mapped);
+  const bool doubtful = outcome.standing == Standing::kStands &&
+                        !outcome.closed.solid.facets.empty() &&
+                        !ShowsWhatStands(outcome.closed.solid.facets);
+  if (!doubtful) return outcome;
+  outcome.standing = AbsenceOf(evidence);
+  outcome.closed = {};
+  if (outcome.standing == Standing::kUnseen && mapped.to_capture) {
+    evidence.roof.planes.clear();  // as the map has it
+    evidence.top.reset();
+    outcome.closed = closer.Close(evidence, mapped);
+  }
   return outcome;
 }
 

@@ -241,7 +241,8 @@ std::vector<int> FaceOfCells(const PlaneRaster& raster, const Arrangement& arran
 }
 
 // The costs of the raster's cells by roof: the mean over their samples of how far these lie from
-// it, up to twice the level of detail.
+// it, up to twice the level of detail. Cells with fewer than half of the samples that the cloud's
+// spacing promises say less: what grazing views leave there is as likely wrong as right.
 using Costs = std::vector<std::vector<double>>;
 Costs CostsOf(const RoofEvidence& evidence, std::span<const int> planes, const CoverOfRoofs& cover,
               const std::vector<RoofPlane>& roofs, const Tolerances& tolerances) {
@@ -251,7 +252,8 @@ Costs CostsOf(const RoofEvidence& evidence, std::span<const int> planes, const C
     for (const int i : evidence.planes[p].points) on_plane[i] = true;
   }
   Costs costs(cells, std::vector<double>(roofs.size(), 0));
-  std::vector<double> weights(cells, 0), most(cells, 0);
+  std::vector<double> weights(cells, 0), most(cells, 0), counts(cells, 0);
+  const double enough = 0.5 * std::pow(cover.raster.cell / tolerances.spacing, 2);
   const double farthest = 2 * tolerances.level_of_detail;
   for (size_t i = 0; i < evidence.samples.size(); ++i) {
     const Eigen::Vector3d& p = evidence.samples.positions[i];
@@ -265,10 +267,13 @@ Costs CostsOf(const RoofEvidence& evidence, std::span<const int> planes, const C
     }
     weights[at] += weight;
     most[at] = std::max(most[at], weight);
+    ++counts[at];
   }
   for (size_t at = 0; at < cells; ++at) {
     for (size_t k = 0; k < roofs.size(); ++k) {
-      if (weights[at] > 0) costs[at][k] *= most[at] / weights[at];
+      if (weights[at] > 0) {
+        costs[at][k] *= most[at] / weights[at] * std::min(1.0, counts[at] / enough);
+      }
       const bool level = k + 1 == roofs.size();
       if (level) {
         costs[at][k] += kLevelRoof;

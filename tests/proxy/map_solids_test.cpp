@@ -327,6 +327,19 @@ TEST(MapSolids, LeavesAboveBareGroundAreNoRoof) {
   EXPECT_TRUE(Says(made.findings.warnings, "B0002: not built, or demolished"));
 }
 
+TEST(MapSolids, ACrownThatHoldsAnOutlineIsNoHouse) {
+  // Leaves that stand upright along all edges of what the map has, and lie flat here and there.
+  auto captured = test::Capture({test::BoxHouse(12, 9, 6)}, {test::GroundSquare(25)}, kCapture);
+  for (const auto& [x, y] :
+       {std::pair{15.0, -2.0}, {17.0, -2.0}, {19.0, -2.0}, {15.0, 1.0}, {17.0, 1.0}, {19.0, 1.0}}) {
+    test::AddTree({x, y, 3.5}, 1.8, 2500, 3, captured);
+  }
+  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4.5, 6, 4.5)}, 6},
+                                    {"B0002", {Rectangle(14, -3, 20, 2)}, 6}});
+  Closed(made, "B0001");
+  EXPECT_EQ(test::Find(made.proxy, "B0002"), nullptr);
+}
+
 TEST(MapSolids, ARoofOnPostsStands) {
   auto canopy = FlatHouse(Rectangle(12, -4, 20, 4), 4.5);
   canopy.polygons = {canopy.polygons.back()};
@@ -347,6 +360,45 @@ TEST(MapSolids, AParapetIsNoRoof) {
       test::Capture({house}, {test::GroundSquare(25)}, {.spacing = 0.1, .noise = 0.02});
   const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 6}});
   EXPECT_EQ(Closed(made, "B0001").facets.size(), 6u);
+}
+
+// A level roof of 10 x 8 m at 5.6 m whose northern half nobody saw but for a point here and there,
+// `every` so many metres, at the height of its parapet, 6 m.
+Captured RoofWithStrays(double every) {
+  test::House house = FlatHouse(Rectangle(-5, -4, 5, 4), 6);
+  house.polygons.back() = {
+      "roof", {{-4.5, -3.5, 5.6}, {4.5, -3.5, 5.6}, {4.5, 0.3, 5.6}, {-4.5, 0.3, 5.6}}};
+  for (const Ring& strip : {Rectangle(-5, -4, 5, -3.5), Rectangle(-5, 3.5, 5, 4),
+                            Rectangle(-5, -3.5, -4.5, 3.5), Rectangle(4.5, -3.5, 5, 3.5)}) {
+    std::vector<Eigen::Vector3d> ring;
+    for (const Eigen::Vector2d& p : strip) ring.emplace_back(p.x(), p.y(), 6);
+    house.polygons.push_back({"parapet", ring});
+  }
+  Captured captured =
+      test::Capture({house}, {test::GroundSquare(8)}, {.spacing = 0.035, .noise = 0.02});
+  for (double x = -3.5; x < 3.5; x += every) {
+    for (double y = 1; y < 3; y += every) {
+      captured.cloud.positions.emplace_back(x, y, 6);
+      captured.cloud.normals.push_back(Eigen::Vector3f::UnitZ());
+      captured.cloud.colors.push_back({128, 128, 128});
+      captured.cloud.views.push_back({1, 2});
+    }
+  }
+  return captured;
+}
+
+TEST(MapSolids, AParapetMakesNoRoofOfStrays) {
+  const std::vector<MapEntry> map = {{"B0001", {Rectangle(-5, -4, 5, 4)}, 6}};
+  const Made made = Make(RoofWithStrays(0.13), map);
+  const auto roofs = Of(Closed(made, "B0001"), FacetClass::kRoof);
+  ASSERT_EQ(roofs.size(), 1u);
+  EXPECT_NEAR(Highest(*roofs[0]), 5.6, 0.02);
+}
+
+TEST(MapSolids, WhatIsAsDenseAsTheRoofIsAPlatform) {
+  const std::vector<MapEntry> map = {{"B0001", {Rectangle(-5, -4, 5, 4)}, 6}};
+  const Made made = Make(RoofWithStrays(0.035), map);
+  EXPECT_GE(Of(Closed(made, "B0001"), FacetClass::kRoof).size(), 2u);
 }
 
 TEST(MapSolids, ARoofLiesOnItselfNotBetweenItAndItsRim) {
@@ -389,6 +441,13 @@ TEST(MapSolids, NeighboursKeepTouching) {
   };
   EXPECT_NEAR(faces(left, Eigen::Vector3d::UnitX()), -faces(right, -Eigen::Vector3d::UnitX()),
               1e-9);
+  // The low house hides as much of the tall one's wall as it is high, and all of its own.
+  for (const Facet* wall : Of(left, FacetClass::kWall)) {
+    EXPECT_NEAR(wall->party, wall->normal.x() > 0.99 ? 5.0 / 8 : 0, 0.02);
+  }
+  for (const Facet* wall : Of(right, FacetClass::kWall)) {
+    EXPECT_NEAR(wall->party, wall->normal.x() < -0.99 ? 1 : 0, 0.02);
+  }
 }
 
 TEST(MapSolids, DetailsDoNotDependOnTheSizeOfTheSurvey) {

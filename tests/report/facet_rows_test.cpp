@@ -147,6 +147,54 @@ TEST(MakeFacetRows, ExactlyAtTheLimitIsGood) {
   EXPECT_EQ(FirstRow(data).verdict, Verdict::kGreen);
 }
 
+TEST(MakeFacetRows, IsJudgedByWhatCanBeSeen) {
+  SurveyData data = GoodWalls();
+  Facet& facet = data.proxy->buildings[0].facets[0];
+  TexturedFacet& texture = data.textures->facets[0];
+  facet.party = 0.6;  // a lower neighbour
+  facet.seen = 0.38;
+  facet.inferred = 0.62;
+  texture.painted = 0.4;
+  texture.inpainted = 0.6;
+  EXPECT_EQ(FirstRow(data).verdict, Verdict::kGreen);
+  EXPECT_NEAR(FirstRow(data).shares.inferred, 0.05, 1e-9);
+  texture.painted = 0.2;  // half of what can be seen
+  texture.inpainted = 0.8;
+  EXPECT_EQ(FirstRow(data).verdict, Verdict::kRed);
+  facet.party = 0;
+  texture.painted = 0.4;
+  EXPECT_EQ(FirstRow(data).verdict, Verdict::kRed);
+}
+
+TEST(MakeFacetRows, PartyWallsAndSmallPiecesHaveNoVerdict) {
+  SurveyData data = GoodWalls();
+  std::vector<Facet>& facets = data.proxy->buildings[0].facets;
+  facets[0].party = 0.97;
+  facets[0].seen = 0;
+  facets[0].inferred = 1;
+  facets[1].area = 1.9;
+  facets[1].inferred = 1;
+  for (const size_t i : {0, 1}) {
+    const FacetRow row = MakeFacetRows(data, {})[i];
+    EXPECT_TRUE(row.exempt);
+    EXPECT_EQ(row.verdict, Verdict::kUnknown);
+    ASSERT_EQ(row.findings.size(), 1U);
+    EXPECT_THAT(row.findings[0].text, HasSubstr("not rated"));
+  }
+  const VerdictCounts counts = CountVerdicts(MakeFacetRows(data, {}), /*walls_only=*/true);
+  EXPECT_EQ(counts.exempt, 2);
+  EXPECT_EQ(counts.Total(), 1);
+  // A size in the units of a survey without scale says nothing.
+  data.metric = false;
+  EXPECT_FALSE(MakeFacetRows(data, {})[1].exempt);
+  // A facade of the plan was asked for, however small.
+  data.metric = true;
+  data.plan.emplace();
+  data.plan->facades.emplace_back().id = "B0007/F00";
+  facets[1].planned_facades = {"B0007/F00"};
+  EXPECT_EQ(MakeFacetRows(data, {})[1].verdict, Verdict::kRed);
+}
+
 TEST(MakeFacetRows, LimitsAreOptions) {
   SurveyData data = GoodWalls();
   data.textures->facets[0].painted = 0.8;

@@ -404,7 +404,7 @@ TEST(DescribeReport, EveryOptionHasHelpAndADefaultInRange) {
   ReportOptions options;
   OptionTable table("report");
   Describe(table, options);
-  EXPECT_EQ(table.options().size(), 12U);
+  EXPECT_EQ(table.options().size(), 13U);
   for (const Option& option : table.options()) {
     EXPECT_FALSE(option.help.empty()) << option.name;
     if (const auto* value = std::get_if<double*>(&option.value)) {

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/solids/party_walls.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_2.h>
+#include <CGAL/intersections.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <boost/variant/get.hpp>
+#include <cmath>
+
+#include "proxy/planes/plane.h"
+#include "survey/triangulate.h"
+
+namespace stucco {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Triangle = Kernel::Triangle_2;
+
+constexpr double kGap_m = 0.3;
+constexpr double kFaceToFace = -0.9998;  // cosine: a degree
+
+Eigen::AlignedBox3d BoundsOf(const Facet& facet) {
+  Eigen::AlignedBox3d box;
+  for (const auto& p : facet.outer) box.extend(p);
+  return box;
+}
+
+Eigen::AlignedBox3d BoundsOf(const Building& building) {
+  Eigen::AlignedBox3d box;
+  for (const Facet& facet : building.facets) box.extend(BoundsOf(facet));
+  return box;
+}
+
+std::vector<Triangle> Flattened(const Facet& facet, const PlaneFrame& frame) {
+  const FacetTriangles split = TriangulateFacet(facet);
+  std::vector<Triangle> flat;
+  flat.reserve(split.triangles.size());
+  for (const auto& corners : split.triangles) {
+    std::array<Kernel::Point_2, 3> p;
+    for (size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector2d at = frame.ToPlane(split.vertices[corners[i]]);
+      p[i] = {at.x(), at.y()};
+    }
+    const Triangle triangle(p[0], p[1], p[2]);
+    if (!triangle.is_degenerate()) flat.push_back(triangle);
+  }
+  return flat;
+}
+
+double SharedArea(const Triangle& a, const Triangle& b) {
+  const auto shared = CGAL::intersection(a, b);
+  if (!shared) return 0;
+  if (const auto* triangle = boost::get<Triangle>(&*shared)) return std::abs(triangle->area());
+  if (const auto* points = boost::get<std::vector<Kernel::Point_2>>(&*shared)) {
+    return std::abs(CGAL::Polygon_2<Kernel>(points->begin(), points->end()).area());
+  }
+  return 0;
+}
+
+// Metres from the wall's plane to the other's, where they face each other; infinite elsewhere.
+double GapBetween(const Facet& wall, const Facet& other) {
+  if (wall.normal.dot(other.normal) > kFaceToFace) return INFINITY;
+  double sum = 0;
+  for (const auto& p : other.outer) sum += wall.normal.dot(p) - wall.offset;
+  return std::abs(sum / static_cast<double>(other.outer.size()));
+}
+
+double SharedArea(const Facet& wall, const Facet& other) {
+  const Eigen::Vector3d u = AnyPerpendicular(wall.normal);
+  const PlaneFrame frame{.origin = wall.outer.front(), .u = u, .v = wall.normal.cross(u)};
+  double area = 0;
+  const std::vector<Triangle> others = Flattened(other, frame);
+  for (const Triangle& triangle : Flattened(wall, frame)) {
+    for (const Triangle& against : others) area += SharedArea(triangle, against);
+  }
+  return area;
+}
+
+void AddParty(const std::vector<Facet>& neighbours, Facet& wall) {
+  Eigen::AlignedBox3d box = BoundsOf(wall);
+  box.min().array() -= kGap_m;
+  box.max().array() += kGap_m;
+  for (const Facet& other : neighbours) {
+    if (other.facet_class != FacetClass::kWall || !box.intersects(BoundsOf(other))) continue;
+    if (GapBetween(wall, other) > kGap_m) continue;
+    wall.party = std::min(1.0, wall.party + SharedArea(wall, other) / wall.area);
+  }
+}
+
+}  // namespace
+
+void MeasureParty(std::vector<Building>& buildings) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  boxes.reserve(buildings.size());
+  for (const Building& building : buildings) boxes.push_back(BoundsOf(building));
+  for (size_t a = 0; a < buildings.size(); ++a) {
+    Eigen::AlignedBox3d reach = boxes[a];
+    reach.min().array() -= kGap_m;
+    reach.max().array() += kGap_m;
+    for (Facet& facet : buildings[a].facets) facet.party = 0;
+    for (size_t b = 0; b < buildings.size(); ++b) {
+      if (a == b || !reach.intersects(boxes[b])) continue;
+      for (Facet& facet : buildings[a].facets) {
+        const bool is_wall = facet.facet_class == FacetClass::kWall && facet.area > 0;
+        if (is_wall) AddParty(buildings[b].facets, facet);
+      }
+    }
+  }
+}
+
+}  // namespace stucco
