@@ -113,8 +113,15 @@ CoverOfRoofs CoverOf(const FittedBuilding& building, const RoofEvidence& evidenc
   return cover;
 }
 
-// The line in which two roofs meet, where both have samples near it; nothing when they run
-// parallel or meet elsewhere.
+// Whether two roofs fall to opposite sides, so that they meet in a ridge.
+bool FallApart(const RoofPlane& a, const RoofPlane& b) {
+  constexpr double kOpposite = -0.98;  // cosine
+  return a.slope.dot(b.slope) < kOpposite * a.slope.norm() * b.slope.norm();
+}
+
+// The line in which two roofs meet, where both have samples near it, or one of two that fall apart:
+// the far side of a ridge is often seen only at its eaves. Nothing when they run parallel or meet
+// elsewhere.
 std::optional<CutLine> MeetingLine(const CoverOfRoofs& cover, const std::vector<RoofPlane>& roofs,
                                    size_t a, size_t b, double reach) {
   constexpr double kLeastSlope = 0.02;
@@ -132,11 +139,13 @@ std::optional<CutLine> MeetingLine(const CoverOfRoofs& cover, const std::vector<
       line.point + line.direction * line.direction.dot(box.center() - line.point);
   line.point = middle;
   const double half = box.diagonal().norm() / 2;
+  const bool ridge = FallApart(roofs[a], roofs[b]);
   double shared = 0;
   for (double t = -half; t <= half; t += cover.raster.cell) {
     const int at = cover.raster.IndexAt(middle + t * line.direction);
-    if (at < 0 || cover.to_hit[a][at] > reach || cover.to_hit[b][at] > reach) continue;
-    shared += cover.raster.cell;
+    if (at < 0) continue;
+    const bool near_a = cover.to_hit[a][at] <= reach, near_b = cover.to_hit[b][at] <= reach;
+    if (ridge ? near_a || near_b : near_a && near_b) shared += cover.raster.cell;
   }
   if (shared < kLeastShared_m) return std::nullopt;
   return line;

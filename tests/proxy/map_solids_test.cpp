@@ -98,6 +98,22 @@ TEST(MapSolids, ClosesAGableHouse) {
   EXPECT_TRUE(Says(made.findings.notes, "B0001: closed, full"));
 }
 
+TEST(MapSolids, ARidgeIsOneWhereItsFarSideIsSeenOnlyAtTheEaves) {
+  test::House house = test::GableHouse(12, 10, 6, 9.5);
+  // Of the northern roof nothing is seen above 1.5 m from its eaves.
+  house.polygons.back() = {"eaves", {{6, 5, 6}, {-6, 5, 6}, {-6, 3.5, 7.05}, {6, 3.5, 7.05}}};
+  house.polygons.push_back({"upper", {{6, 3.5, 7.05}, {-6, 3.5, 7.05}, {-6, 0, 9.5}, {6, 0, 9.5}}});
+  auto options = kCapture;
+  options.hide = {"upper"};
+  const auto captured = test::Capture({house}, {test::GroundSquare(25)}, options);
+  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -5, 6, 5)}, 9.5}});
+  const Building& building = Closed(made, "B0001");
+  EXPECT_EQ(building.facets.size(), 7u);
+  for (const Facet* roof : Of(building, FacetClass::kRoof)) {
+    EXPECT_NEAR(Highest(*roof), 9.5, 0.1);
+  }
+}
+
 TEST(MapSolids, ClosesAHipRoof) {
   const auto captured =
       test::Capture({test::HipHouse(14, 8, 5)}, {test::GroundSquare(25)}, kCapture);
