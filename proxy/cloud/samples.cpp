@@ -152,6 +152,7 @@ CellSums SumCells(const PointStream& stream, const PlaceOfPhoto& places,
   size_t number = 0;
   stream.for_each([&](const CloudPoint& point) {
     const size_t i = number++;
+    if (result.too_many) return;
     if (!point.position.allFinite() || !box.contains(point.position)) {
       ++result.dropped;
       return;
