@@ -79,8 +79,6 @@ double AreaOf(const MapBuilding& building) {
 // What of the map stands, by what the cloud shows inside its outline.
 enum class Standing { kStands, kGone, kUnseen };
 
-constexpr double kRoofed = 0.3;  // of the footprint
-
 // Nobody sees the ground below a building; below trees one does, between the leaves.
 bool ShowsGround(const BuildingEvidence& evidence) {
   constexpr double kBare = 0.5;  // of what is seen of the footprint
@@ -98,6 +96,7 @@ Standing AbsenceOf(const BuildingEvidence& evidence) {
 // Leaves are no planes. What stands open may still be a roof on posts or a ring of walls with a
 // yard.
 Standing StandingOf(const BuildingEvidence& evidence) {
+  constexpr double kRoofed = 0.3;       // of the footprint
   constexpr double kSmooth = 0.75;      // of what lies above it
   constexpr double kHeld = 0.4;         // of the walls
   constexpr double kHeldAround = 0.75;  // of the walls, where the ground shows between them
@@ -119,7 +118,8 @@ Standing StandingOf(const BuildingEvidence& evidence) {
 // Whether the cloud shows what was made of it. Crowns of trees hold edges of a map by leaves that
 // stand upright, and roofs by leaves that lie flat, but fill neither walls nor roofs.
 bool ShowsWhatStands(const std::vector<Facet>& facets) {
-  constexpr double kWalled = 0.2;  // of the walls, without party walls where facades are known
+  constexpr double kWalled = 0.2;   // of the walls, without party walls where facades are known
+  constexpr double kCovered = 0.4;  // of the roofs
   const bool has_facades = std::ranges::any_of(
       facets, [](const Facet& facet) { return !facet.planned_facades.empty(); });
   double walls = 0, walls_seen = 0, roofs = 0, roofs_seen = 0;
@@ -130,7 +130,7 @@ bool ShowsWhatStands(const std::vector<Facet>& facets) {
     (wall ? walls : roofs) += facet.area;
     (wall ? walls_seen : roofs_seen) += facet.area * facet.seen;
   }
-  return walls_seen > kWalled * walls || roofs_seen > kRoofed * roofs;
+  return walls_seen > kWalled * walls || roofs_seen > kCovered * roofs;
 }
 
 // One way to close a building.

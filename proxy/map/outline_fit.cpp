@@ -12,6 +12,7 @@
 
 #include "proxy/map/wall_among.h"
 #include "survey/disjoint_sets.h"
+#include "survey/median.h"
 
 namespace stucco {
 namespace {
@@ -120,14 +121,14 @@ struct Fitting {
 };
 
 // Where the points of each run are, outwards of the building's edges.
-void FindOffsets(const UprightSurvey& survey, const MapBuilding& building, double outset,
-                 Fitting& fitting) {
+void FindOffsets(const UprightSurvey& survey, const MapBuilding& building,
+                 const ExpectedWall& expected, Fitting& fitting) {
   for (RingPlace& place : fitting.rings) {
     const Ring& ring = building.parts[place.part].rings[place.ring];
     for (Run& run : place.runs) {
       if (run.party) continue;
       run.offset = WallAmong(HitsOf(survey.samples, fitting.near, ring, run, fitting.ground),
-                             survey.tolerances.level_of_detail, outset, run.length);
+                             survey.tolerances.level_of_detail, expected, run.length);
     }
   }
 }
@@ -161,13 +162,21 @@ double WeightOf(double off) {
   return (sigmas > 1 ? 1 / sigmas : 1) / (kRunSigma_m * kRunSigma_m);
 }
 
-// The shift that runs agree on, where all of them lie `outset` outside of the map's.
-Eigen::Vector2d CommonShift(const std::vector<const Run*>& runs, double outset) {
+// How far the buildings of a map are shifted, each by itself.
+struct ShiftPrior {
+  std::vector<Eigen::Vector2d> done;  // by group: what they have been shifted by already
+  double sigma = kMapSigma_m;         // of all of it, per axis
+};
+
+// The shift that runs agree on, where all of them lie `outset` outside of the map's, of a group
+// that has been shifted by `done`.
+Eigen::Vector2d CommonShift(const std::vector<const Run*>& runs, double outset,
+                            const Eigen::Vector2d& done, double sigma) {
   constexpr int kRounds = 10;
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() / (kMapSigma_m * kMapSigma_m);
-    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() / (sigma * sigma);
+    Eigen::Vector2d right = -done / (sigma * sigma);
     for (const Run* run : runs) {
       const double offset = *run->offset - outset;
       const double weight = WeightOf(offset - run->outwards.dot(shift));
@@ -187,13 +196,13 @@ struct MapErrors {
   double outset = 0;                    // of the walls from the outlines
 };
 
-MapErrors ErrorsOf(const std::vector<std::vector<const Run*>>& groups) {
+MapErrors ErrorsOf(const std::vector<std::vector<const Run*>>& groups, const ShiftPrior& prior) {
   constexpr int kRounds = 30;
   MapErrors errors{.shifts = std::vector<Eigen::Vector2d>(groups.size(), Eigen::Vector2d::Zero())};
   for (int round = 0; round < kRounds; ++round) {
     double total = 1 / (kMapSigma_m * kMapSigma_m), sum = 0;
     for (size_t g = 0; g < groups.size(); ++g) {
-      errors.shifts[g] = CommonShift(groups[g], errors.outset);
+      errors.shifts[g] = CommonShift(groups[g], errors.outset, prior.done[g], prior.sigma);
       for (const Run* run : groups[g]) {
         const double off = *run->offset - run->outwards.dot(errors.shifts[g]);
         const double weight = WeightOf(off - errors.outset);
@@ -204,6 +213,35 @@ MapErrors ErrorsOf(const std::vector<std::vector<const Run*>>& groups) {
     errors.outset = sum / total;
   }
   return errors;
+}
+
+// How far buildings are shifted, by what most of them are: of a map that puts others where they
+// stand, one wall that is seen badly does not move a building.
+double SpreadOf(const std::vector<Eigen::Vector2d>& shifts,
+                const std::vector<std::vector<const Run*>>& groups) {
+  constexpr size_t kFewest = 3;
+  constexpr double kMedianOfPlane = 1.1774;  // of lengths, for normal distributions along both axes
+  constexpr double kLeast_m = 0.05;
+  std::vector<double> lengths;
+  for (size_t g = 0; g < groups.size(); ++g) {
+    if (!groups[g].empty()) lengths.push_back(shifts[g].norm());
+  }
+  if (lengths.size() < kFewest) return kMapSigma_m;
+  return std::clamp(*Median(lengths) / kMedianOfPlane, kLeast_m, kMapSigma_m);
+}
+
+// How far walls lie from where the errors of the map put them, by what most of them do.
+double SpreadOf(const std::vector<std::vector<const Run*>>& groups, const MapErrors& errors) {
+  constexpr size_t kFewest = 6;
+  constexpr double kSigmaOfMedian = 1.4826;  // of absolute deviations, for a normal distribution
+  std::vector<double> off;
+  for (size_t g = 0; g < groups.size(); ++g) {
+    for (const Run* run : groups[g]) {
+      off.push_back(std::abs(*run->offset - run->outwards.dot(errors.shifts[g]) - errors.outset));
+    }
+  }
+  if (off.size() < kFewest) return kMapSigma_m;
+  return std::clamp(kSigmaOfMedian * *Median(off), kRunSigma_m, kMapSigma_m);
 }
 
 // Where a corner between two edges goes when they move outwards.
@@ -423,25 +461,29 @@ std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
                                         std::span<const Facade> facades, double plan_to_survey_m) {
   auto [fittings, groups] = FittingsOf(survey, buildings, plan_to_survey_m);
   std::vector<MapBuilding> shifted(buildings.begin(), buildings.end());
-  double outset = 0;
+  ExpectedWall expected;
+  ShiftPrior prior{.done = std::vector<Eigen::Vector2d>(groups.size(), Eigen::Vector2d::Zero())};
   // Once the buildings are shifted, more of their walls are within reach.
-  constexpr int kRounds = 2;
+  constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
     for (size_t b = 0; b < buildings.size(); ++b) {
-      FindOffsets(survey, shifted[b], outset, fittings[b]);
+      FindOffsets(survey, shifted[b], expected, fittings[b]);
     }
-    const MapErrors errors = ErrorsOf(HeldRuns(fittings, groups));
-    outset = errors.outset;
+    const auto held = HeldRuns(fittings, groups);
+    const MapErrors errors = ErrorsOf(held, prior);
+    expected = {.distance = errors.outset, .sigma = SpreadOf(held, errors)};
     for (size_t g = 0; g < groups.size(); ++g) {
       Eigen::Isometry2d motion = Eigen::Isometry2d::Identity();
       motion.translation() = errors.shifts[g];
+      prior.done[g] += errors.shifts[g];
       for (const size_t b : groups[g]) shifted[b] = Moved(shifted[b], motion);
     }
+    prior.sigma = SpreadOf(prior.done, held);
   }
   std::vector<FittedBuilding> fitted(buildings.size());
   for (size_t b = 0; b < buildings.size(); ++b) {
-    FindOffsets(survey, shifted[b], outset, fittings[b]);
-    fitted[b].building = Fitted(shifted[b], fittings[b], outset);
+    FindOffsets(survey, shifted[b], expected, fittings[b]);
+    fitted[b].building = Fitted(shifted[b], fittings[b], expected.distance);
     fitted[b].edges = EdgesOf(buildings[b], fitted[b].building, fittings[b], facades);
     fitted[b].ground = fittings[b].ground;
     fitted[b].held = HeldShare(fittings[b]);

@@ -17,12 +17,18 @@ struct WallHit {
   std::pair<int, int> cell;  // half metres along and up
 };
 
+// Where the other walls of a map put this one, outwards of its edge in metres.
+struct ExpectedWall {
+  double distance = 0;
+  double sigma = kMapSigma_m;  // of most walls; some are as far off as maps are
+};
+
 // Where the wall of an edge is, outwards of it in metres: where most of `hits` (by distance) lie in
-// a strip as wide as the level of detail, weighted by how likely a map is that far from `expected`,
-// and of those where they lie closest together: a wall is flat, but for its windows, which stand a
-// hand or more behind it, and the mean of all would lie between the two. Nothing where what lies
-// there is too little for a wall of this length.
+// a strip as wide as the level of detail, weighted by how likely the wall is that far from where it
+// is expected, and of those where they lie closest together, weighted alike: a wall is flat, but
+// for its windows, which stand a hand or more behind it, and the mean of all would lie between the
+// two. Nothing where what lies there is too little for a wall of this length.
 std::optional<double> WallAmong(std::span<const WallHit> hits, double level_of_detail,
-                                double expected, double length);
+                                const ExpectedWall& expected, double length);
 
 }  // namespace stucco

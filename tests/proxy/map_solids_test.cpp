@@ -268,6 +268,29 @@ TEST(MapSolids, TellsEavesFromShifts) {
   }
 }
 
+TEST(MapSolids, PanesAreNoWallWhereTheOtherWallsSaySo) {
+  // One wall shows more of its windows, 0.19 m behind it, than of itself.
+  Street street = MakeStreet();
+  const Ring& ring = street.map[0].rings[0];
+  const Eigen::Vector2d a = ring[2], b = ring[3];
+  const Eigen::Vector2d inwards = -0.19 * OutwardsOf({a, b});
+  const auto upright = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q, double low,
+                          double high) {
+    return std::vector<Eigen::Vector3d>{
+        {p.x(), p.y(), low}, {q.x(), q.y(), low}, {q.x(), q.y(), high}, {p.x(), p.y(), high}};
+  };
+  test::House& house = street.houses[0];
+  house.polygons[2] = {"plaster", upright(a, b, 0, 3.0)};
+  house.polygons.push_back({"panes", upright(a + inwards, b + inwards, 3.0, 6)});
+  const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
+  const Made made = Make(captured, street.map);
+  for (const Facet* wall : Of(Closed(made, street.map[0].id), FacetClass::kWall)) {
+    const Eigen::Vector2d outwards = wall->normal.head<2>();
+    if (outwards.dot(OutwardsOf({a, b})) < 0.99) continue;
+    EXPECT_NEAR(wall->offset, outwards.dot(a), 0.04);
+  }
+}
+
 TEST(MapSolids, RefusesAMapOfAnotherTown) {
   const Street street = MakeStreet();
   const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);

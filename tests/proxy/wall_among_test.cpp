@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/map/wall_among.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace stucco {
+namespace {
+
+constexpr double kDetail_m = 0.3;
+constexpr double kLength_m = 10;
+
+// `count` points evenly over a band of 6 cm and over the whole wall.
+void Add(double distance, int count, std::vector<WallHit>& hits) {
+  for (int k = 0; k < count; ++k) {
+    hits.push_back({distance - 0.03 + 0.06 * k / count, {k % 20, k / 20 % 10}});
+  }
+  std::ranges::sort(hits, {}, &WallHit::distance);
+}
+
+// Panes of windows at the map's line, and 19 cm before them somewhat less of their wall.
+std::vector<WallHit> PanesAndWall() {
+  std::vector<WallHit> hits;
+  Add(-0.03, 500, hits);
+  Add(0.16, 400, hits);
+  return hits;
+}
+
+TEST(WallAmong, IsWhereMostPointsLie) {
+  EXPECT_NEAR(*WallAmong(PanesAndWall(), kDetail_m, {}, kLength_m), -0.03, 0.02);
+}
+
+TEST(WallAmong, IsWhereTheOtherWallsOfAMapPutIt) {
+  EXPECT_NEAR(*WallAmong(PanesAndWall(), kDetail_m, {.distance = 0.16, .sigma = 0.15}, kLength_m),
+              0.16, 0.02);
+}
+
+TEST(WallAmong, ManyPointsOutvoteTheOtherWalls) {
+  std::vector<WallHit> hits;
+  Add(0, 100, hits);
+  Add(0.8, 2000, hits);
+  EXPECT_NEAR(*WallAmong(hits, kDetail_m, {.distance = 0, .sigma = 0.15}, kLength_m), 0.8, 0.02);
+}
+
+TEST(WallAmong, NeedsEnoughOfAWall) {
+  std::vector<WallHit> hits;
+  Add(0, 5, hits);
+  EXPECT_EQ(WallAmong(hits, kDetail_m, {}, kLength_m), std::nullopt);
+}
+
+}  // namespace
+}  // namespace stucco
