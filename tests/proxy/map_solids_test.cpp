@@ -196,13 +196,13 @@ TEST(MapSolids, WithoutRoofPointsEndsWhereItsWallsEnd) {
 }
 
 // A street of boxes of different sizes.
-struct Street {
+struct StreetOfFive {
   std::vector<test::House> houses;
   std::vector<MapEntry> map;
 };
 
-Street MakeStreet() {
-  Street street;
+StreetOfFive MakeStreet() {
+  StreetOfFive street;
   const std::vector<Ring> rings = {Rectangle(-18, -12, -8, -4), Rectangle(-2, -13, 5, -4),
                                    Rectangle(9, -11, 19, -5), Rectangle(-16, 4, -9, 15),
                                    Rectangle(-1, 5, 12, 12)};
@@ -215,7 +215,7 @@ Street MakeStreet() {
 }
 
 TEST(MapSolids, FindsADisplacedMap) {
-  const Street street = MakeStreet();
+  const StreetOfFive street = MakeStreet();
   const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
   const Made made = Make(captured, Displaced(street.map, 0.3, {1.4, -1.4}));
   const std::vector<double> areas = {80, 63, 60, 77, 91};
@@ -238,7 +238,7 @@ TEST(MapSolids, FindsADisplacedMap) {
 }
 
 TEST(MapSolids, TellsEavesFromShifts) {
-  Street street = MakeStreet();
+  StreetOfFive street = MakeStreet();
   // Every building digitised by itself along its eaves, and of each one wall that no photo shows.
   const std::vector<Eigen::Vector2d> shifts = {
       {0.4, 0.1}, {-0.3, 0.4}, {0.1, -0.4}, {-0.4, -0.2}, {0.3, 0.3}};
@@ -270,7 +270,7 @@ TEST(MapSolids, TellsEavesFromShifts) {
 
 TEST(MapSolids, PanesAreNoWallWhereTheOtherWallsSaySo) {
   // One wall shows more of its windows, 0.19 m behind it, than of itself.
-  Street street = MakeStreet();
+  StreetOfFive street = MakeStreet();
   const Ring& ring = street.map[0].rings[0];
   const Eigen::Vector2d a = ring[2], b = ring[3];
   const Eigen::Vector2d inwards = -0.19 * OutwardsOf({a, b});
@@ -292,7 +292,7 @@ TEST(MapSolids, PanesAreNoWallWhereTheOtherWallsSaySo) {
 }
 
 TEST(MapSolids, RefusesAMapOfAnotherTown) {
-  const Street street = MakeStreet();
+  const StreetOfFive street = MakeStreet();
   const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
   const std::vector<MapEntry> elsewhere = {{"B0001", {Rectangle(-24, -2, -12, 2)}, 6},
                                            {"B0002", {Rectangle(-6, -3, 8, 3)}, 6},
@@ -312,7 +312,7 @@ TEST(MapSolids, RefusesAMapOfAnotherTown) {
 }
 
 TEST(MapSolids, NamesWhatIsGoneAndWhatIsNew) {
-  Street street = MakeStreet();
+  StreetOfFive street = MakeStreet();
   street.houses.erase(street.houses.begin() + 1);  // B0002 is no more
   const Ring fresh = Rectangle(16, 4, 25, 13);
   street.houses.push_back(FlatHouse(fresh, 6));  // no map has it
@@ -329,7 +329,7 @@ TEST(MapSolids, NamesWhatIsGoneAndWhatIsNew) {
 }
 
 TEST(MapSolids, ExtrudesWhatNobodySaw) {
-  const Street street = MakeStreet();
+  const StreetOfFive street = MakeStreet();
   auto map = street.map;
   map.push_back({"B0009", {Rectangle(60, 60, 70, 70)}, 7});
   const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
