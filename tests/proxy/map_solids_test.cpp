@@ -98,22 +98,6 @@ TEST(MapSolids, ClosesAGableHouse) {
   EXPECT_TRUE(Says(made.findings.notes, "B0001: closed, full"));
 }
 
-TEST(MapSolids, ARidgeIsOneWhereItsFarSideIsSeenOnlyAtTheEaves) {
-  test::House house = test::GableHouse(12, 10, 6, 9.5);
-  // Of the northern roof nothing is seen above 1.5 m from its eaves.
-  house.polygons.back() = {"eaves", {{6, 5, 6}, {-6, 5, 6}, {-6, 3.5, 7.05}, {6, 3.5, 7.05}}};
-  house.polygons.push_back({"upper", {{6, 3.5, 7.05}, {-6, 3.5, 7.05}, {-6, 0, 9.5}, {6, 0, 9.5}}});
-  auto options = kCapture;
-  options.hide = {"upper"};
-  const auto captured = test::Capture({house}, {test::GroundSquare(25)}, options);
-  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -5, 6, 5)}, 9.5}});
-  const Building& building = Closed(made, "B0001");
-  EXPECT_EQ(building.facets.size(), 7u);
-  for (const Facet* roof : Of(building, FacetClass::kRoof)) {
-    EXPECT_NEAR(Highest(*roof), 9.5, 0.1);
-  }
-}
-
 TEST(MapSolids, ClosesAHipRoof) {
   const auto captured =
       test::Capture({test::HipHouse(14, 8, 5)}, {test::GroundSquare(25)}, kCapture);
@@ -399,45 +383,6 @@ TEST(MapSolids, AParapetIsNoRoof) {
       test::Capture({house}, {test::GroundSquare(25)}, {.spacing = 0.1, .noise = 0.02});
   const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 6}});
   EXPECT_EQ(Closed(made, "B0001").facets.size(), 6u);
-}
-
-// A level roof of 10 x 8 m at 5.6 m whose northern half nobody saw but for a point here and there,
-// `every` so many metres, at the height of its parapet, 6 m.
-Captured RoofWithStrays(double every) {
-  test::House house = FlatHouse(Rectangle(-5, -4, 5, 4), 6);
-  house.polygons.back() = {
-      "roof", {{-4.5, -3.5, 5.6}, {4.5, -3.5, 5.6}, {4.5, 0.3, 5.6}, {-4.5, 0.3, 5.6}}};
-  for (const Ring& strip : {Rectangle(-5, -4, 5, -3.5), Rectangle(-5, 3.5, 5, 4),
-                            Rectangle(-5, -3.5, -4.5, 3.5), Rectangle(4.5, -3.5, 5, 3.5)}) {
-    std::vector<Eigen::Vector3d> ring;
-    for (const Eigen::Vector2d& p : strip) ring.emplace_back(p.x(), p.y(), 6);
-    house.polygons.push_back({"parapet", ring});
-  }
-  Captured captured =
-      test::Capture({house}, {test::GroundSquare(8)}, {.spacing = 0.035, .noise = 0.02});
-  for (double x = -3.5; x < 3.5; x += every) {
-    for (double y = 1; y < 3; y += every) {
-      captured.cloud.positions.emplace_back(x, y, 6);
-      captured.cloud.normals.push_back(Eigen::Vector3f::UnitZ());
-      captured.cloud.colors.push_back({128, 128, 128});
-      captured.cloud.views.push_back({1, 2});
-    }
-  }
-  return captured;
-}
-
-TEST(MapSolids, AParapetMakesNoRoofOfStrays) {
-  const std::vector<MapEntry> map = {{"B0001", {Rectangle(-5, -4, 5, 4)}, 6}};
-  const Made made = Make(RoofWithStrays(0.13), map);
-  const auto roofs = Of(Closed(made, "B0001"), FacetClass::kRoof);
-  ASSERT_EQ(roofs.size(), 1u);
-  EXPECT_NEAR(Highest(*roofs[0]), 5.6, 0.02);
-}
-
-TEST(MapSolids, WhatIsAsDenseAsTheRoofIsAPlatform) {
-  const std::vector<MapEntry> map = {{"B0001", {Rectangle(-5, -4, 5, 4)}, 6}};
-  const Made made = Make(RoofWithStrays(0.035), map);
-  EXPECT_GE(Of(Closed(made, "B0001"), FacetClass::kRoof).size(), 2u);
 }
 
 TEST(MapSolids, ARoofLiesOnItselfNotBetweenItAndItsRim) {

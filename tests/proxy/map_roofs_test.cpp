@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Roofs of buildings of a map where parts of them are hardly seen.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "proxy/abstract.h"
+#include "tests/proxy/map_scene.h"
+#include "tests/proxy/scene.h"
+
+namespace stucco {
+namespace {
+
+using test::Captured;
+using test::FlatHouse;
+using test::MapEntry;
+using test::Rectangle;
+
+Proxy ModelOf(const Captured& captured, const std::vector<MapEntry>& map) {
+  ProxyInput input = test::InputOf(captured, test::MapGeoref());
+  input.plan = test::PlanOf(map);
+  ProxyFindings findings;
+  return AbstractCloud(input, {}, 2, findings);
+}
+
+// The one building of the map, or a failed test.
+const Building& HouseIn(const Proxy& proxy) {
+  static const Building kNone;
+  const Building* building = test::Find(proxy, "B0001");
+  EXPECT_NE(building, nullptr);
+  return building != nullptr ? *building : kNone;
+}
+
+std::vector<const Facet*> RoofsIn(const Building& building) {
+  std::vector<const Facet*> roofs;
+  for (const Facet& facet : building.facets) {
+    if (facet.facet_class == FacetClass::kRoof) roofs.push_back(&facet);
+  }
+  return roofs;
+}
+
+double TopOfFacet(const Facet& facet) {
+  double top = -1e9;
+  for (const auto& p : facet.outer) top = std::max(top, p.z());
+  return top;
+}
+
+TEST(MapRoofs, ARidgeIsOneWhereItsFarSideIsSeenOnlyAtTheEaves) {
+  test::House house = test::GableHouse(12, 10, 6, 9.5);
+  // Of the northern roof nothing is seen above 1.5 m from its eaves.
+  house.polygons.back() = {"eaves", {{6, 5, 6}, {-6, 5, 6}, {-6, 3.5, 7.05}, {6, 3.5, 7.05}}};
+  house.polygons.push_back({"upper", {{6, 3.5, 7.05}, {-6, 3.5, 7.05}, {-6, 0, 9.5}, {6, 0, 9.5}}});
+  test::CaptureOptions options{.spacing = 0.2, .noise = 0.02};
+  options.hide = {"upper"};
+  const auto captured = test::Capture({house}, {test::GroundSquare(25)}, options);
+  const Proxy proxy = ModelOf(captured, {{"B0001", {Rectangle(-6, -5, 6, 5)}, 9.5}});
+  const Building& building = HouseIn(proxy);
+  EXPECT_EQ(building.facets.size(), 7u);
+  for (const Facet* roof : RoofsIn(building)) {
+    EXPECT_NEAR(TopOfFacet(*roof), 9.5, 0.1);
+  }
+}
+
+// A level roof of 10 x 8 m at 5.6 m whose northern half nobody saw but for a point here and there,
+// `every` so many metres, at the height of its parapet, 6 m.
+Captured RoofWithStrays(double every) {
+  test::House house = FlatHouse(Rectangle(-5, -4, 5, 4), 6);
+  house.polygons.back() = {
+      "roof", {{-4.5, -3.5, 5.6}, {4.5, -3.5, 5.6}, {4.5, 0.3, 5.6}, {-4.5, 0.3, 5.6}}};
+  for (const Ring& strip : {Rectangle(-5, -4, 5, -3.5), Rectangle(-5, 3.5, 5, 4),
+                            Rectangle(-5, -3.5, -4.5, 3.5), Rectangle(4.5, -3.5, 5, 3.5)}) {
+    std::vector<Eigen::Vector3d> ring;
+    for (const Eigen::Vector2d& p : strip) ring.emplace_back(p.x(), p.y(), 6);
+    house.polygons.push_back({"parapet", ring});
+  }
+  Captured captured =
+      test::Capture({house}, {test::GroundSquare(8)}, {.spacing = 0.035, .noise = 0.02});
+  for (double x = -3.5; x < 3.5; x += every) {
+    for (double y = 1; y < 3; y += every) {
+      captured.cloud.positions.emplace_back(x, y, 6);
+      captured.cloud.normals.push_back(Eigen::Vector3f::UnitZ());
+      captured.cloud.colors.push_back({128, 128, 128});
+      captured.cloud.views.push_back({1, 2});
+    }
+  }
+  return captured;
+}
+
+TEST(MapRoofs, AParapetMakesNoRoofOfStrays) {
+  const std::vector<MapEntry> map = {{"B0001", {Rectangle(-5, -4, 5, 4)}, 6}};
+  const Proxy proxy = ModelOf(RoofWithStrays(0.13), map);
+  const auto roofs = RoofsIn(HouseIn(proxy));
+  ASSERT_EQ(roofs.size(), 1u);
+  EXPECT_NEAR(TopOfFacet(*roofs[0]), 5.6, 0.02);
+}
+
+TEST(MapRoofs, WhatIsAsDenseAsTheRoofIsAPlatform) {
+  const std::vector<MapEntry> map = {{"B0001", {Rectangle(-5, -4, 5, 4)}, 6}};
+  const Proxy proxy = ModelOf(RoofWithStrays(0.035), map);
+  EXPECT_GE(RoofsIn(HouseIn(proxy)).size(), 2u);
+}
+
+}  // namespace
+}  // namespace stucco
