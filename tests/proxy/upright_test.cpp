@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-double AngleDeg(const Vector3d& a, const Vector3d& b) {
+double DegreesBetween(const Vector3d& a, const Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
 }
 
@@ -52,7 +52,7 @@ TEST(UpFromPhotos, UsesLevelCamerasWhateverTheirPitch) {
   for (const double pitch : {-60.0, -20.0, 0.0, 15.0}) {
     std::vector<SurveyPhoto> photos = Around(pitch, 0, 200);
     Turn(kTurned, photos);
-    EXPECT_LT(AngleDeg(UpFromPhotos(photos).front(), kTurned.col(2)), 3) << pitch;
+    EXPECT_LT(DegreesBetween(UpFromPhotos(photos).front(), kTurned.col(2)), 3) << pitch;
   }
   EXPECT_TRUE(UpFromPhotos({}).empty());
 }
@@ -65,7 +65,7 @@ TEST(EstimateUp, RefinesTiltedCamerasByWalls) {
   for (Plane& plane : planes) plane.normal = kTurned * plane.normal;
   Turn(kTurned, photos);
   const UpEstimate estimate = EstimateUp(planes, photos);
-  EXPECT_LT(AngleDeg(estimate.up, kTurned.col(2)), 0.1);
+  EXPECT_LT(DegreesBetween(estimate.up, kTurned.col(2)), 0.1);
   EXPECT_GT(estimate.explained, 0.7);
 }
 
@@ -73,14 +73,14 @@ TEST(EstimateUp, LetsGoOfLeaningPlanes) {
   const std::vector<SurveyPhoto> photos = Around(5, 0, 180);
   const std::vector<Plane> planes = {MakePlane({0, -1, 0}, 100), MakePlane({1, 0, 0.001}, 60),
                                      MakePlane({0.6, 0.8, 0.12}, 30)};
-  EXPECT_LT(AngleDeg(EstimateUp(planes, photos).up, Vector3d::UnitZ()), 1.0);
+  EXPECT_LT(DegreesBetween(EstimateUp(planes, photos).up, Vector3d::UnitZ()), 1.0);
 }
 
 TEST(RefineUp, ASiteThatSlopesDoesNotTiltTheWalls) {
   const std::vector<Plane> planes = {MakePlane({0, -1, 0}, 80), MakePlane({1, 0, 0}, 60),
                                      MakePlane({0.03, 0.02, 1}, 40000)};
   const Vector3d up = RefineUp(planes, Vector3d(-0.02, 0.02, 1).normalized(), 4);
-  EXPECT_LT(AngleDeg(up, Vector3d::UnitZ()), 0.35);
+  EXPECT_LT(DegreesBetween(up, Vector3d::UnitZ()), 0.35);
 }
 
 TEST(EstimateUp, UsesTheGroundBelowPhotosStraightDown) {
@@ -91,7 +91,7 @@ TEST(EstimateUp, UsesTheGroundBelowPhotosStraightDown) {
   std::vector<Plane> planes = {MakePlane({0, 0, 1}, 500), MakePlane({0.02, 0, 1}, 80)};
   Turn(kTurned, photos);
   for (Plane& plane : planes) plane.normal = kTurned * plane.normal;
-  EXPECT_LT(AngleDeg(EstimateUp(planes, photos).up, kTurned.col(2)), 1.5);
+  EXPECT_LT(DegreesBetween(EstimateUp(planes, photos).up, kTurned.col(2)), 1.5);
 }
 
 TEST(EstimateUp, SaysWhenItKnowsNothing) {
