@@ -113,7 +113,8 @@ class Judge {
   }
 
   // A wall that a neighbour stands against, or a piece too small to measure, such as a step between
-  // roofs. Facades of the plan have a verdict as long as anything of them can be seen.
+  // roofs. Facades of the plan have a verdict however little of them there is, unless a neighbour
+  // hides nearly all of it: shares of so small a rest are mostly rounding.
   std::string WhyExempt(const FacetRow& row) const {
     constexpr double kHidden = 0.95;
     if (row.facet == nullptr) return "";

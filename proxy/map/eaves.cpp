@@ -9,6 +9,7 @@
 #include <set>
 
 #include "survey/degree.h"
+#include "survey/geometry2d.h"
 
 namespace stucco {
 namespace {
@@ -50,8 +51,7 @@ std::optional<Eave> EaveOf(const FittedBuilding& building, const RoofEvidence& e
   const Eigen::Vector2d downhill = -roof.slope.normalized();
   Eave best;
   for (const FittedEdge& edge : building.edges) {
-    const Eigen::Vector2d along = (edge.line.b - edge.line.a).normalized();
-    const Eigen::Vector2d outward(along.y(), -along.x());
+    const Eigen::Vector2d outward = OutwardsOf(edge.line);
     if (downhill.dot(outward) < std::cos(kSquare)) continue;
     const double length = SharedLength(edge.line, evidence, plane);
     if (length <= best.length) continue;
