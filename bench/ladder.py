@@ -5,6 +5,7 @@
 
   bench/ladder.py OUT [--style hamlet] [--seed 1] [--scale 0.25] [--rungs map,cloud,poses,own]
                   [--map-seed 1 | --exact-map] [--jitter 0.4] [--eaves 0.4] [--gone 3]
+                  [--missing 0] [--simpler 0]
                   [--plan-args "..."] [--fly-args "..."] [--run-args "..."] [--stucco PROGRAM]
 
 Rungs: "map", the plan's footprints extruded without any photo; "nomap" and "cloud", the true cloud
@@ -163,7 +164,7 @@ class Ladder:
     def errors(self):
         wanted = self.arguments
         return ["--seed", wanted.map_seed, "--jitter", wanted.jitter, "--eaves", wanted.eaves,
-                "--gone", wanted.gone]
+                "--gone", wanted.gone, "--missing", wanted.missing, "--simpler", wanted.simpler]
 
     def row(self, rung):
         figures = self.climb(rung)
@@ -188,6 +189,8 @@ def main():
     parser.add_argument("--jitter", default="0.4")
     parser.add_argument("--eaves", default="0.4")
     parser.add_argument("--gone", default="3")
+    parser.add_argument("--missing", default="0")
+    parser.add_argument("--simpler", default="0")
     arguments = parser.parse_args()
     try:
         ladder = Ladder(arguments)

@@ -4,10 +4,12 @@
 """Gives the map in a plan the errors of real maps, so that a model that goes by it has to find them.
 
 Usage: perturb_plan.py PLAN_JSON [--shift 1.5] [--turn 0.3] [--jitter 0.4] [--eaves 0.4]
-                       [--gone N] [--seed 1]
+                       [--gone N] [--missing N] [--simpler N] [--seed 1]
 
 Rewrites plan.json in place: all buildings shifted and turned together, each shifted by itself (one
-standard deviation), outlines moved outwards (eaves), and N rectangles added that are not there.
+standard deviation), outlines moved outwards (eaves), and N rectangles added that are not there; N
+buildings that stand missing from it; N outlines drawn more simply, without one of their corners
+that point inwards (an L becomes a rectangle).
 Views keep their places: only what the model goes by changes.
 """
 import argparse
@@ -36,16 +38,69 @@ def outwards(ring, by):
     return moved
 
 
+def take_away(plan, facades):
+    """Facades, by id, and what views were to show of them."""
+    plan["facades"] = [f for f in plan["facades"] if f["id"] not in facades]
+    for view in plan["views"]:
+        view["facades"] = [f for f in view.get("facades", []) if f not in facades]
+        view["targets"] = [t for t in view.get("targets", []) if t["facade"] not in facades]
+
+
+def leave_out(plan, count, dice):
+    """Buildings of which the map knows nothing."""
+    names = sorted({f["building"] for f in plan["footprints"]})
+    gone = set(dice.sample(names, min(count, len(names))))
+    plan["footprints"] = [f for f in plan["footprints"] if f["building"] not in gone]
+    take_away(plan, {f["id"] for f in plan["facades"] if f["id"].split("/")[0] in gone})
+    return gone
+
+
+def cross(a, b, c):
+    return (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
+
+
+def simplify(plan, footprint):
+    """Fills one corner that points inwards to a parallelogram; False where there is none."""
+    ring = footprint["rings_m"][0]
+    for i, corner in enumerate(ring):
+        before, after = ring[i - 1], ring[(i + 1) % len(ring)]
+        if len(ring) < 6 or cross(before, corner, after) > -1:  # square metres
+            continue
+        filled = [before[k] + after[k] - corner[k] for k in (0, 1)]
+        lost = [f["id"] for f in plan["facades"] if f["id"].split("/")[0] == footprint["building"]
+                and any(math.dist(f["a_m"], a) < 0.1 and math.dist(f["b_m"], b) < 0.1
+                        for a, b in ((before, corner), (corner, after)))]
+        take_away(plan, set(lost))
+        for facade in plan["facades"]:
+            for end in ("a_m", "b_m"):
+                if min(math.dist(facade[end], before), math.dist(facade[end], after)) < 0.1:
+                    facade[end] = filled
+        footprint["rings_m"][0] = [filled if p is corner else p for p in ring
+                                   if p is not before and p is not after]
+        return True
+    return False
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("plan", type=pathlib.Path)
     for name, value in (("shift", 1.5), ("turn", 0.3), ("jitter", 0.4), ("eaves", 0.4)):
         parser.add_argument(f"--{name}", type=float, default=value)
-    parser.add_argument("--gone", type=int, default=0)
+    for name in ("gone", "missing", "simpler"):
+        parser.add_argument(f"--{name}", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
     wanted = parser.parse_args()
     dice = random.Random(wanted.seed)
     plan = json.loads(wanted.plan.read_text())
+    missing = leave_out(plan, wanted.missing, dice) if wanted.missing else set()
+    simpler = 0
+    for footprint in plan["footprints"]:
+        if simpler < wanted.simpler:
+            simpler += simplify(plan, footprint)
+    if simpler < wanted.simpler:
+        print(f"only {simpler} outlines have corners that point inwards")
+    if missing:
+        print("missing:", ", ".join(sorted(missing)))
     angle = dice.uniform(0, 2 * math.pi)
     shift = (wanted.shift * math.cos(angle), wanted.shift * math.sin(angle))
     turn = math.radians(wanted.turn)

@@ -21,6 +21,7 @@
 #include "proxy/solids/solid.h"
 #include "proxy/solids/soundness.h"
 #include "proxy/solids/written_check.h"
+#include "proxy/terrain/terrain.h"
 #include "survey/error.h"
 #include "survey/parallel.h"
 
@@ -174,6 +175,16 @@ void TakeSolids(std::vector<Solid> solids, bool mapped, std::vector<Building>& b
   }
 }
 
+// The ground as it rises and falls, where its planes do not show that.
+void FollowTerrain(const PlanarScene& scene, std::vector<Building>& buildings,
+                   ProxyFindings& findings) {
+  auto terrain = TerrainFacets(scene, buildings);
+  if (terrain.empty()) return;
+  findings.notes.push_back(fmt::format("the ground is no plane: {} triangles", terrain.size()));
+  const auto ground = std::ranges::find(buildings, "G0", &Building::id);
+  ground->facets = std::move(terrain);
+}
+
 bool GoesByMap(const ProxyInput& input, const ProxyOptions& options) {
   return options.use_map && options.solids && input.plan && input.georef.metric &&
          input.georef.frame == "enu";
@@ -215,6 +226,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
                            std::make_move_iterator(mapped->buildings.begin()),
                            std::make_move_iterator(mapped->buildings.end()));
   }
+  FollowTerrain(scene, proxy.buildings, findings);
   std::erase_if(proxy.buildings, [](const Building& building) { return building.facets.empty(); });
   if (proxy.buildings.empty()) {
     throw Error(ErrorKind::kStageFailed,
@@ -224,7 +236,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   for (Building& building : proxy.buildings) {
     building.source == "map" ? AssignIdsByPlace(building) : AssignIds(building);
   }
-  if (proxy.metric) MeasureParty(proxy.buildings);
+  if (proxy.metric) MeasureParty(proxy.up, proxy.buildings);
   return proxy;
 }
 

@@ -112,15 +112,15 @@ class Judge {
     }
   }
 
-  // A wall that a neighbour stands against, or a piece too small to measure, such as a step between
-  // roofs. Facades of the plan have a verdict however little of them there is, unless a neighbour
-  // hides nearly all of it: shares of so small a rest are mostly rounding.
+  // A wall that a neighbour or the ground hides, or a piece too small to measure, such as a step
+  // between roofs. Facades of the plan have a verdict however little of them there is, unless
+  // nearly all of it is hidden: shares of so small a rest are mostly rounding.
   std::string WhyExempt(const FacetRow& row) const {
     constexpr double kHidden = 0.95;
     if (row.facet == nullptr) return "";
     const double party = row.facet->party;
     if (party > kHidden) {
-      return fmt::format("not rated: a neighbour stands against {} of it", Percent(party));
+      return fmt::format("not rated: a neighbour or the ground hides {} of it", Percent(party));
     }
     const double visible = row.facet->area * (1 - party);
     if (!metric_ || row.planned != nullptr || visible >= options_.least_area_m2) return "";
@@ -263,6 +263,17 @@ std::vector<FacetRow> MakeFacetRows(const SurveyData& data, const ReportOptions&
     judge.Fill(row);
   }
   return rows;
+}
+
+std::vector<FacetRow> RowsForPage(const std::vector<FacetRow>& rows) {
+  constexpr int kMostGround = 12;  // facets are listed by falling area
+  std::vector<FacetRow> shown;
+  int ground = 0;
+  for (const FacetRow& row : rows) {
+    const bool is_ground = row.facet_class == FacetClass::kGround && row.building == "G0";
+    if (!is_ground || ground++ < kMostGround) shown.push_back(row);
+  }
+  return shown;
 }
 
 std::vector<std::string> MissingFacades(const SurveyData& data, const std::vector<FacetRow>& rows) {

@@ -16,7 +16,7 @@ enum class Verdict { kGreen, kAmber, kRed, kUnknown };
 std::string Name(Verdict verdict);  // "green", "amber", "red", "unknown"
 
 // The shares of a facet's area that its verdict is made of: of what of it can be seen, which is all
-// but what another building stands against (Facet::party).
+// but what another building or the ground hides (Facet::party).
 struct VisibleShares {
   double painted = 0;
   double inpainted = 0;
@@ -53,6 +53,10 @@ struct FacetRow {
 // Verdicts are kUnknown as long as there are no textures. Facets have the pictures of their id;
 // where texturing has not been finished since the proxy, only those that still fit.
 std::vector<FacetRow> MakeFacetRows(const SurveyData& data, const ReportOptions& options);
+
+// The rows that a page shows: all but the smaller ones of many pieces of ground, as hills are made
+// of.
+std::vector<FacetRow> RowsForPage(const std::vector<FacetRow>& rows);
 
 // The plan's facades that no row is a part of, in its order; none without a plan.
 std::vector<std::string> MissingFacades(const SurveyData& data, const std::vector<FacetRow>& rows);

@@ -21,7 +21,7 @@ std::string FormOf(const Building& building) {
 
 struct Surface {
   int facets = 0;
-  double area = 0;  // that can be seen: no neighbour stands against it
+  double area = 0;  // that can be seen: neither a neighbour nor the ground hides it
   double seen = 0;  // of the area
 };
 

@@ -107,8 +107,8 @@ std::string Measures(const PageContent& page, const FacetRow& row) {
     const Facet& facet = *row.facet;
     html += Figure("Area", Area(facet.area, metric));
     if (facet.party > 0) {
-      html += Figure("Behind a neighbour", Percent(facet.party),
-                     "of the area; shares here are of the rest, which can be seen");
+      html += Figure("Hidden", Percent(facet.party),
+                     "of the area, by a neighbour or the ground; shares here are of the rest");
     }
     html += Figure("Seen by points", Percent(1 - row.shares.inferred),
                    Count(facet.support, "point", "points"));

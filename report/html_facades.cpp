@@ -130,6 +130,22 @@ std::string Missing(const PageContent& page) {
       page.data.plan->facades.size(), missing.size() == 1 ? "one was" : "these were", names);
 }
 
+// Pieces of ground that the table leaves out.
+std::string SmallGround(const PageContent& page) {
+  if (!page.data.proxy) return "";
+  size_t pieces = 0;
+  for (const Building& building : page.data.proxy->buildings) {
+    if (building.id == "G0") pieces += building.facets.size();
+  }
+  const auto shown = static_cast<size_t>(std::ranges::count(
+      page.rows, FacetClass::kGround, [](const FacetRow& row) { return row.facet_class; }));
+  if (pieces <= shown) return "";
+  return fmt::format(
+      "<p class=\"quiet\">Of the {} pieces of ground the {} largest are listed; all are in "
+      "<a href=\"facades.csv\">facades.csv</a>.</p>",
+      pieces, shown);
+}
+
 }  // namespace
 
 std::string FacadeTableSection(const PageContent& page) {
@@ -147,7 +163,7 @@ std::string FacadeTableSection(const PageContent& page) {
   return html +
          "</tbody></table><p id=\"none-shown\" class=\"quiet\" hidden>No facade matches. "
          "<button type=\"button\" class=\"link\" id=\"show-all\">Show all</button></p>" +
-         Missing(page) + "</section>";
+         Missing(page) + SmallGround(page) + "</section>";
 }
 
 }  // namespace stucco::internal

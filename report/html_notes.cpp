@@ -47,7 +47,8 @@ std::string VerdictRulesSection(const PageContent& page) {
   const auto texels = [](double count) { return fmt::format("above {:g} texels", count); };
   return "<section aria-labelledby=\"rules\"><h2 id=\"rules\">How the verdicts are made</h2>"
          "<p>A facade has the worst colour of its measures, which are of what of it can be seen: "
-         "walls that a neighbour stands against and pieces too small to measure are not rated. "
+         "walls that a neighbour or the ground hides and pieces too small to measure are not "
+         "rated. "
          "The limits are settings of the survey; "
          "change them in survey.toml and run <code>stucco report SURVEY</code>.</p>"
          "<div class=\"scroll\"><table class=\"plain\"><thead><tr><th scope=\"col\">Measure</th>"

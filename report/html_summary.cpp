@@ -49,6 +49,9 @@ std::string AttentionItems(const std::vector<Attention>& items) {
 std::string Headline(const PageContent& page, const VerdictCounts& counts) {
   if (page.rows.empty()) return "There are no facades yet.";
   if (!page.data.textures) return "The facades are found, but not painted yet.";
+  if (counts.Total() == 0 && counts.exempt > 0) {
+    return "No wall shows enough to be rated; all facets are in the table.";
+  }
   if (counts.Total() == 0) return "No wall was found; roofs and ground are in the table.";
   if (counts.green == counts.Total()) {
     return counts.Total() == 1 ? "The one facade is good." : "All facades are good.";

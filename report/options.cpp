@@ -29,7 +29,7 @@ void Describe(OptionTable& table, ReportOptions& options) {
             "A facade is red when overlapping photos disagree by more texels (median).");
   table.Add("least_area_m2", options.least_area_m2, 0, 10000,
             "Facets of which less can be seen have no verdict, unless the plan has them: steps of "
-            "roofs, walls that a neighbour stands against. Square metres.");
+            "roofs, walls that a neighbour or the ground hides. Square metres.");
   table.Add("picture_px", options.picture_px, 100, 4000,
             "Longer side in pixels of the facade pictures in the page.");
   table.Add("record_times", options.record_times,

@@ -38,13 +38,14 @@ void RunReport(const ReportOptions& options, StageContext& context) {
   SurveyData data = LoadSurvey(context.survey, context.statuses);
   data.plan = PlanOfSurvey(context);
   const std::vector<FacetRow> rows = MakeFacetRows(data, options);
-  const std::vector<FacetPictures> pictures = MakePictures(rows, options, context);
+  const std::vector<FacetRow> shown = RowsForPage(rows);
+  const std::vector<FacetPictures> pictures = MakePictures(shown, options, context);
   for (const FacetPictures& picture : pictures) {
     if (!picture.problem.empty()) context.progress->Warn(picture.problem);
   }
   WriteFile(context.out / "report.json", ReportJson(data, rows, options));
   WriteFile(context.out / "facades.csv", FacadesCsv(data, rows));
-  WriteFile(context.out / "report.html", ReportHtml(data, rows, pictures, options));
+  WriteFile(context.out / "report.html", ReportHtml(data, shown, pictures, options));
   const VerdictCounts counts = CountVerdicts(rows, /*walls_only=*/true);
   context.progress->Note(fmt::format("{} facades: {} good, {} to check, {} poor, {} not rated",
                                      counts.Total(), counts.green, counts.amber, counts.red,

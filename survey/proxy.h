@@ -31,7 +31,7 @@ struct Facet {
   int support = 0;      // number of cloud points
   double seen = 0;      // share of the area with points
   double inferred = 0;  // share of the area without: 1 - seen
-  double party = 0;     // share of the area that another building stands against: nobody sees it
+  double party = 0;     // share of the area that another building or the ground hides for good
   std::string source;   // "planes", "footprint", "extruded"
 };
 

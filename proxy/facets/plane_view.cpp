@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "survey/parallel.h"
 
@@ -16,21 +15,9 @@ namespace {
 std::vector<float> DistanceToSeen(const PlaneRaster& raster,
                                   const std::vector<Evidence>& evidence) {
   if (evidence.empty()) return {};
-  cv::Mat unseen(raster.height, raster.width, CV_8U);
-  for (int y = 0; y < raster.height; ++y) {
-    for (int x = 0; x < raster.width; ++x) {
-      unseen.at<uint8_t>(y, x) = evidence[raster.Index(x, y)] == Evidence::kSeen ? 0 : 255;
-    }
-  }
-  cv::Mat distance;
-  cv::distanceTransform(unseen, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  std::vector<float> result(evidence.size());
-  for (int y = 0; y < raster.height; ++y) {
-    for (int x = 0; x < raster.width; ++x) {
-      result[raster.Index(x, y)] = static_cast<float>(raster.cell) * distance.at<float>(y, x);
-    }
-  }
-  return result;
+  std::vector<char> seen(evidence.size());
+  for (size_t i = 0; i < seen.size(); ++i) seen[i] = evidence[i] == Evidence::kSeen ? 1 : 0;
+  return DistancesTo(raster, seen);
 }
 
 bool IsNearSeen(const PlaneView& view, const Eigen::Vector3d& point, double reach) {

@@ -106,6 +106,24 @@ void CountThroughRays(const Samples& samples, const std::vector<int>& support, c
   }
 }
 
+std::vector<float> DistancesTo(const PlaneRaster& raster, const std::vector<char>& cells) {
+  cv::Mat away(raster.height, raster.width, CV_8U);
+  for (int y = 0; y < raster.height; ++y) {
+    for (int x = 0; x < raster.width; ++x) {
+      away.at<uint8_t>(y, x) = cells[raster.Index(x, y)] != 0 ? 0 : 255;
+    }
+  }
+  cv::Mat distance;
+  cv::distanceTransform(away, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  std::vector<float> result(cells.size());
+  for (int y = 0; y < raster.height; ++y) {
+    for (int x = 0; x < raster.width; ++x) {
+      result[raster.Index(x, y)] = static_cast<float>(raster.cell) * distance.at<float>(y, x);
+    }
+  }
+  return result;
+}
+
 std::vector<Evidence> Classify(const PlaneRaster& raster, double fill_gap, double min_area) {
   std::vector<Evidence> evidence(raster.hits.size(), Evidence::kUnknown);
   if (evidence.empty()) return evidence;

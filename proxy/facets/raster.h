@@ -42,6 +42,10 @@ PlaneRaster RasteriseHits(const Samples& samples, const Plane& plane, const Plan
 void CountThroughRays(const Samples& samples, const std::vector<int>& support, const Plane& plane,
                       double behind, PlaneRaster& raster);
 
+// From each cell to the nearest of those that are not 0, in the raster's unit; far beyond its size
+// where none is.
+std::vector<float> DistancesTo(const PlaneRaster& raster, const std::vector<char>& cells);
+
 // The states of a raster's cells for outlining.
 enum class Evidence : uint8_t { kUnknown, kSeen, kGap, kOpen, kBetween };
 

@@ -5,13 +5,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "proxy/facets/contour_lines.h"
 #include "proxy/facets/raster.h"
 #include "proxy/map/cell_labels.h"
 #include "proxy/map/eaves.h"
+#include "proxy/map/open_ground.h"
 #include "survey/median.h"
 
 namespace stucco {
@@ -24,6 +24,7 @@ constexpr double kMeetingBorder = 0.1;
 constexpr double kLooseSample = 0.25;  // on no plane: leaves, railings, chimneys
 constexpr double kFarFromSamples = 0.1;
 constexpr double kLevelRoof = 0.3;  // the roof of last resort
+constexpr double kNoRoof = 0.3;     // the ground where nobody sees whether it lies open
 constexpr double kForbidden = 1e3;  // a square metre of roof in the ground
 constexpr double kMeets_m = 0.02;   // roofs nearer than this along a border meet there
 constexpr double kSameLine_m = 1e-5;
@@ -85,6 +86,7 @@ std::vector<CutLine> EdgeLines(const MapBuilding& building, const Eigen::Aligned
 struct CoverOfRoofs {
   PlaneRaster raster;                      // its frame is that of the ground plan
   std::vector<std::vector<float>> to_hit;  // of each roof: metres to its nearest sample
+  std::vector<float> to_open;              // metres to where the ground lies open; empty: nowhere
 };
 
 CoverOfRoofs CoverOf(const FittedBuilding& building, const RoofEvidence& evidence,
@@ -96,20 +98,14 @@ CoverOfRoofs CoverOf(const FittedBuilding& building, const RoofEvidence& evidenc
   cover.raster.width = static_cast<int>(box.sizes().x() / cover.raster.cell) + 1;
   cover.raster.height = static_cast<int>(box.sizes().y() / cover.raster.cell) + 1;
   for (const int p : planes) {
-    cv::Mat missing(cover.raster.height, cover.raster.width, CV_8U, cv::Scalar(255));
+    std::vector<char> hit(static_cast<size_t>(cover.raster.width) * cover.raster.height, 0);
     for (const int i : evidence.planes[p].points) {
       const int at = cover.raster.IndexAt(evidence.samples.positions[i].head<2>());
-      if (at >= 0) missing.at<uint8_t>(at / cover.raster.width, at % cover.raster.width) = 0;
+      if (at >= 0) hit[at] = 1;
     }
-    cv::Mat distance;
-    cv::distanceTransform(missing, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-    std::vector<float>& to_hit = cover.to_hit.emplace_back();
-    for (int y = 0; y < cover.raster.height; ++y) {
-      for (int x = 0; x < cover.raster.width; ++x) {
-        to_hit.push_back(distance.at<float>(y, x) * static_cast<float>(cover.raster.cell));
-      }
-    }
+    cover.to_hit.push_back(DistancesTo(cover.raster, hit));
   }
+  cover.to_open = DistancesToOpenGround(evidence, cover.raster);
   return cover;
 }
 
@@ -151,14 +147,16 @@ std::optional<CutLine> MeetingLine(const CoverOfRoofs& cover, const std::vector<
   return line;
 }
 
-// Straight borders of what a roof covers, in the ground plan; axes are those of the longest edge.
-std::vector<CutLine> BordersOf(const CoverOfRoofs& cover, size_t roof, const CutLine& axis,
-                               const std::vector<CutLine>& creases, double detail) {
+// Straight borders of what lies within reach of `to_hit`: what a roof covers, in the ground plan;
+// axes are those of the longest edge.
+std::vector<CutLine> BordersOf(const PlaneRaster& raster, const std::vector<float>& to_hit,
+                               const CutLine& axis, const std::vector<CutLine>& creases,
+                               double detail) {
   constexpr int kMostLines = 10;
   const Eigen::Vector2d u = axis.direction, v(-u.y(), u.x());
   // The raster once more, turned to the axes.
-  PlaneRaster turned = cover.raster;
-  const Eigen::Vector2d center = cover.raster.Center(turned.width / 2, turned.height / 2);
+  PlaneRaster turned = raster;
+  const Eigen::Vector2d center = raster.Center(turned.width / 2, turned.height / 2);
   const double half = std::hypot(turned.width, turned.height) / 2 * turned.cell;
   turned.width = turned.height = static_cast<int>(2 * half / turned.cell) + 1;
   turned.origin = Eigen::Vector2d(u.dot(center) - half, v.dot(center) - half);
@@ -168,8 +166,8 @@ std::vector<CutLine> BordersOf(const CoverOfRoofs& cover, size_t roof, const Cut
   for (int y = 0; y < turned.height; ++y) {
     for (int x = 0; x < turned.width; ++x) {
       const Eigen::Vector2d p = turned.Center(x, y);
-      const int at = cover.raster.IndexAt(p.x() * u + p.y() * v);
-      if (at >= 0 && cover.to_hit[roof][at] <= reach) {
+      const int at = raster.IndexAt(p.x() * u + p.y() * v);
+      if (at >= 0 && to_hit[at] <= reach) {
         evidence[turned.Index(x, y)] = Evidence::kSeen;
       }
     }
@@ -216,9 +214,12 @@ std::vector<CutLine> LinesOf(const FittedBuilding& building, const RoofEvidence&
     add({.point = n * (step.offset / step.normal.head<2>().norm()), .direction = {-n.y(), n.x()}},
         tolerances.level_of_detail);
   }
-  for (size_t roof = 0; roof < cover.to_hit.size(); ++roof) {
-    for (const CutLine& line : BordersOf(cover, roof, axis, creases, tolerances.level_of_detail)) {
-      add(line, tolerances.level_of_detail);
+  const double detail = tolerances.level_of_detail;
+  std::vector<std::vector<float>> covers = cover.to_hit;
+  if (!cover.to_open.empty()) covers.insert(covers.begin(), cover.to_open);
+  for (const std::vector<float>& to_hit : covers) {
+    for (const CutLine& line : BordersOf(cover.raster, to_hit, axis, creases, detail)) {
+      add(line, detail);
     }
   }
   return lines;
@@ -250,7 +251,8 @@ std::vector<int> FaceOfCells(const PlaneRaster& raster, const Arrangement& arran
 }
 
 // The costs of the raster's cells by roof: the mean over their samples of how far these lie from
-// it, up to twice the level of detail. Cells with fewer than half of the samples that the cloud's
+// it, up to twice the level of detail. Where the ground lies open somewhere, one cost more: that of
+// no roof. Cells with fewer than half of the samples that the cloud's
 // spacing promises say less: what grazing views leave there is as likely wrong as right.
 using Costs = std::vector<std::vector<double>>;
 Costs CostsOf(const RoofEvidence& evidence, std::span<const int> planes, const CoverOfRoofs& cover,
@@ -279,10 +281,9 @@ Costs CostsOf(const RoofEvidence& evidence, std::span<const int> planes, const C
     ++counts[at];
   }
   for (size_t at = 0; at < cells; ++at) {
+    const double trust = most[at] * std::min(1.0, counts[at] / enough);
     for (size_t k = 0; k < roofs.size(); ++k) {
-      if (weights[at] > 0) {
-        costs[at][k] *= most[at] / weights[at] * std::min(1.0, counts[at] / enough);
-      }
+      if (weights[at] > 0) costs[at][k] *= trust / weights[at];
       const bool level = k + 1 == roofs.size();
       if (level) {
         costs[at][k] += kLevelRoof;
@@ -290,14 +291,20 @@ Costs CostsOf(const RoofEvidence& evidence, std::span<const int> planes, const C
         costs[at][k] += kFarFromSamples;
       }
     }
+    if (cover.to_open.empty()) continue;
+    const bool open = cover.to_open[at] == 0;
+    if (open) std::ranges::for_each(costs[at], [](double& cost) { cost += 1; });
+    costs[at].push_back(open ? 0 : cover.to_open[at] > tolerances.fill_gap ? 1 : kNoRoof + trust);
   }
   return costs;
 }
 
-CellProblem ProblemOf(const RoofCells& roof, const std::vector<int>& cell_of_face,
+// Labels are the roofs and, where the ground lies `open` somewhere, after them none.
+CellProblem ProblemOf(const RoofCells& roof, const std::vector<int>& cell_of_face, bool open,
                       const Tolerances& tolerances) {
   CellProblem problem;
-  problem.labels = static_cast<int>(roof.roofs.size());
+  const int none = static_cast<int>(roof.roofs.size());
+  problem.labels = none + (open ? 1 : 0);
   std::vector<const Arrangement::Edge*> edges;
   for (const Arrangement::Edge& edge : roof.arrangement.edges) {
     if (edge.left < 0 || edge.right < 0) continue;
@@ -305,10 +312,12 @@ CellProblem ProblemOf(const RoofCells& roof, const std::vector<int>& cell_of_fac
     problem.links.push_back({cell_of_face[edge.left], cell_of_face[edge.right]});
     edges.push_back(&edge);
   }
-  problem.border = [&roof, edges, detail = tolerances.level_of_detail](size_t link, int a, int b) {
+  problem.border = [&roof, edges, none, detail = tolerances.level_of_detail](size_t link, int a,
+                                                                             int b) {
     if (a == b) return 0.0;
     const Eigen::Vector2d p = roof.arrangement.vertices[edges[link]->from];
     const Eigen::Vector2d q = roof.arrangement.vertices[edges[link]->to];
+    if (a == none || b == none) return kStepBorder * detail * (q - p).norm();
     const double step = std::max(std::abs(roof.roofs[a].At(p) - roof.roofs[b].At(p)),
                                  std::abs(roof.roofs[a].At(q) - roof.roofs[b].At(q)));
     const double price = step < kMeets_m ? kMeetingBorder + step / detail : kStepBorder;
@@ -349,11 +358,12 @@ CellNumbers NumberCells(const std::vector<int>& labels) {
 // cells within it. A sliver that holds no centre of them costs what the one around its middle does.
 std::vector<std::vector<double>> DataOf(const RoofCells& roof, const CellNumbers& numbers,
                                         const PlaneRaster& raster, const Costs& costs) {
+  const size_t labels = costs.front().size();
   std::vector<std::vector<double>> data(numbers.face_of_cell.size(),
-                                        std::vector<double>(roof.roofs.size(), 0));
+                                        std::vector<double>(labels, 0));
   std::vector<int> counts(data.size(), 0);
   const auto add = [&](size_t cell, size_t at) {
-    for (size_t k = 0; k < roof.roofs.size(); ++k) data[cell][k] += costs[at][k];
+    for (size_t k = 0; k < labels; ++k) data[cell][k] += costs[at][k];
     ++counts[cell];
   };
   const std::vector<int> face_at = FaceOfCells(raster, roof.arrangement, roof.labels);
@@ -399,7 +409,7 @@ RoofCells LabelRoof(const FittedBuilding& building, const RoofEvidence& evidence
   roof.labels = InsideOf(roof.arrangement, building.building);
   const CellNumbers numbers = NumberCells(roof.labels);
   const std::vector<int>& face_of_cell = numbers.face_of_cell;
-  CellProblem problem = ProblemOf(roof, numbers.cell_of_face, tolerances);
+  CellProblem problem = ProblemOf(roof, numbers.cell_of_face, !cover.to_open.empty(), tolerances);
   const Costs costs = CostsOf(evidence, planes, cover, roof.roofs, tolerances);
   problem.data = DataOf(roof, numbers, cover.raster, costs);
   for (size_t c = 0; c < face_of_cell.size(); ++c) {
@@ -408,7 +418,10 @@ RoofCells LabelRoof(const FittedBuilding& building, const RoofEvidence& evidence
     }
   }
   const std::vector<int> labels = CheapestCellLabels(problem);
-  for (size_t c = 0; c < labels.size(); ++c) roof.labels[face_of_cell[c]] = labels[c];
+  const int none = static_cast<int>(roof.roofs.size());
+  for (size_t c = 0; c < labels.size(); ++c) {
+    roof.labels[face_of_cell[c]] = labels[c] == none ? -1 : labels[c];
+  }
   JoinAtCorners(roof.arrangement, roof.roofs, roof.labels);
   return roof;
 }

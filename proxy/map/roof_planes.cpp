@@ -18,7 +18,8 @@ namespace stucco {
 namespace {
 
 constexpr double kRoofNormal = 0.26;  // 75 degrees of pitch: steeper is a wall
-constexpr double kOnWall_m = 0.4;     // what stands upright this near to the outline is its wall
+constexpr double kGroundNormal = 0.9;
+constexpr double kOnWall_m = 0.4;  // what stands upright this near to the outline is its wall
 
 // By cells of half a metre: where there is anything, and where the ground shows.
 void MeasureCover(const Samples& upright, const std::vector<int>& inside, double ground,
@@ -156,7 +157,10 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
     const bool on_rim = ToOutline(building.building, p.head<2>()) < kOnWall_m;
     if (upright_thing && on_rim) continue;
     if (!on_rim) inside.push_back(i);
-    if (p.z() < building.ground + kRaised_m) continue;
+    if (p.z() < building.ground + kRaised_m) {
+      if (upright.normals[i].z() > kGroundNormal) evidence.open.emplace_back(p.head<2>());
+      continue;
+    }
     if (upright_thing) {
       steps.push_back(i);
     } else if (upright.normals[i].z() > kRoofNormal) {

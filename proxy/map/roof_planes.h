@@ -14,11 +14,12 @@ namespace stucco {
 
 // What the cloud shows above a footprint, in the upright frame.
 struct RoofEvidence {
-  Samples samples;            // above the ground, inside of the outline
-  std::vector<Plane> planes;  // roofs, by falling area; `points` are indices into `samples`
-  std::vector<Plane> steps;   // upright, inside of the outline
-  double seen_m2 = 0;         // of the footprint but for its rim, where the cloud has anything
-  double bare_m2 = 0;         // of it, where the cloud shows the ground itself
+  Samples samples;                    // above the ground, inside of the outline
+  std::vector<Plane> planes;          // roofs, by falling area; `points` are indices into `samples`
+  std::vector<Plane> steps;           // upright, inside of the outline
+  std::vector<Eigen::Vector2d> open;  // inside of the outline, where the ground shows
+  double seen_m2 = 0;  // of the footprint but for its rim, where the cloud has anything
+  double bare_m2 = 0;  // of it, where the cloud shows the ground itself
 };
 
 // The planes of a building's roof, found among the samples above its own footprint, with details

@@ -11,8 +11,10 @@
 #include <array>
 #include <boost/variant/get.hpp>
 #include <cmath>
+#include <optional>
 
 #include "proxy/planes/plane.h"
+#include "survey/geometry2d.h"
 #include "survey/triangulate.h"
 
 namespace stucco {
@@ -92,12 +94,83 @@ void AddParty(const std::vector<Facet>& neighbours, Facet& wall) {
   }
 }
 
+// Where a triangle of the ground meets the plane next to a wall, `beside` in front of it, in the
+// wall's frame.
+std::optional<Segment2d> CutBeside(const std::array<Eigen::Vector3d, 3>& triangle,
+                                   const Facet& wall, double beside, const PlaneFrame& frame) {
+  std::array<Eigen::Vector2d, 2> ends;
+  size_t count = 0;
+  for (size_t i = 0; i < 3 && count < 2; ++i) {
+    const Eigen::Vector3d& a = triangle[i];
+    const Eigen::Vector3d& b = triangle[(i + 1) % 3];
+    const double from = wall.normal.dot(a) - wall.offset - beside;
+    const double to = wall.normal.dot(b) - wall.offset - beside;
+    if ((from < 0) == (to < 0)) continue;
+    ends[count++] = frame.ToPlane(a + (b - a) * (from / (from - to)));
+  }
+  if (count < 2) return std::nullopt;
+  return Segment2d{ends[0], ends[1]};
+}
+
+// The ground as triangles, each with its bounds.
+struct GroundTriangle {
+  std::array<Eigen::Vector3d, 3> corners;
+  Eigen::AlignedBox3d box;
+};
+
+std::vector<GroundTriangle> GroundOf(const std::vector<Building>& buildings) {
+  std::vector<GroundTriangle> ground;
+  for (const Building& building : buildings) {
+    if (building.id != "G0") continue;
+    for (const Facet& facet : building.facets) {
+      const FacetTriangles split = TriangulateFacet(facet);
+      for (const auto& corners : split.triangles) {
+        GroundTriangle& triangle = ground.emplace_back();
+        for (size_t i = 0; i < 3; ++i) {
+          triangle.corners[i] = split.vertices[corners[i]];
+          triangle.box.extend(triangle.corners[i]);
+        }
+      }
+    }
+  }
+  return ground;
+}
+
+void AddBuried(const std::vector<GroundTriangle>& ground, const Eigen::Vector3d& up, Facet& wall) {
+  constexpr double kBeside_m = 0.1;
+  constexpr double kDeepest_m = 10;
+  const Eigen::Vector3d u = up.cross(wall.normal).normalized();
+  const PlaneFrame frame{.origin = wall.outer.front(), .u = u, .v = wall.normal.cross(u)};
+  Eigen::AlignedBox3d reach = BoundsOf(wall);
+  for (const auto& p : wall.outer) reach.extend(p + kDeepest_m * up);
+  reach.min().array() -= 2 * kBeside_m;
+  reach.max().array() += 2 * kBeside_m;
+  double lowest = 0;
+  for (const auto& p : wall.outer) lowest = std::min(lowest, frame.ToPlane(p).y() - 1);
+  const std::vector<Triangle> pieces = Flattened(wall, frame);
+  double area = 0;
+  for (const GroundTriangle& triangle : ground) {
+    if (!reach.intersects(triangle.box)) continue;
+    const auto cut = CutBeside(triangle.corners, wall, kBeside_m, frame);
+    if (!cut) continue;
+    const double bottom = std::min({lowest, cut->a.y() - 1, cut->b.y() - 1});
+    const Kernel::Point_2 a(cut->a.x(), cut->a.y()), below_a(a.x(), bottom);
+    const Kernel::Point_2 b(cut->b.x(), cut->b.y()), below_b(b.x(), bottom);
+    for (const Triangle& half : {Triangle(a, below_a, below_b), Triangle(a, below_b, b)}) {
+      if (half.is_degenerate()) continue;
+      for (const Triangle& piece : pieces) area += SharedArea(piece, half);
+    }
+  }
+  wall.party = std::min(1.0, wall.party + area / wall.area);
+}
+
 }  // namespace
 
-void MeasureParty(std::vector<Building>& buildings) {
+void MeasureParty(const Eigen::Vector3d& up, std::vector<Building>& buildings) {
   std::vector<Eigen::AlignedBox3d> boxes;
   boxes.reserve(buildings.size());
   for (const Building& building : buildings) boxes.push_back(BoundsOf(building));
+  const std::vector<GroundTriangle> ground = GroundOf(buildings);
   for (size_t a = 0; a < buildings.size(); ++a) {
     Eigen::AlignedBox3d reach = boxes[a];
     reach.min().array() -= kGap_m;
@@ -109,6 +182,10 @@ void MeasureParty(std::vector<Building>& buildings) {
         const bool is_wall = facet.facet_class == FacetClass::kWall && facet.area > 0;
         if (is_wall) AddParty(buildings[b].facets, facet);
       }
+    }
+    for (Facet& facet : buildings[a].facets) {
+      const bool is_wall = facet.facet_class == FacetClass::kWall && facet.area > 0;
+      if (is_wall) AddBuried(ground, up, facet);
     }
   }
 }

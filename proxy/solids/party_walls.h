@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "survey/proxy.h"
 
 namespace stucco {
 
-// Sets `party` of all walls: the share of its area that walls of other buildings stand against,
-// face to face with a gap that nobody sees into (0.3 m). `buildings` are in metres.
-void MeasureParty(std::vector<Building>& buildings);
+// Sets `party` of all walls: the share of its area that nobody sees, because walls of other
+// buildings stand against it, face to face with a gap that nobody sees into (0.3 m), or because it
+// lies below the ground in front of it ("G0"): on slopes walls start where the ground is lowest.
+// `buildings` are in metres.
+void MeasureParty(const Eigen::Vector3d& up, std::vector<Building>& buildings);
 
 }  // namespace stucco

@@ -3,9 +3,6 @@
 // Roofs of buildings of a map where parts of them are hardly seen.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "proxy/abstract.h"
 #include "tests/proxy/map_scene.h"
 #include "tests/proxy/scene.h"
 
@@ -13,38 +10,14 @@ namespace stucco {
 namespace {
 
 using test::Captured;
+using test::ClosedIn;
 using test::FlatHouse;
+using test::MadeModel;
+using test::MakeModel;
 using test::MapEntry;
+using test::OfClass;
 using test::Rectangle;
-
-Proxy ModelOf(const Captured& captured, const std::vector<MapEntry>& map) {
-  ProxyInput input = test::InputOf(captured, test::MapGeoref());
-  input.plan = test::PlanOf(map);
-  ProxyFindings findings;
-  return AbstractCloud(input, {}, 2, findings);
-}
-
-// The one building of the map, or a failed test.
-const Building& HouseIn(const Proxy& proxy) {
-  static const Building kNone;
-  const Building* building = test::Find(proxy, "B0001");
-  EXPECT_NE(building, nullptr);
-  return building != nullptr ? *building : kNone;
-}
-
-std::vector<const Facet*> RoofsIn(const Building& building) {
-  std::vector<const Facet*> roofs;
-  for (const Facet& facet : building.facets) {
-    if (facet.facet_class == FacetClass::kRoof) roofs.push_back(&facet);
-  }
-  return roofs;
-}
-
-double TopOfFacet(const Facet& facet) {
-  double top = -1e9;
-  for (const auto& p : facet.outer) top = std::max(top, p.z());
-  return top;
-}
+using test::TopOf;
 
 TEST(MapRoofs, ARidgeIsOneWhereItsFarSideIsSeenOnlyAtTheEaves) {
   test::House house = test::GableHouse(12, 10, 6, 9.5);
@@ -54,11 +27,11 @@ TEST(MapRoofs, ARidgeIsOneWhereItsFarSideIsSeenOnlyAtTheEaves) {
   test::CaptureOptions options{.spacing = 0.2, .noise = 0.02};
   options.hide = {"upper"};
   const auto captured = test::Capture({house}, {test::GroundSquare(25)}, options);
-  const Proxy proxy = ModelOf(captured, {{"B0001", {Rectangle(-6, -5, 6, 5)}, 9.5}});
-  const Building& building = HouseIn(proxy);
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-6, -5, 6, 5)}, 9.5}});
+  const Building& building = ClosedIn(made, "B0001");
   EXPECT_EQ(building.facets.size(), 7u);
-  for (const Facet* roof : RoofsIn(building)) {
-    EXPECT_NEAR(TopOfFacet(*roof), 9.5, 0.1);
+  for (const Facet* roof : OfClass(building, FacetClass::kRoof)) {
+    EXPECT_NEAR(TopOf(*roof), 9.5, 0.1);
   }
 }
 
@@ -89,16 +62,16 @@ Captured RoofWithStrays(double every) {
 
 TEST(MapRoofs, AParapetMakesNoRoofOfStrays) {
   const std::vector<MapEntry> map = {{"B0001", {Rectangle(-5, -4, 5, 4)}, 6}};
-  const Proxy proxy = ModelOf(RoofWithStrays(0.13), map);
-  const auto roofs = RoofsIn(HouseIn(proxy));
+  const MadeModel made = MakeModel(RoofWithStrays(0.13), map);
+  const auto roofs = OfClass(ClosedIn(made, "B0001"), FacetClass::kRoof);
   ASSERT_EQ(roofs.size(), 1u);
-  EXPECT_NEAR(TopOfFacet(*roofs[0]), 5.6, 0.02);
+  EXPECT_NEAR(TopOf(*roofs[0]), 5.6, 0.02);
 }
 
 TEST(MapRoofs, WhatIsAsDenseAsTheRoofIsAPlatform) {
   const std::vector<MapEntry> map = {{"B0001", {Rectangle(-5, -4, 5, 4)}, 6}};
-  const Proxy proxy = ModelOf(RoofWithStrays(0.035), map);
-  EXPECT_GE(RoofsIn(HouseIn(proxy)).size(), 2u);
+  const MadeModel made = MakeModel(RoofWithStrays(0.035), map);
+  EXPECT_GE(OfClass(ClosedIn(made, "B0001"), FacetClass::kRoof).size(), 2u);
 }
 
 }  // namespace

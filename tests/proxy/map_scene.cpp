@@ -3,10 +3,13 @@
 #include "tests/proxy/map_scene.h"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numbers>
 
+#include "proxy/abstract.h"
+#include "proxy/solids/closed_check.h"
 #include "survey/triangulate.h"
 
 namespace stucco::test {
@@ -105,6 +108,41 @@ House HipLHouse(double height) {
   house.polygons.push_back({"north roof", {{12, 6, h}, {6, 6, h}, {3, 3, top}, {9, 3, top}}});
   house.polygons.push_back({"east roof", {{6, 6, h}, {6, 14, h}, {3, 11, top}, {3, 3, top}}});
   return house;
+}
+
+MadeModel MakeModel(const Captured& captured, const std::vector<MapEntry>& map,
+                    const ProxyOptions& options) {
+  MadeModel made;
+  ProxyInput input = InputOf(captured, MapGeoref());
+  input.plan = PlanOf(map);
+  made.proxy = AbstractCloud(input, options, 2, made.findings);
+  EXPECT_EQ(FindProblem(made.proxy), std::nullopt);
+  return made;
+}
+
+const Building& ClosedIn(const MadeModel& made, const std::string& id) {
+  static const Building kNone;
+  const Building* building = Find(made.proxy, id);
+  EXPECT_NE(building, nullptr) << id;
+  if (building == nullptr) return kNone;
+  EXPECT_TRUE(building->watertight);
+  EXPECT_EQ(FindOpening(building->facets), std::nullopt) << id;
+  EXPECT_EQ(building->source, "map");
+  return *building;
+}
+
+std::vector<const Facet*> OfClass(const Building& building, FacetClass facet_class) {
+  std::vector<const Facet*> facets;
+  for (const Facet& facet : building.facets) {
+    if (facet.facet_class == facet_class) facets.push_back(&facet);
+  }
+  return facets;
+}
+
+double TopOf(const Facet& facet) {
+  double top = -1e9;
+  for (const auto& p : facet.outer) top = std::max(top, p.z());
+  return top;
 }
 
 double VolumeOf(const Building& building) {

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "proxy/cloud/input.h"
+#include "proxy/options/findings.h"
+#include "proxy/options/proxy_options.h"
 #include "survey/geometry2d.h"
 #include "survey/plan.h"
 #include "survey/proxy.h"
@@ -41,6 +43,18 @@ House HipHouse(double length, double width, double height);
 // in line with the hip of the corner opposite to it.
 House HipLHouse(double height);
 Ring HipLOutline();
+
+// What is made of a cloud with a map.
+struct MadeModel {
+  Proxy proxy;
+  ProxyFindings findings;
+};
+MadeModel MakeModel(const Captured& captured, const std::vector<MapEntry>& map,
+                    const ProxyOptions& options = {});
+// The building of the map, closed, or a failed test.
+const Building& ClosedIn(const MadeModel& made, const std::string& id);
+std::vector<const Facet*> OfClass(const Building& building, FacetClass facet_class);
+double TopOf(const Facet& facet);
 
 // Enclosed volume and the area of one class; facets must be closed for the volume.
 double VolumeOf(const Building& building);

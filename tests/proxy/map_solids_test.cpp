@@ -18,65 +18,29 @@ namespace stucco {
 namespace {
 
 using test::Captured;
+using test::ClosedIn;
 using test::Court;
 using test::Displaced;
 using test::FlatHouse;
+using test::MadeModel;
+using test::MakeModel;
 using test::MapEntry;
+using test::OfClass;
 using test::Rectangle;
+using test::TopOf;
 using test::VolumeOf;
 
 constexpr test::CaptureOptions kCapture{.spacing = 0.2, .noise = 0.02};
-
-struct Made {
-  Proxy proxy;
-  ProxyFindings findings;
-};
-
-Made Make(const Captured& captured, const std::vector<MapEntry>& map,
-          const ProxyOptions& options = {}) {
-  Made made;
-  ProxyInput input = test::InputOf(captured, test::MapGeoref());
-  input.plan = test::PlanOf(map);
-  made.proxy = AbstractCloud(input, options, 2, made.findings);
-  EXPECT_EQ(FindProblem(made.proxy), std::nullopt);
-  return made;
-}
 
 bool Says(const std::vector<std::string>& lines, const std::string& text) {
   return std::ranges::any_of(
       lines, [&](const std::string& line) { return line.find(text) != std::string::npos; });
 }
 
-// The building, closed, or a failed test.
-const Building& Closed(const Made& made, const std::string& id) {
-  static const Building kNone;
-  const Building* building = test::Find(made.proxy, id);
-  EXPECT_NE(building, nullptr) << id;
-  if (building == nullptr) return kNone;
-  EXPECT_TRUE(building->watertight);
-  EXPECT_EQ(FindOpening(building->facets), std::nullopt) << id;
-  EXPECT_EQ(building->source, "map");
-  return *building;
-}
-
-std::vector<const Facet*> Of(const Building& building, FacetClass facet_class) {
-  std::vector<const Facet*> facets;
-  for (const Facet& facet : building.facets) {
-    if (facet.facet_class == facet_class) facets.push_back(&facet);
-  }
-  return facets;
-}
-
-double Highest(const Facet& facet) {
-  double top = -1e9;
-  for (const auto& p : facet.outer) top = std::max(top, p.z());
-  return top;
-}
-
 // Every facade of the building's ring is on exactly one wall, and that wall lies on it.
 void ExpectFacades(const Building& building, size_t count) {
   std::multiset<std::string> ids;
-  for (const Facet* wall : Of(building, FacetClass::kWall)) {
+  for (const Facet* wall : OfClass(building, FacetClass::kWall)) {
     ids.insert(wall->planned_facades.begin(), wall->planned_facades.end());
   }
   EXPECT_EQ(ids.size(), count);
@@ -85,26 +49,26 @@ void ExpectFacades(const Building& building, size_t count) {
 
 TEST(MapSolids, ClosesAGableHouse) {
   const auto captured = test::Capture({test::GableHouse()}, {test::GroundSquare(25)}, kCapture);
-  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 9.5}});
-  const Building& house = Closed(made, "B0001");
-  EXPECT_EQ(Of(house, FacetClass::kWall).size(), 4u);
-  EXPECT_EQ(Of(house, FacetClass::kRoof).size(), 2u);
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 9.5}});
+  const Building& house = ClosedIn(made, "B0001");
+  EXPECT_EQ(OfClass(house, FacetClass::kWall).size(), 4u);
+  EXPECT_EQ(OfClass(house, FacetClass::kRoof).size(), 2u);
   EXPECT_EQ(house.facets.size(), 7u);
   ExpectFacades(house, 4);
   // 12 x 8 x 6 and half of 12 x 8 x 3.5.
   EXPECT_NEAR(VolumeOf(house), 744, 10);
-  for (const Facet* roof : Of(house, FacetClass::kRoof)) EXPECT_NEAR(Highest(*roof), 9.5, 0.08);
-  for (const Facet* wall : Of(house, FacetClass::kWall)) EXPECT_GT(wall->seen, 0.8);
+  for (const Facet* roof : OfClass(house, FacetClass::kRoof)) EXPECT_NEAR(TopOf(*roof), 9.5, 0.08);
+  for (const Facet* wall : OfClass(house, FacetClass::kWall)) EXPECT_GT(wall->seen, 0.8);
   EXPECT_TRUE(Says(made.findings.notes, "B0001: closed, full"));
 }
 
 TEST(MapSolids, ClosesAHipRoof) {
   const auto captured =
       test::Capture({test::HipHouse(14, 8, 5)}, {test::GroundSquare(25)}, kCapture);
-  const Made made = Make(captured, {{"B0001", {Rectangle(-7, -4, 7, 4)}, 9}});
-  const Building& house = Closed(made, "B0001");
-  EXPECT_EQ(Of(house, FacetClass::kRoof).size(), 4u);
-  EXPECT_EQ(Of(house, FacetClass::kWall).size(), 4u);
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-7, -4, 7, 4)}, 9}});
+  const Building& house = ClosedIn(made, "B0001");
+  EXPECT_EQ(OfClass(house, FacetClass::kRoof).size(), 4u);
+  EXPECT_EQ(OfClass(house, FacetClass::kWall).size(), 4u);
   ExpectFacades(house, 4);
   // Below the hip roof: 14 x 8 x 5; the roof: a ridge of 6 m, 4 m above the eaves.
   EXPECT_NEAR(VolumeOf(house), 560 + 4.0 / 6 * 8 * (2 * 14 + 6), 12);
@@ -115,10 +79,10 @@ TEST(MapSolids, RoofsThatMeetHaveNoWallsBetweenThem) {
   for (const uint64_t seed : {1, 2, 3}) {
     const auto captured = test::Capture({house}, {test::GroundSquare(25)},
                                         {.spacing = 0.2, .noise = 0.03, .seed = seed});
-    const Made made = Make(captured, {{"B0001", {test::HipLOutline()}, 7}});
-    const Building& building = Closed(made, "B0001");
-    EXPECT_EQ(Of(building, FacetClass::kWall).size(), 6u) << seed;
-    EXPECT_EQ(Of(building, FacetClass::kRoof).size(), 6u) << seed;
+    const MadeModel made = MakeModel(captured, {{"B0001", {test::HipLOutline()}, 7}});
+    const Building& building = ClosedIn(made, "B0001");
+    EXPECT_EQ(OfClass(building, FacetClass::kWall).size(), 6u) << seed;
+    EXPECT_EQ(OfClass(building, FacetClass::kRoof).size(), 6u) << seed;
     ExpectFacades(building, 6);
   }
 }
@@ -130,16 +94,16 @@ TEST(MapSolids, StepsBetweenTwoHeights) {
   low.polygons.erase(low.polygons.begin() + 3);  // inside of the tall wing
   const auto captured = test::Capture({tall, low}, {test::GroundSquare(25)}, kCapture);
   const Ring ring = {{-8, -5}, {8, -5}, {8, 0}, {0, 0}, {0, 5}, {-8, 5}};
-  const Made made = Make(captured, {{"B0001", {ring}, 8}});
-  const Building& house = Closed(made, "B0001");
-  const auto roofs = Of(house, FacetClass::kRoof);
+  const MadeModel made = MakeModel(captured, {{"B0001", {ring}, 8}});
+  const Building& house = ClosedIn(made, "B0001");
+  const auto roofs = OfClass(house, FacetClass::kRoof);
   ASSERT_EQ(roofs.size(), 2u);
-  EXPECT_NEAR(Highest(*roofs[0]), 8, 0.05);
+  EXPECT_NEAR(TopOf(*roofs[0]), 8, 0.05);
   EXPECT_NEAR(roofs[0]->area, 80, 1.5);
-  EXPECT_NEAR(Highest(*roofs[1]), 5, 0.05);
+  EXPECT_NEAR(TopOf(*roofs[1]), 5, 0.05);
   EXPECT_NEAR(roofs[1]->area, 40, 1.5);
   // Six walls of the map; the step goes on in the wall that it is in line with.
-  EXPECT_EQ(Of(house, FacetClass::kWall).size(), 6u);
+  EXPECT_EQ(OfClass(house, FacetClass::kWall).size(), 6u);
   ExpectFacades(house, 6);
   EXPECT_NEAR(VolumeOf(house), 840, 10);
 }
@@ -156,12 +120,12 @@ TEST(MapSolids, KeepsCourtyards) {
     block.polygons.push_back(FlatHouse(ring, 5).polygons.back());
   }
   const auto captured = test::Capture({block}, {test::GroundSquare(25)}, kCapture);
-  const Made made =
-      Make(captured, {{"B0001", {Rectangle(-11, -11, 11, 11), Court(-5, -5, 5, 5)}, 5}});
-  const Building& house = Closed(made, "B0001");
-  EXPECT_EQ(Of(house, FacetClass::kWall).size(), 8u);
-  ASSERT_EQ(Of(house, FacetClass::kRoof).size(), 1u);
-  EXPECT_EQ(Of(house, FacetClass::kRoof)[0]->holes.size(), 1u);
+  const MadeModel made =
+      MakeModel(captured, {{"B0001", {Rectangle(-11, -11, 11, 11), Court(-5, -5, 5, 5)}, 5}});
+  const Building& house = ClosedIn(made, "B0001");
+  EXPECT_EQ(OfClass(house, FacetClass::kWall).size(), 8u);
+  ASSERT_EQ(OfClass(house, FacetClass::kRoof).size(), 1u);
+  EXPECT_EQ(OfClass(house, FacetClass::kRoof)[0]->holes.size(), 1u);
   ExpectFacades(house, 8);
   EXPECT_NEAR(VolumeOf(house), (484 - 100) * 5, 25);
 }
@@ -171,11 +135,11 @@ TEST(MapSolids, WithoutRoofPointsEndsWhereItsWallsEnd) {
   options.hide = {"roof"};
   const auto captured =
       test::Capture({test::BoxHouse(10, 8, 6)}, {test::GroundSquare(25)}, options);
-  const Made made = Make(captured, {{"B0001", {Rectangle(-5, -4, 5, 4)}, 9}});
-  const Building& house = Closed(made, "B0001");
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-5, -4, 5, 4)}, 9}});
+  const Building& house = ClosedIn(made, "B0001");
   EXPECT_EQ(house.facets.size(), 6u);
   EXPECT_NEAR(VolumeOf(house), 80 * 6, 80 * 0.6);  // the walls' top, within their last 10 %
-  EXPECT_EQ(Of(house, FacetClass::kRoof)[0]->seen, 0);
+  EXPECT_EQ(OfClass(house, FacetClass::kRoof)[0]->seen, 0);
   EXPECT_TRUE(Says(made.findings.notes, "B0001: closed, LoD1.2"));
 }
 
@@ -201,14 +165,14 @@ StreetOfFive MakeStreet() {
 TEST(MapSolids, FindsADisplacedMap) {
   const StreetOfFive street = MakeStreet();
   const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
-  const Made made = Make(captured, Displaced(street.map, 0.3, {1.4, -1.4}));
+  const MadeModel made = MakeModel(captured, Displaced(street.map, 0.3, {1.4, -1.4}));
   const std::vector<double> areas = {80, 63, 60, 77, 91};
   for (size_t i = 0; i < 5; ++i) {
-    const Building& house = Closed(made, street.map[i].id);
+    const Building& house = ClosedIn(made, street.map[i].id);
     EXPECT_EQ(house.facets.size(), 6u);
     EXPECT_NEAR(test::AreaOf(house, FacetClass::kRoof), areas[i], 0.02 * areas[i]);
     // Each corner is where the house stands, not where the map has it.
-    for (const Facet* roof : Of(house, FacetClass::kRoof)) {
+    for (const Facet* roof : OfClass(house, FacetClass::kRoof)) {
       for (const auto& p : roof->outer) {
         double nearest = 1e9;
         for (const auto& corner : street.map[i].rings[0]) {
@@ -238,11 +202,11 @@ TEST(MapSolids, TellsEavesFromShifts) {
   test::CaptureOptions options = kCapture;
   options.hide = {"hidden"};
   const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, options);
-  const Made made = Make(captured, map);
+  const MadeModel made = MakeModel(captured, map);
   for (const MapEntry& entry : street.map) {
-    const Building& house = Closed(made, entry.id);
+    const Building& house = ClosedIn(made, entry.id);
     // The three walls in sight, and the fourth where they and the other houses say.
-    for (const Facet* wall : Of(house, FacetClass::kWall)) {
+    for (const Facet* wall : OfClass(house, FacetClass::kWall)) {
       double nearest = 1e9;
       for (const auto& corner : entry.rings[0]) {
         nearest = std::min(nearest, std::abs(wall->normal.head<2>().dot(corner) - wall->offset));
@@ -267,8 +231,8 @@ TEST(MapSolids, PanesAreNoWallWhereTheOtherWallsSaySo) {
   house.polygons[2] = {"plaster", upright(a, b, 0, 3.0)};
   house.polygons.push_back({"panes", upright(a + inwards, b + inwards, 3.0, 6)});
   const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
-  const Made made = Make(captured, street.map);
-  for (const Facet* wall : Of(Closed(made, street.map[0].id), FacetClass::kWall)) {
+  const MadeModel made = MakeModel(captured, street.map);
+  for (const Facet* wall : OfClass(ClosedIn(made, street.map[0].id), FacetClass::kWall)) {
     const Eigen::Vector2d outwards = wall->normal.head<2>();
     if (outwards.dot(OutwardsOf({a, b})) < 0.99) continue;
     EXPECT_NEAR(wall->offset, outwards.dot(a), 0.04);
@@ -283,7 +247,7 @@ TEST(MapSolids, RefusesAMapOfAnotherTown) {
                                            {"B0003", {Rectangle(14, -26, 20, 20)}, 6},
                                            {"B0004", {Rectangle(-8, 16, 10, 28)}, 6},
                                            {"B0005", {Rectangle(-28, -26, -20, -14)}, 6}};
-  const Made with = Make(captured, elsewhere);
+  const MadeModel with = MakeModel(captured, elsewhere);
   EXPECT_TRUE(Says(with.findings.warnings, "the plan's map gives no shape"));
   // The same as without any map.
   ProxyFindings findings;
@@ -301,10 +265,10 @@ TEST(MapSolids, NamesWhatIsGoneAndWhatIsNew) {
   const Ring fresh = Rectangle(16, 4, 25, 13);
   street.houses.push_back(FlatHouse(fresh, 6));  // no map has it
   const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
-  const Made made = Make(captured, street.map);
+  const MadeModel made = MakeModel(captured, street.map);
   EXPECT_EQ(test::Find(made.proxy, "B0002"), nullptr);
   EXPECT_TRUE(Says(made.findings.warnings, "B0002: not built, or demolished"));
-  for (const char* id : {"B0001", "B0003", "B0004", "B0005"}) Closed(made, id);
+  for (const char* id : {"B0001", "B0003", "B0004", "B0005"}) ClosedIn(made, id);
   EXPECT_TRUE(Says(made.findings.notes, "on no footprint of the map"));
   const Building* found = test::Find(made.proxy, "C0001");
   ASSERT_NE(found, nullptr);
@@ -317,8 +281,8 @@ TEST(MapSolids, ExtrudesWhatNobodySaw) {
   auto map = street.map;
   map.push_back({"B0009", {Rectangle(60, 60, 70, 70)}, 7});
   const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
-  const Made made = Make(captured, map);
-  const Building& house = Closed(made, "B0009");
+  const MadeModel made = MakeModel(captured, map);
+  const Building& house = ClosedIn(made, "B0009");
   EXPECT_NEAR(VolumeOf(house), 700, 20);
   for (const Facet& facet : house.facets) EXPECT_EQ(facet.seen, 0);
   EXPECT_TRUE(Says(made.findings.warnings, "B0009: the cloud shows too little"));
@@ -328,8 +292,8 @@ TEST(MapSolids, TreesAreNoPartOfABuilding) {
   auto captured = test::Capture({test::BoxHouse(12, 9, 6)}, {test::GroundSquare(25)}, kCapture);
   test::AddTree({9, 2, 5}, 2.8, 4000, 3, captured);  // beside the eastern wall, and over it
   test::AddTree({-3, 1, 9}, 2, 2500, 4, captured);   // over the roof
-  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4.5, 6, 4.5)}, 6}});
-  const Building& house = Closed(made, "B0001");
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-6, -4.5, 6, 4.5)}, 6}});
+  const Building& house = ClosedIn(made, "B0001");
   EXPECT_EQ(house.facets.size(), 6u);
   EXPECT_NEAR(VolumeOf(house), 12 * 9 * 6, 10);
   EXPECT_EQ(made.proxy.buildings.size(), 2u);  // the house and the ground: no tree
@@ -343,9 +307,9 @@ TEST(MapSolids, LeavesAboveBareGroundAreNoRoof) {
   auto captured =
       test::Capture({test::BoxHouse(12, 9, 6), crown}, {test::GroundSquare(25)}, kCapture);
   test::AddTree({17, -0.5, 5.5}, 2.5, 2500, 3, captured);
-  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4.5, 6, 4.5)}, 6},
-                                    {"B0002", {Rectangle(14, -3, 20, 2)}, 6}});
-  Closed(made, "B0001");
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-6, -4.5, 6, 4.5)}, 6},
+                                              {"B0002", {Rectangle(14, -3, 20, 2)}, 6}});
+  ClosedIn(made, "B0001");
   EXPECT_EQ(test::Find(made.proxy, "B0002"), nullptr);
   EXPECT_TRUE(Says(made.findings.warnings, "B0002: not built, or demolished"));
 }
@@ -357,9 +321,9 @@ TEST(MapSolids, ACrownThatHoldsAnOutlineIsNoHouse) {
        {std::pair{15.0, -2.0}, {17.0, -2.0}, {19.0, -2.0}, {15.0, 1.0}, {17.0, 1.0}, {19.0, 1.0}}) {
     test::AddTree({x, y, 3.5}, 1.8, 2500, 3, captured);
   }
-  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4.5, 6, 4.5)}, 6},
-                                    {"B0002", {Rectangle(14, -3, 20, 2)}, 6}});
-  Closed(made, "B0001");
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-6, -4.5, 6, 4.5)}, 6},
+                                              {"B0002", {Rectangle(14, -3, 20, 2)}, 6}});
+  ClosedIn(made, "B0001");
   EXPECT_EQ(test::Find(made.proxy, "B0002"), nullptr);
 }
 
@@ -368,9 +332,9 @@ TEST(MapSolids, ARoofOnPostsStands) {
   canopy.polygons = {canopy.polygons.back()};
   const auto captured =
       test::Capture({test::BoxHouse(10, 9, 6), canopy}, {test::GroundSquare(25)}, kCapture);
-  const Made made = Make(captured, {{"B0001", {Rectangle(-5, -4.5, 5, 4.5)}, 6},
-                                    {"B0002", {Rectangle(12, -4, 20, 4)}, 4.5}});
-  EXPECT_NEAR(VolumeOf(Closed(made, "B0002")), 64 * 4.5, 10);
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-5, -4.5, 5, 4.5)}, 6},
+                                              {"B0002", {Rectangle(12, -4, 20, 4)}, 4.5}});
+  EXPECT_NEAR(VolumeOf(ClosedIn(made, "B0002")), 64 * 4.5, 10);
 }
 
 TEST(MapSolids, AParapetIsNoRoof) {
@@ -381,8 +345,8 @@ TEST(MapSolids, AParapetIsNoRoof) {
   house.polygons.push_back({"rim", {{6, -4, 6}, {6, 4, 6}, {5.5, 3.5, 5.6}, {5.5, -3.5, 5.6}}});
   const auto captured =
       test::Capture({house}, {test::GroundSquare(25)}, {.spacing = 0.1, .noise = 0.02});
-  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 6}});
-  EXPECT_EQ(Closed(made, "B0001").facets.size(), 6u);
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 6}});
+  EXPECT_EQ(ClosedIn(made, "B0001").facets.size(), 6u);
 }
 
 TEST(MapSolids, ARoofLiesOnItselfNotBetweenItAndItsRim) {
@@ -398,10 +362,10 @@ TEST(MapSolids, ARoofLiesOnItselfNotBetweenItAndItsRim) {
   }
   const auto captured =
       test::Capture({house}, {test::GroundSquare(25)}, {.spacing = 0.1, .noise = 0.02});
-  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 6}});
-  const auto roofs = Of(Closed(made, "B0001"), FacetClass::kRoof);
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 6}});
+  const auto roofs = OfClass(ClosedIn(made, "B0001"), FacetClass::kRoof);
   ASSERT_EQ(roofs.size(), 1u);
-  EXPECT_NEAR(Highest(*roofs[0]), kRoof, 0.02);
+  EXPECT_NEAR(TopOf(*roofs[0]), kRoof, 0.02);
 }
 
 TEST(MapSolids, NeighboursKeepTouching) {
@@ -410,11 +374,11 @@ TEST(MapSolids, NeighboursKeepTouching) {
   test::House low = FlatHouse(Rectangle(0, -4, 9, 4), 5);
   low.polygons.erase(low.polygons.begin() + 3);
   const auto captured = test::Capture({tall, low}, {test::GroundSquare(25)}, kCapture);
-  const Made made = Make(captured, Displaced({{"B0001", {Rectangle(-8, -4, 0, 4)}, 8},
-                                              {"B0002", {Rectangle(0, -4, 9, 4)}, 5}},
-                                             0, {0.4, 0.2}));
-  const Building& left = Closed(made, "B0001");
-  const Building& right = Closed(made, "B0002");
+  const MadeModel made = MakeModel(captured, Displaced({{"B0001", {Rectangle(-8, -4, 0, 4)}, 8},
+                                                        {"B0002", {Rectangle(0, -4, 9, 4)}, 5}},
+                                                       0, {0.4, 0.2}));
+  const Building& left = ClosedIn(made, "B0001");
+  const Building& right = ClosedIn(made, "B0002");
   EXPECT_NEAR(VolumeOf(left), 8 * 8 * 8, 12);
   EXPECT_NEAR(VolumeOf(right), 9 * 8 * 5, 10);
   const auto faces = [](const Building& building, const Eigen::Vector3d& normal) {
@@ -426,10 +390,10 @@ TEST(MapSolids, NeighboursKeepTouching) {
   EXPECT_NEAR(faces(left, Eigen::Vector3d::UnitX()), -faces(right, -Eigen::Vector3d::UnitX()),
               1e-9);
   // The low house hides as much of the tall one's wall as it is high, and all of its own.
-  for (const Facet* wall : Of(left, FacetClass::kWall)) {
+  for (const Facet* wall : OfClass(left, FacetClass::kWall)) {
     EXPECT_NEAR(wall->party, wall->normal.x() > 0.99 ? 5.0 / 8 : 0, 0.02);
   }
-  for (const Facet* wall : Of(right, FacetClass::kWall)) {
+  for (const Facet* wall : OfClass(right, FacetClass::kWall)) {
     EXPECT_NEAR(wall->party, wall->normal.x() < -0.99 ? 1 : 0, 0.02);
   }
 }
@@ -451,11 +415,11 @@ TEST(MapSolids, DetailsDoNotDependOnTheSizeOfTheSurvey) {
   }
   // The survey may have as many samples as one of its houses needs.
   const auto captured = test::Capture(houses, {test::GroundSquare(40)}, {.noise = 0.02});
-  const Made made = Make(captured, map, {.max_points = 50000});
+  const MadeModel made = MakeModel(captured, map, {.max_points = 50000});
   EXPECT_TRUE(Says(made.findings.warnings, "the level of detail is"));
   for (const MapEntry& entry : map) {
-    const Building& house = Closed(made, entry.id);
-    EXPECT_EQ(Of(house, FacetClass::kRoof).size(), 2u);
+    const Building& house = ClosedIn(made, entry.id);
+    EXPECT_EQ(OfClass(house, FacetClass::kRoof).size(), 2u);
     EXPECT_NEAR(VolumeOf(house), 12 * 8 * 6 + 2 * 2 * 2.5, 4);
   }
 }
@@ -482,7 +446,8 @@ TEST(SetsOfBuildings, KeepNeighboursTogetherAndSamplesFew) {
 
 TEST(MapSolids, UsesNoMapWhenToldSo) {
   const auto captured = test::Capture({test::GableHouse()}, {test::GroundSquare(25)}, kCapture);
-  const Made made = Make(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 9.5}}, {.use_map = false});
+  const MadeModel made =
+      MakeModel(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 9.5}}, {.use_map = false});
   EXPECT_EQ(test::Find(made.proxy, "B0001"), nullptr);
   EXPECT_NE(test::Find(made.proxy, "C0001"), nullptr);
 }

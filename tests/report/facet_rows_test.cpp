@@ -325,6 +325,25 @@ TEST(MakeFacetRows, NothingFromNothing) {
   EXPECT_EQ(CountVerdicts({}, true).Total(), 0);
 }
 
+TEST(RowsForPage, LeavesOutSmallPiecesOfGround) {
+  SurveyData data = GoodWalls();
+  Building& ground = data.proxy->buildings.emplace_back();
+  ground.id = "G0";
+  for (int i = 0; i < 40; ++i) {
+    Facet& facet = ground.facets.emplace_back();
+    facet.id = "G" + std::to_string(i);
+    facet.facet_class = FacetClass::kGround;
+    facet.area = 100 - i;
+  }
+  const auto rows = MakeFacetRows(data, {});
+  ASSERT_EQ(rows.size(), 43U);
+  const auto shown = RowsForPage(rows);
+  ASSERT_EQ(shown.size(), 15U);
+  EXPECT_EQ(shown.back().id, "G11");
+  ground.facets.resize(5);
+  EXPECT_EQ(RowsForPage(MakeFacetRows(data, {})).size(), 8U);
+}
+
 TEST(CountVerdicts, CountsWallsApart) {
   SurveyData data = GoodWalls();
   data.textures->facets[0].painted = 0.1;

@@ -163,6 +163,14 @@ TEST_F(Report, OneFacade) {
   EXPECT_EQ(CountOf(Page(), "<tr data-index="), 1U);
 }
 
+TEST_F(Report, WallsThatNobodySeesAreNoHeadline) {
+  MadeSurvey made = MakeSurvey({.buildings = 1});
+  for (Facet& facet : made.proxy.buildings[0].facets) facet.party = 1;
+  WriteSurvey(made, folder_.path());
+  Run();
+  EXPECT_TRUE(Has(Page(), "No wall shows enough to be rated"));
+}
+
 TEST_F(Report, NoFacadeAtAll) {
   MadeSurvey made = MakeSurvey({.buildings = 0});
   WriteSurvey(made, folder_.path());
