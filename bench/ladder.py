@@ -5,7 +5,7 @@
 
   bench/ladder.py OUT [--style hamlet] [--seed 1] [--scale 0.25] [--rungs map,cloud,poses,own]
                   [--map-seed 1 | --exact-map] [--jitter 0.4] [--eaves 0.4] [--gone 3]
-                  [--missing 0] [--simpler 0]
+                  [--missing 0] [--simpler 0] [--smaller 0]
                   [--plan-args "..."] [--fly-args "..."] [--run-args "..."] [--stucco PROGRAM]
 
 Rungs: "map", the plan's footprints extruded without any photo; "nomap" and "cloud", the true cloud
@@ -164,7 +164,8 @@ class Ladder:
     def errors(self):
         wanted = self.arguments
         return ["--seed", wanted.map_seed, "--jitter", wanted.jitter, "--eaves", wanted.eaves,
-                "--gone", wanted.gone, "--missing", wanted.missing, "--simpler", wanted.simpler]
+                "--gone", wanted.gone, "--missing", wanted.missing, "--simpler", wanted.simpler,
+                "--smaller", wanted.smaller]
 
     def row(self, rung):
         figures = self.climb(rung)
@@ -191,6 +192,7 @@ def main():
     parser.add_argument("--gone", default="3")
     parser.add_argument("--missing", default="0")
     parser.add_argument("--simpler", default="0")
+    parser.add_argument("--smaller", default="0")
     arguments = parser.parse_args()
     try:
         ladder = Ladder(arguments)

@@ -4,12 +4,13 @@
 """Gives the map in a plan the errors of real maps, so that a model that goes by it has to find them.
 
 Usage: perturb_plan.py PLAN_JSON [--shift 1.5] [--turn 0.3] [--jitter 0.4] [--eaves 0.4]
-                       [--gone N] [--missing N] [--simpler N] [--seed 1]
+                       [--gone N] [--missing N] [--simpler N] [--smaller N]
+                       [--seed 1]
 
 Rewrites plan.json in place: all buildings shifted and turned together, each shifted by itself (one
 standard deviation), outlines moved outwards (eaves), and N rectangles added that are not there; N
 buildings that stand missing from it; N outlines drawn more simply, without one of their corners
-that point inwards (an L becomes a rectangle).
+that point inwards (an L becomes a rectangle), and N Ls without one of their wings.
 Views keep their places: only what the model goes by changes.
 """
 import argparse
@@ -59,26 +60,73 @@ def cross(a, b, c):
     return (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
 
 
+def facades_on(plan, building, edges):
+    """Ids of the building's facades that are one of these edges."""
+    return {f["id"] for f in plan["facades"] if f["id"].split("/")[0] == building
+            and any(math.dist(f["a_m"], a) < 0.1 and math.dist(f["b_m"], b) < 0.1
+                    for a, b in edges)}
+
+
+def move_ends(plan, building, places, to):
+    """Facades of the building that end at one of the places end somewhere else."""
+    for facade in plan["facades"]:
+        for end in ("a_m", "b_m"):
+            near = min(math.dist(facade[end], place) for place in places) < 0.1
+            if near and facade["id"].split("/")[0] == building:
+                facade[end] = to
+
+
+def inward_corner(ring):
+    """Index of a corner that points inwards, or nothing."""
+    for i, corner in enumerate(ring):
+        if len(ring) >= 6 and cross(ring[i - 1], corner, ring[(i + 1) % len(ring)]) < -1:
+            return i
+    return None
+
+
 def simplify(plan, footprint):
     """Fills one corner that points inwards to a parallelogram; False where there is none."""
-    ring = footprint["rings_m"][0]
-    for i, corner in enumerate(ring):
-        before, after = ring[i - 1], ring[(i + 1) % len(ring)]
-        if len(ring) < 6 or cross(before, corner, after) > -1:  # square metres
-            continue
-        filled = [before[k] + after[k] - corner[k] for k in (0, 1)]
-        lost = [f["id"] for f in plan["facades"] if f["id"].split("/")[0] == footprint["building"]
-                and any(math.dist(f["a_m"], a) < 0.1 and math.dist(f["b_m"], b) < 0.1
-                        for a, b in ((before, corner), (corner, after)))]
-        take_away(plan, set(lost))
-        for facade in plan["facades"]:
-            for end in ("a_m", "b_m"):
-                if min(math.dist(facade[end], before), math.dist(facade[end], after)) < 0.1:
-                    facade[end] = filled
-        footprint["rings_m"][0] = [filled if p is corner else p for p in ring
-                                   if p is not before and p is not after]
-        return True
-    return False
+    ring, name = footprint["rings_m"][0], footprint["building"]
+    i = inward_corner(ring)
+    if i is None:
+        return False
+    before, corner, after = ring[i - 1], ring[i], ring[(i + 1) % len(ring)]
+    filled = [before[k] + after[k] - corner[k] for k in (0, 1)]
+    take_away(plan, facades_on(plan, name, [(before, corner), (corner, after)]))
+    move_ends(plan, name, (before, after), filled)
+    footprint["rings_m"][0] = [filled if p is corner else p for p in ring
+                               if p is not before and p is not after]
+    return True
+
+
+def cut_wing(plan, footprint):
+    """Takes away the wing behind a corner that points inwards; False where it is no L."""
+    ring, name = footprint["rings_m"][0], footprint["building"]
+    i = inward_corner(ring)
+    if i is None or len(ring) != 6:
+        return False
+    before, corner, second, third, last = (ring[(i + k) % 6] for k in range(-1, 4))
+    # Where the edge before the corner, drawn on, meets the far side of the wing.
+    along = [corner[k] - before[k] for k in (0, 1)]
+    side = [last[k] - third[k] for k in (0, 1)]
+    t = ((third[0] - corner[0]) * side[1] - (third[1] - corner[1]) * side[0]) / (
+        along[0] * side[1] - along[1] * side[0])
+    end = [corner[k] + t * along[k] for k in (0, 1)]
+    take_away(plan, facades_on(plan, name, [(corner, second), (second, third)]))
+    move_ends(plan, name, (corner, third), end)
+    footprint["rings_m"][0] = [end if p is third else p for p in ring
+                               if p is not corner and p is not second]
+    return True
+
+
+def redraw(plan, count, draw, what):
+    """Draws so many footprints again, and says where there are fewer that can be."""
+    drawn = 0
+    for footprint in plan["footprints"]:
+        if drawn < count:
+            drawn += draw(plan, footprint)
+    if drawn < count:
+        print(f"only {drawn} outlines {what}")
 
 
 def main():
@@ -86,19 +134,15 @@ def main():
     parser.add_argument("plan", type=pathlib.Path)
     for name, value in (("shift", 1.5), ("turn", 0.3), ("jitter", 0.4), ("eaves", 0.4)):
         parser.add_argument(f"--{name}", type=float, default=value)
-    for name in ("gone", "missing", "simpler"):
+    for name in ("gone", "missing", "simpler", "smaller"):
         parser.add_argument(f"--{name}", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
     wanted = parser.parse_args()
     dice = random.Random(wanted.seed)
     plan = json.loads(wanted.plan.read_text())
     missing = leave_out(plan, wanted.missing, dice) if wanted.missing else set()
-    simpler = 0
-    for footprint in plan["footprints"]:
-        if simpler < wanted.simpler:
-            simpler += simplify(plan, footprint)
-    if simpler < wanted.simpler:
-        print(f"only {simpler} outlines have corners that point inwards")
+    redraw(plan, wanted.simpler, simplify, "have corners that point inwards")
+    redraw(plan, wanted.smaller, cut_wing, "are an L")
     if missing:
         print("missing:", ", ".join(sorted(missing)))
     angle = dice.uniform(0, 2 * math.pi)

@@ -11,6 +11,7 @@
 #include "proxy/facets/facets.h"
 #include "proxy/facets/plane_view.h"
 #include "proxy/map/map_solids.h"
+#include "proxy/map/off_the_map.h"
 #include "proxy/map/outlines.h"
 #include "proxy/map/stable_ids.h"
 #include "proxy/map/wall_facets.h"
@@ -38,10 +39,12 @@ std::string ClusterId(size_t number) {
 struct PlaneTable {
   std::vector<Plane> planes;
   std::vector<int> building;  // -1: ground
+  size_t named = 0;           // buildings that have taken names for clusters already
 };
 
-PlaneTable TableOf(const PlanarScene& scene) {
+PlaneTable TableOf(const PlanarScene& scene, size_t named) {
   PlaneTable table;
+  table.named = named;
   for (size_t b = 0; b < scene.buildings.size(); ++b) {
     for (const Plane& plane : scene.buildings[b]) {
       table.planes.push_back(plane);
@@ -80,7 +83,8 @@ std::vector<std::vector<Facet>> OpenFacets(const PlanarScene& scene, const Plane
   });
   warnings.clear();
   for (size_t p = 0; p < views.size(); ++p) {
-    const std::string owner = table.building[p] < 0 ? "G0" : ClusterId(table.building[p]);
+    const std::string owner =
+        table.building[p] < 0 ? "G0" : ClusterId(table.named + table.building[p]);
     for (const auto& warning : of_planes[p]) {
       warnings.push_back(fmt::format("{}: {}", owner, warning));
     }
@@ -100,6 +104,7 @@ bool TakeApart(const PlanarScene& scene, const std::vector<std::vector<Facet>>& 
   const auto gone = [](const Plane& plane) { return plane.points.empty(); };
   if (std::none_of(table.planes.begin(), table.planes.end(), gone)) return false;
   PlaneTable left;
+  left.named = table.named;
   for (size_t p = 0; p < table.planes.size(); ++p) {
     if (gone(table.planes[p])) continue;
     left.planes.push_back(std::move(table.planes[p]));
@@ -145,8 +150,11 @@ std::vector<Building> OpenBuildings(const PlaneTable& table, size_t buildings,
                                     std::vector<std::vector<Facet>> facets) {
   std::vector<Building> open;
   for (size_t b = 0; b < buildings; ++b) {
-    open.push_back(
-        {.id = ClusterId(b), .watertight = false, .source = "cloud", .detail = {}, .facets = {}});
+    open.push_back({.id = ClusterId(table.named + b),
+                    .watertight = false,
+                    .source = "cloud",
+                    .detail = {},
+                    .facets = {}});
   }
   open.push_back({.id = "G0", .watertight = false, .source = "cloud", .detail = {}, .facets = {}});
   for (size_t p = 0; p < facets.size(); ++p) {
@@ -198,7 +206,8 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   std::optional<MapModel> mapped;
   if (GoesByMap(input, options)) mapped = BuildFromMap(scene, input, options, threads, findings);
   if (mapped) scene.buildings = OffTheMap(scene, mapped->outlines, findings);
-  PlaneTable table = TableOf(scene);
+  const auto named = mapped ? std::ranges::count(mapped->buildings, "cloud", &Building::source) : 0;
+  PlaneTable table = TableOf(scene, static_cast<size_t>(named));
   const auto view = [&] {
     return ViewPlanes(scene, table.planes, table.planes.size() - scene.ground.size(), threads);
   };

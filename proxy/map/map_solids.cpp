@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "proxy/map/closer_look.h"
+#include "proxy/map/off_the_map.h"
 #include "proxy/map/roof_cells.h"
 #include "proxy/map/wall_facets.h"
 #include "proxy/solids/closed_check.h"
@@ -326,6 +327,21 @@ Outcome CloseOne(const UprightSurvey& survey, const BuildingCloser& closer,
   return outcome;
 }
 
+// What stands on no footprint is a building only where its roof is smooth and seen; crowns are
+// rough.
+bool IsNewBuilding(const Outcome& outcome) {
+  constexpr double kSeen = 0.6;  // of its roofs
+  const bool modelled =
+      outcome.closed.detail == SolidDetail::kFull || outcome.closed.detail == SolidDetail::kCoarse;
+  double roofs = 0, seen = 0;
+  for (const Facet& facet : outcome.closed.solid.facets) {
+    if (facet.facet_class != FacetClass::kRoof) continue;
+    roofs += facet.area;
+    seen += facet.area * facet.seen;
+  }
+  return outcome.standing == Standing::kStands && modelled && roofs > 0 && seen > kSeen * roofs;
+}
+
 // What all buildings of a map are closed with.
 struct Workshop {
   const PlanarScene& scene;
@@ -364,6 +380,29 @@ std::vector<Outcome> CloseAll(const UprightSurvey& survey, const OutlineMap& map
     close(CloserLook(with.scene, with.input, buildings, of_set, with.threads), sets[s], buildings);
   });
   return outcomes;
+}
+
+// What the map lacks, closed on footprints of its own, and outlined as if the map had it.
+void AddNewBuildings(const UprightSurvey& survey, const Workshop& with, MapModel& model,
+                     ProxyFindings& findings) {
+  auto footprints = FindNewFootprints(with.scene, survey, model.buildings);
+  std::vector<Outcome> outcomes(footprints.size());
+  const BuildingCloser closer(survey.tolerances, with.scene.up, with.options);
+  ParallelFor(footprints.size(), with.threads, [&](size_t i) {
+    outcomes[i] = CloseOne(survey, closer, footprints[i].building, footprints[i], 0);
+  });
+  int number = 0;
+  for (size_t i = 0; i < outcomes.size(); ++i) {
+    if (!IsNewBuilding(outcomes[i])) continue;
+    MapBuilding& outline = model.outlines.emplace_back(std::move(footprints[i].building));
+    outline.id = fmt::format("C{:04}", ++number);
+    findings.notes.push_back(NoteOf(outline.id, outcomes[i]) + "; on no footprint of the map");
+    model.buildings.push_back({.id = outline.id,
+                               .watertight = true,
+                               .source = "cloud",
+                               .detail = std::string(Name(outcomes[i].closed.detail)),
+                               .facets = std::move(outcomes[i].closed.solid.facets)});
+  }
 }
 
 OutlineMap Moved(OutlineMap map, const Eigen::Isometry2d& motion) {
@@ -420,47 +459,8 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
                                .detail = std::string(Name(outcomes[b].closed.detail)),
                                .facets = std::move(outcomes[b].closed.solid.facets)});
   }
+  AddNewBuildings(survey, {scene, input, options, threads}, model, findings);
   return model;
-}
-
-std::vector<std::vector<Plane>> OffTheMap(const PlanarScene& scene,
-                                          const std::vector<MapBuilding>& outlines,
-                                          ProxyFindings& findings) {
-  constexpr double kBeside_m = 1.5;   // eaves, balconies and steps belong to their building
-  constexpr double kWorthAWord = 10;  // square metres
-  const Eigen::Matrix3d upright_from_world = UprightFromWorld(scene.up);
-  std::vector<Eigen::AlignedBox2d> boxes;
-  boxes.reserve(outlines.size());
-  for (const MapBuilding& outline : outlines) boxes.push_back(BoundsOf(outline, kBeside_m));
-  const auto on_map = [&](int sample) {
-    const Eigen::Vector2d p = (upright_from_world * scene.samples.positions[sample]).head<2>();
-    for (size_t b = 0; b < outlines.size(); ++b) {
-      if (boxes[b].contains(p) && DistanceTo(outlines[b], p) < kBeside_m) return true;
-    }
-    return false;
-  };
-  std::vector<std::vector<Plane>> left;
-  for (const std::vector<Plane>& building : scene.buildings) {
-    std::vector<Plane> planes;
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    double area = 0;
-    for (Plane plane : building) {
-      std::erase_if(plane.points, on_map);
-      Measure(scene.samples, 2.5 * scene.tolerances.spacing, plane);
-      if (plane.points.size() < 3 || plane.area < scene.tolerances.min_area) continue;
-      middle += plane.area * scene.samples.positions[plane.points[plane.points.size() / 2]];
-      area += plane.area;
-      planes.push_back(std::move(plane));
-    }
-    if (planes.empty()) continue;
-    if (area > kWorthAWord) {
-      findings.notes.push_back(fmt::format(
-          "on no footprint of the map: {} planes, {:.0f} m2, at {:.0f} m east and {:.0f} m north",
-          planes.size(), area, middle.x() / area, middle.y() / area));
-    }
-    left.push_back(std::move(planes));
-  }
-  return left;
 }
 
 }  // namespace stucco

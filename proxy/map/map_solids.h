@@ -27,8 +27,8 @@ std::string_view Name(SolidDetail detail);
 
 // The buildings of a map as solids.
 struct MapModel {
-  std::vector<Building> buildings;    // in the map's order
-  std::vector<MapBuilding> outlines;  // of all buildings of the map, where the survey shows them
+  std::vector<Building> buildings;    // in the map's order, then what it lacks: C0001, C0002 ...
+  std::vector<MapBuilding> outlines;  // of all of them, where the survey shows them
 };
 
 // Closes every building of the map that stands: its outline fitted to the walls (outline_fit.h),
@@ -36,17 +36,12 @@ struct MapModel {
 // (extrude_cells.h); coarser where that is no sound solid as written. Walls have the facades of the
 // plan that they are made from. Points only say how much of a facet was seen. What the map has and
 // the cloud denies (the ground lies open where a building should be) is left out and named, as is
-// what was never seen and has no facade in the plan. Nothing where the map is not of this place;
+// what was never seen and has no facade in the plan. What stands beside all of it is closed on
+// footprints found in the cloud (off_the_map.h). Nothing where the map is not of this place;
 // `findings` then warns why. Requires a plan and an "enu" georef in
 // metres.
 std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput& input,
                                      const ProxyOptions& options, int threads,
                                      ProxyFindings& findings);
-
-// The scene's planes with only the points that lie beside all outlines, without those that are left
-// too small; what remains of a building is listed in `findings` as not on the map.
-std::vector<std::vector<Plane>> OffTheMap(const PlanarScene& scene,
-                                          const std::vector<MapBuilding>& outlines,
-                                          ProxyFindings& findings);
 
 }  // namespace stucco

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "proxy/map/floors.h"
 #include "proxy/map/outlines.h"
 #include "proxy/terrain/ground_heights.h"
 #include "proxy/terrain/terrain_mesh.h"
@@ -14,27 +15,6 @@
 
 namespace stucco {
 namespace {
-
-// What the buildings stand on, in the ground plan.
-std::vector<Polygon> FootprintsOf(std::span<const Building> buildings,
-                                  const Eigen::Matrix3d& upright_from_world) {
-  std::vector<Polygon> footprints;
-  for (const Building& building : buildings) {
-    for (const Facet& facet : building.facets) {
-      if (!building.watertight || facet.facet_class != FacetClass::kGround) continue;
-      Polygon& footprint = footprints.emplace_back();
-      // Floors look down.
-      const auto add = [&](const std::vector<Eigen::Vector3d>& corners) {
-        Ring& ring = footprint.rings.emplace_back();
-        for (const auto& p : corners) ring.push_back((upright_from_world * p).head<2>());
-        std::reverse(ring.begin(), ring.end());
-      };
-      add(facet.outer);
-      for (const auto& hole : facet.holes) add(hole);
-    }
-  }
-  return footprints;
-}
 
 // Whether the scene's planes say all: nearly every cell lies on its main plane or on level ones.
 bool IsPlanar(const PlanarScene& scene, const GroundHeights& ground,
@@ -120,7 +100,7 @@ std::vector<Facet> TerrainFacets(const PlanarScene& scene, std::span<const Build
   std::vector<Facet> facets;
   if (scene.ground.empty()) return facets;
   const Eigen::Matrix3d upright_from_world = UprightFromWorld(scene.up);
-  const std::vector<Polygon> footprints = FootprintsOf(buildings, upright_from_world);
+  const std::vector<Polygon> footprints = FloorsOf(buildings, upright_from_world);
   const GroundHeights ground = MeasureGround(scene, footprints);
   if (IsPlanar(scene, ground, upright_from_world)) return facets;
   const double detail = scene.tolerances.level_of_detail;

@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/map/off_the_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <tuple>
+#include <utility>
+
+#include "proxy/facets/outline.h"
+#include "proxy/map/floors.h"
+#include "proxy/map/registration.h"
+
+namespace stucco {
+namespace {
+
+constexpr double kSmallest_m2 = 10;
+constexpr double kOverhang_m = 1.2;
+
+bool IsInside(std::span<const Polygon> floors, std::span<const Eigen::AlignedBox2d> boxes,
+              const Eigen::Vector2d& p) {
+  for (size_t f = 0; f < floors.size(); ++f) {
+    if (boxes[f].contains(p) && Contains(floors[f], p)) return true;
+  }
+  return false;
+}
+
+// A wall as a line of the ground plan, between the ends of its samples.
+struct WallLine {
+  Eigen::Vector2d outwards;
+  double offset = 0;
+  double from = 0, to = 0;  // along the direction to the left of `outwards`
+
+  Eigen::Vector2d Along() const { return {-outwards.y(), outwards.x()}; }
+  // Whether a place lies below the eaves of the wall.
+  bool HasBefore(const Eigen::Vector2d& p) const {
+    const double off = outwards.dot(p) - offset, at = Along().dot(p);
+    return off > 0 && off < kOverhang_m && at > from && at < to;
+  }
+  CutLine Crease() const {
+    return {
+        .point = outwards * offset, .direction = Along(), .crease = true, .from = from, .to = to};
+  }
+};
+
+WallLine LineOf(const Segment2d& edge) {
+  WallLine line{.outwards = OutwardsOf(edge)};
+  line.offset = line.outwards.dot(edge.a);
+  std::tie(line.from, line.to) = std::minmax({line.Along().dot(edge.a), line.Along().dot(edge.b)});
+  return line;
+}
+
+// What of one cluster of planes lies beside all floors.
+struct Beside {
+  std::vector<Eigen::Vector2d> roof;  // samples
+  std::vector<WallLine> walls;
+};
+
+class NewFootprints {
+ public:
+  NewFootprints(const PlanarScene& scene, const UprightSurvey& survey,
+                std::span<const Building> closed)
+      : scene_(scene), survey_(survey), floors_(FloorsOf(closed, UprightFromWorld(scene.up))) {
+    for (const Polygon& floor : floors_) boxes_.push_back(stucco::BoundsOf(floor));
+  }
+
+  void Find(const std::vector<Plane>& cluster, std::vector<FittedBuilding>& found) const {
+    const Beside beside = BesideFloors(cluster);
+    if (beside.roof.empty()) return;
+    PlaneRaster raster = RasterOver(beside.roof);
+    const cv::Mat roofed = Roofed(beside, raster);
+    cv::Mat patches, figures, middles;
+    const int count = cv::connectedComponentsWithStats(roofed, patches, figures, middles, 4);
+    for (int patch = 1; patch < count; ++patch) {
+      const int cells = figures.at<int>(patch, cv::CC_STAT_AREA);
+      if (cells * raster.cell * raster.cell < kSmallest_m2) continue;
+      for (int y = 0; y < raster.height; ++y) {
+        for (int x = 0; x < raster.width; ++x) {
+          raster.hits[raster.Index(x, y)] = patches.at<int>(y, x) == patch ? 1 : 0;
+        }
+      }
+      AddOutlines(raster, beside.walls, found);
+    }
+  }
+
+ private:
+  Beside BesideFloors(const std::vector<Plane>& cluster) const {
+    constexpr double kRoof = 0.26;  // cosine: 75 degrees of pitch
+    constexpr size_t kFewest = 12;
+    Beside beside;
+    const Eigen::Matrix3d upright_from_world = UprightFromWorld(scene_.up);
+    for (const Plane& plane : cluster) {
+      const Eigen::Vector3d normal = upright_from_world * plane.normal;
+      std::vector<Eigen::Vector2d> outside;
+      for (const int i : plane.points) {
+        const Eigen::Vector2d p = survey_.samples.positions[i].head<2>();
+        if (!IsInside(floors_, boxes_, p)) outside.push_back(p);
+      }
+      if (normal.z() > kRoof) {
+        beside.roof.insert(beside.roof.end(), outside.begin(), outside.end());
+      } else if (LooksLikeWall(normal) && outside.size() >= kFewest) {
+        beside.walls.push_back(WallOf(plane, normal, outside));
+      }
+    }
+    return beside;
+  }
+
+  static WallLine WallOf(const Plane& plane, const Eigen::Vector3d& normal,
+                         const std::vector<Eigen::Vector2d>& samples) {
+    WallLine wall{.outwards = normal.head<2>().normalized()};
+    wall.offset = plane.offset / normal.head<2>().norm();
+    std::vector<double> along;
+    along.reserve(samples.size());
+    for (const auto& p : samples) along.push_back(wall.Along().dot(p));
+    std::ranges::sort(along);
+    const size_t stray = along.size() / 50;
+    wall.from = along[stray];
+    wall.to = along[along.size() - 1 - stray];
+    return wall;
+  }
+
+  PlaneRaster RasterOver(const std::vector<Eigen::Vector2d>& points) const {
+    PlaneRaster raster;
+    Eigen::AlignedBox2d box;
+    for (const auto& p : points) box.extend(p);
+    raster.cell = std::max(2 * survey_.tolerances.spacing, survey_.tolerances.level_of_detail / 2);
+    raster.origin = box.min().array() - 2 * kOverhang_m;
+    const Eigen::Vector2d size = box.sizes().array() + 4 * kOverhang_m;
+    raster.width = static_cast<int>(size.x() / raster.cell) + 1;
+    raster.height = static_cast<int>(size.y() / raster.cell) + 1;
+    raster.hits.assign(static_cast<size_t>(raster.width) * raster.height, 0);
+    raster.through = raster.hits;
+    return raster;
+  }
+
+  // Cells under a roof, without eaves, and without strips that are as narrow.
+  static cv::Mat Roofed(const Beside& beside, const PlaneRaster& raster) {
+    cv::Mat roofed = cv::Mat::zeros(raster.height, raster.width, CV_8U);
+    for (const Eigen::Vector2d& p : beside.roof) {
+      const int at = raster.IndexAt(p);
+      if (at >= 0) roofed.at<uint8_t>(at / raster.width, at % raster.width) = 255;
+    }
+    const auto disc = [&](double radius_m) {
+      const int size = 2 * static_cast<int>(std::ceil(radius_m / raster.cell)) + 1;
+      return cv::getStructuringElement(cv::MORPH_ELLIPSE, {size, size});
+    };
+    cv::morphologyEx(roofed, roofed, cv::MORPH_CLOSE, disc(kOverhang_m / 2));
+    for (int y = 0; y < raster.height; ++y) {
+      for (int x = 0; x < raster.width; ++x) {
+        const Eigen::Vector2d p = raster.Center(x, y);
+        const auto before = [&](const WallLine& wall) { return wall.HasBefore(p); };
+        if (std::ranges::any_of(beside.walls, before)) roofed.at<uint8_t>(y, x) = 0;
+      }
+    }
+    cv::Mat wide;
+    cv::morphologyEx(roofed, wide, cv::MORPH_OPEN, disc(kOverhang_m));
+    cv::dilate(wide, wide, disc(kOverhang_m / 2));  // the corners that this took off
+    cv::Mat kept;
+    cv::bitwise_and(roofed, wide, kept);
+    return kept;
+  }
+
+  void AddOutlines(const PlaneRaster& raster, const std::vector<WallLine>& walls,
+                   std::vector<FittedBuilding>& found) const {
+    const Tolerances& tolerances = survey_.tolerances;
+    const Eigen::AlignedBox2d box(raster.origin, raster.Center(raster.width, raster.height));
+    std::vector<CutLine> creases;
+    for (const WallLine& wall : walls) creases.push_back(wall.Crease());
+    for (size_t f = 0; f < floors_.size(); ++f) {
+      if (!boxes_[f].intersects(box)) continue;
+      for (const Ring& ring : floors_[f].rings) {
+        for (size_t i = 0; i < ring.size(); ++i) {
+          creases.push_back(LineOf({ring[i], ring[(i + 1) % ring.size()]}).Crease());
+        }
+      }
+    }
+    const auto evidence = Classify(raster, tolerances.level_of_detail, 0);
+    std::vector<char> seen(evidence.size());
+    for (size_t i = 0; i < seen.size(); ++i) seen[i] = evidence[i] == Evidence::kSeen ? 1 : 0;
+    const auto outlines = Outline(raster, evidence, DistancesTo(raster, seen), creases,
+                                  {.detail = tolerances.level_of_detail,
+                                   .min_area = kSmallest_m2,
+                                   .epsilon = tolerances.epsilon,
+                                   .reach = kOverhang_m / 2,
+                                   .free_length = 5 * tolerances.level_of_detail});
+    for (const Polygon& outline : outlines) found.push_back(FootprintOf(outline, walls));
+  }
+
+  // Its edges are held where walls are.
+  FittedBuilding FootprintOf(const Polygon& outline, const std::vector<WallLine>& walls) const {
+    FittedBuilding footprint;
+    footprint.building.parts = {outline};
+    double held = 0, all = 0;
+    for (const Ring& ring : outline.rings) {
+      for (size_t i = 0; i < ring.size(); ++i) {
+        FittedEdge& edge = footprint.edges.emplace_back();
+        edge.line = {ring[i], ring[(i + 1) % ring.size()]};
+        const WallLine line = LineOf(edge.line);
+        edge.fitted = std::ranges::any_of(walls, [&](const WallLine& wall) {
+          return wall.outwards.dot(line.outwards) > 0.999 &&
+                 std::abs(wall.offset - line.offset) < 0.01;
+        });
+        const double length = line.to - line.from;
+        all += length;
+        if (edge.fitted) held += length;
+      }
+    }
+    footprint.held = held / all;
+    const auto ground = GroundAround(survey_, footprint.building);
+    footprint.ground = ground.value_or(LowestNear(outline));
+    footprint.building.z_m = {footprint.ground, footprint.ground + kRaised_m};
+    return footprint;
+  }
+
+  double LowestNear(const Polygon& outline) const {
+    double lowest = INFINITY;
+    for (const int i : survey_.bins.In(stucco::BoundsOf(outline))) {
+      lowest = std::min(lowest, survey_.samples.positions[i].z());
+    }
+    return lowest;
+  }
+
+  const PlanarScene& scene_;
+  const UprightSurvey& survey_;
+  std::vector<Polygon> floors_;
+  std::vector<Eigen::AlignedBox2d> boxes_;  // of the floors
+};
+
+}  // namespace
+
+std::vector<std::vector<Plane>> OffTheMap(const PlanarScene& scene,
+                                          const std::vector<MapBuilding>& outlines,
+                                          ProxyFindings& findings) {
+  constexpr double kBeside_m = 1.5;   // eaves, balconies and steps belong to their building
+  constexpr double kWorthAWord = 10;  // square metres
+  const Eigen::Matrix3d upright_from_world = UprightFromWorld(scene.up);
+  std::vector<Eigen::AlignedBox2d> boxes;
+  boxes.reserve(outlines.size());
+  for (const MapBuilding& outline : outlines) boxes.push_back(BoundsOf(outline, kBeside_m));
+  const auto on_map = [&](int sample) {
+    const Eigen::Vector2d p = (upright_from_world * scene.samples.positions[sample]).head<2>();
+    for (size_t b = 0; b < outlines.size(); ++b) {
+      if (boxes[b].contains(p) && DistanceTo(outlines[b], p) < kBeside_m) return true;
+    }
+    return false;
+  };
+  std::vector<std::vector<Plane>> left;
+  for (const std::vector<Plane>& building : scene.buildings) {
+    std::vector<Plane> planes;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    double area = 0;
+    for (Plane plane : building) {
+      std::erase_if(plane.points, on_map);
+      Measure(scene.samples, 2.5 * scene.tolerances.spacing, plane);
+      if (plane.points.size() < 3 || plane.area < scene.tolerances.min_area) continue;
+      middle += plane.area * scene.samples.positions[plane.points[plane.points.size() / 2]];
+      area += plane.area;
+      planes.push_back(std::move(plane));
+    }
+    if (planes.empty()) continue;
+    if (area > kWorthAWord) {
+      findings.notes.push_back(fmt::format(
+          "on no footprint of the map: {} planes, {:.0f} m2, at {:.0f} m east and {:.0f} m north",
+          planes.size(), area, middle.x() / area, middle.y() / area));
+    }
+    left.push_back(std::move(planes));
+  }
+  return left;
+}
+
+std::vector<FittedBuilding> FindNewFootprints(const PlanarScene& scene, const UprightSurvey& survey,
+                                              std::span<const Building> closed) {
+  const NewFootprints finder(scene, survey, closed);
+  std::vector<FittedBuilding> found;
+  for (const std::vector<Plane>& cluster : scene.buildings) finder.Find(cluster, found);
+  return found;
+}
+
+}  // namespace stucco
