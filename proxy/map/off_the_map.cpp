@@ -168,6 +168,7 @@ class NewFootprints {
     const Tolerances& tolerances = survey_.tolerances;
     const Eigen::AlignedBox2d box(raster.origin, raster.Center(raster.width, raster.height));
     std::vector<CutLine> creases;
+    creases.reserve(walls.size());
     for (const WallLine& wall : walls) creases.push_back(wall.Crease());
     for (size_t f = 0; f < floors_.size(); ++f) {
       if (!boxes_[f].intersects(box)) continue;

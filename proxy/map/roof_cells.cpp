@@ -250,6 +250,18 @@ std::vector<int> FaceOfCells(const PlaneRaster& raster, const Arrangement& arran
   return faces;
 }
 
+// The cost of no roof, after those of the roofs, in a cell so far from where the ground lies open,
+// whose samples above the ground are worth `trust`.
+void AddOpen(float to_open, double trust, const Tolerances& tolerances,
+             std::vector<double>& costs) {
+  if (to_open == 0) {
+    for (double& cost : costs) cost += 1;
+    costs.push_back(0);
+  } else {
+    costs.push_back(to_open > tolerances.fill_gap ? 1 : kNoRoof + trust);
+  }
+}
+
 // The costs of the raster's cells by roof: the mean over their samples of how far these lie from
 // it, up to twice the level of detail. Where the ground lies open somewhere, one cost more: that of
 // no roof. Cells with fewer than half of the samples that the cloud's
@@ -291,10 +303,7 @@ Costs CostsOf(const RoofEvidence& evidence, std::span<const int> planes, const C
         costs[at][k] += kFarFromSamples;
       }
     }
-    if (cover.to_open.empty()) continue;
-    const bool open = cover.to_open[at] == 0;
-    if (open) std::ranges::for_each(costs[at], [](double& cost) { cost += 1; });
-    costs[at].push_back(open ? 0 : cover.to_open[at] > tolerances.fill_gap ? 1 : kNoRoof + trust);
+    if (!cover.to_open.empty()) AddOpen(cover.to_open[at], trust, tolerances, costs[at]);
   }
   return costs;
 }

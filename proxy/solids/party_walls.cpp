@@ -118,20 +118,22 @@ struct GroundTriangle {
   Eigen::AlignedBox3d box;
 };
 
+void AddTriangles(const Facet& facet, std::vector<GroundTriangle>& ground) {
+  const FacetTriangles split = TriangulateFacet(facet);
+  for (const auto& corners : split.triangles) {
+    GroundTriangle& triangle = ground.emplace_back();
+    for (size_t i = 0; i < 3; ++i) {
+      triangle.corners[i] = split.vertices[corners[i]];
+      triangle.box.extend(triangle.corners[i]);
+    }
+  }
+}
+
 std::vector<GroundTriangle> GroundOf(const std::vector<Building>& buildings) {
   std::vector<GroundTriangle> ground;
   for (const Building& building : buildings) {
     if (building.id != "G0") continue;
-    for (const Facet& facet : building.facets) {
-      const FacetTriangles split = TriangulateFacet(facet);
-      for (const auto& corners : split.triangles) {
-        GroundTriangle& triangle = ground.emplace_back();
-        for (size_t i = 0; i < 3; ++i) {
-          triangle.corners[i] = split.vertices[corners[i]];
-          triangle.box.extend(triangle.corners[i]);
-        }
-      }
-    }
+    for (const Facet& facet : building.facets) AddTriangles(facet, ground);
   }
   return ground;
 }
