@@ -95,13 +95,18 @@ class NewFootprints {
     for (const Plane& plane : cluster) {
       const Eigen::Vector3d normal = upright_from_world * plane.normal;
       std::vector<Eigen::Vector2d> outside;
+      double low = INFINITY, high = -INFINITY;
       for (const int i : plane.points) {
-        const Eigen::Vector2d p = survey_.samples.positions[i].head<2>();
-        if (!IsInside(floors_, boxes_, p)) outside.push_back(p);
+        const Eigen::Vector3d& p = survey_.samples.positions[i];
+        if (IsInside(floors_, boxes_, p.head<2>())) continue;
+        outside.emplace_back(p.head<2>());
+        low = std::min(low, p.z());
+        high = std::max(high, p.z());
       }
       if (normal.z() > kRoof) {
         beside.roof.insert(beside.roof.end(), outside.begin(), outside.end());
-      } else if (LooksLikeWall(normal) && outside.size() >= kFewest) {
+      } else if (LooksLikeWall(normal) && outside.size() >= kFewest && high - low > kRaised_m) {
+        // The inner faces of parapets are lower, and look at the roof.
         beside.walls.push_back(WallOf(plane, normal, outside));
       }
     }
