@@ -160,6 +160,10 @@ Solid SolidOf(const Attempt& attempt, const Samples& near, const Tolerances& tol
   const auto faces =
       ExtrudeCells(attempt.cells.arrangement, attempt.cells.lines, attempt.cells.labels,
                    attempt.cells.roofs, attempt.building.ground);
+  if (faces.empty()) {
+    solid.why_not = "the ground lies open all over it";
+    return solid;
+  }
   auto upright = FacetsOf(faces, attempt.building, near, tolerances, normal_angle_deg);
   if (!attempt.walls_seen) ForgetWalls(upright);
   if (const auto fault = FindFaultAsWritten(upright, world_from_upright)) {

@@ -215,13 +215,13 @@ std::vector<CutLine> LinesOf(const FittedBuilding& building, const RoofEvidence&
         tolerances.level_of_detail);
   }
   const double detail = tolerances.level_of_detail;
-  std::vector<std::vector<float>> covers = cover.to_hit;
-  if (!cover.to_open.empty()) covers.insert(covers.begin(), cover.to_open);
-  for (const std::vector<float>& to_hit : covers) {
+  const auto add_borders = [&](const std::vector<float>& to_hit) {
     for (const CutLine& line : BordersOf(cover.raster, to_hit, axis, creases, detail)) {
       add(line, detail);
     }
-  }
+  };
+  if (!cover.to_open.empty()) add_borders(cover.to_open);
+  for (const std::vector<float>& to_hit : cover.to_hit) add_borders(to_hit);
   return lines;
 }
 
@@ -264,8 +264,8 @@ void AddOpen(float to_open, double trust, const Tolerances& tolerances,
 
 // The costs of the raster's cells by roof: the mean over their samples of how far these lie from
 // it, up to twice the level of detail. Where the ground lies open somewhere, one cost more: that of
-// no roof. Cells with fewer than half of the samples that the cloud's
-// spacing promises say less: what grazing views leave there is as likely wrong as right.
+// no roof. Cells with fewer than half of the samples that the cloud's spacing promises say less:
+// what grazing views leave there is as likely wrong as right.
 using Costs = std::vector<std::vector<double>>;
 Costs CostsOf(const RoofEvidence& evidence, std::span<const int> planes, const CoverOfRoofs& cover,
               const std::vector<RoofPlane>& roofs, const Tolerances& tolerances) {

@@ -26,9 +26,8 @@ struct RoofCells {
 // planes count fully, others such as leaves a quarter), where a plane goes on far from its samples,
 // and the length of the borders; borders in which roofs meet are cheap. Where the ground shows over
 // some square metres, as in yards and corners that a map leaves out, cells are outside of the
-// building. No roof comes nearer to the
-// ground than `kRaised_m` allows. `planes` are the roofs to choose from (indices into
-// evidence.planes), most important first.
+// building. No roof comes nearer to the ground than `kRaised_m` allows. `planes` are the roofs to
+// choose from (indices into evidence.planes), most important first.
 RoofCells LabelRoof(const FittedBuilding& building, const RoofEvidence& evidence,
                     std::span<const int> planes, const Tolerances& tolerances);
 

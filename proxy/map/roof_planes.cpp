@@ -17,9 +17,9 @@
 namespace stucco {
 namespace {
 
-constexpr double kRoofNormal = 0.26;  // 75 degrees of pitch: steeper is a wall
-constexpr double kGroundNormal = 0.9;
-constexpr double kOnWall_m = 0.4;  // what stands upright this near to the outline is its wall
+constexpr double kRoofNormal = 0.26;   // 75 degrees of pitch: steeper is a wall
+constexpr double kGroundNormal = 0.9;  // cosine: 26 degrees
+constexpr double kOnWall_m = 0.4;      // what stands upright this near to the outline is its wall
 
 // By cells of half a metre: where there is anything, and where the ground shows.
 void MeasureCover(const Samples& upright, const std::vector<int>& inside, double ground,

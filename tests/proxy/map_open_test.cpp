@@ -15,18 +15,17 @@ namespace {
 using test::AreaOf;
 using test::ClosedIn;
 using test::FlatHouse;
+using test::kDenseCapture;
 using test::MadeModel;
 using test::MakeModel;
 using test::OfClass;
 using test::Rectangle;
 using test::VolumeOf;
 
-constexpr test::CaptureOptions kFine{.spacing = 0.15, .noise = 0.02};
-
 TEST(MapOpenGround, ACornerThatTheMapLeavesOutIsNotBuilt) {
   // An L of 14 x 12 m whose corner of 7 x 6 m is a garden; the map has a rectangle.
   const auto captured =
-      test::Capture({test::LShapedHouse(14, 12, 7)}, {test::GroundSquare(25)}, kFine);
+      test::Capture({test::LShapedHouse(14, 12, 7)}, {test::GroundSquare(25)}, kDenseCapture);
   const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-7, -6, 7, 6)}, 7}});
   const Building& house = ClosedIn(made, "B0001");
   EXPECT_EQ(house.detail, "full");
@@ -51,7 +50,7 @@ TEST(MapOpenGround, ACourtyardThatTheMapLeavesOutIsNotBuilt) {
                            Rectangle(-11, -6, -6, 6), Rectangle(6, -6, 11, 6)}) {
     block.polygons.push_back(FlatHouse(ring, 5).polygons.back());
   }
-  const auto captured = test::Capture({block}, {test::GroundSquare(25)}, kFine);
+  const auto captured = test::Capture({block}, {test::GroundSquare(25)}, kDenseCapture);
   const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-11, -11, 11, 11)}, 5}});
   const Building& house = ClosedIn(made, "B0001");
   EXPECT_NEAR(VolumeOf(house), (22 * 22 - 12 * 12) * 5, 20);
@@ -60,7 +59,7 @@ TEST(MapOpenGround, ACourtyardThatTheMapLeavesOutIsNotBuilt) {
 
 TEST(MapOpenGround, AnOutlineThatIsALittleTooLargeKeepsItsRoof) {
   // A strip of lawn along the house lies inside of its outline, and a roof that nobody saw.
-  test::CaptureOptions options = kFine;
+  test::CaptureOptions options = kDenseCapture;
   options.hide = {"roof"};
   const auto captured =
       test::Capture({test::BoxHouse(10, 8, 6)}, {test::GroundSquare(25)}, options);

@@ -44,6 +44,9 @@ House HipHouse(double length, double width, double height);
 House HipLHouse(double height);
 Ring HipLOutline();
 
+// Dense enough for what a map leaves out.
+inline constexpr CaptureOptions kDenseCapture{.spacing = 0.15, .noise = 0.02};
+
 // What is made of a cloud with a map.
 struct MadeModel {
   Proxy proxy;

@@ -15,17 +15,16 @@ namespace {
 using test::AreaOf;
 using test::ClosedIn;
 using test::FlatHouse;
+using test::kDenseCapture;
 using test::MadeModel;
 using test::MakeModel;
 using test::Rectangle;
 using test::VolumeOf;
 
-constexpr test::CaptureOptions kFromAllSides{.spacing = 0.15, .noise = 0.02};
-
 TEST(NewBuildings, AWingThatTheMapLacksIsClosedBesideItsHouse) {
   // An L of 14 x 12 m; the map has its southern bar, 14 x 6 m.
   const auto captured =
-      test::Capture({test::LShapedHouse(14, 12, 7)}, {test::GroundSquare(25)}, kFromAllSides);
+      test::Capture({test::LShapedHouse(14, 12, 7)}, {test::GroundSquare(25)}, kDenseCapture);
   const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-7, -6, 7, 0)}, 7}});
   EXPECT_NEAR(VolumeOf(ClosedIn(made, "B0001")), 14 * 6 * 7, 12);
   const Building* wing = test::Find(made.proxy, "C0001");
@@ -48,7 +47,7 @@ TEST(NewBuildings, AHouseBesideTheMapHasItsOwnRoof) {
     for (auto& p : polygon.ring) p.x() += 13;
   }
   const auto captured = test::Capture({FlatHouse(Rectangle(-15, -4, -4, 4), 6), gable},
-                                      {test::GroundSquare(25)}, kFromAllSides);
+                                      {test::GroundSquare(25)}, kDenseCapture);
   const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-15, -4, -4, 4)}, 6}});
   const Building* house = test::Find(made.proxy, "C0001");
   ASSERT_NE(house, nullptr);
@@ -62,7 +61,7 @@ TEST(NewBuildings, TreesAndEavesAreNone) {
   test::House house = FlatHouse(Rectangle(-6, -4, 6, 4), 6);
   // Eaves of 0.9 m all around.
   house.polygons.back().ring = {{-6.9, -4.9, 6}, {6.9, -4.9, 6}, {6.9, 4.9, 6}, {-6.9, 4.9, 6}};
-  auto captured = test::Capture({house}, {test::GroundSquare(25)}, kFromAllSides);
+  auto captured = test::Capture({house}, {test::GroundSquare(25)}, kDenseCapture);
   test::AddTree({12, 2, 5}, 3, 12000, 4, captured);
   test::AddTree({-12, -3, 4}, 2.5, 9000, 5, captured);
   const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 6}});
