@@ -14,6 +14,7 @@
 #include "cli/suggest.h"
 #include "pipeline/default_stages.h"
 #include "pipeline/engine/engine.h"
+#include "survey/keep_memory.h"
 
 namespace {
 
@@ -72,6 +73,7 @@ std::vector<std::string> Without(const std::string& flag, std::vector<std::strin
 
 int Main(const std::vector<std::string>& words) {
   stucco::SilenceLibraryLogs();
+  stucco::KeepFreedMemory();
   stucco::Program program;
   program.table = stucco::DefaultStages();
   program.command_line = CommandLine(words);

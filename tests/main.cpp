@@ -5,11 +5,13 @@
 
 #include <cstdlib>
 
+#include "survey/keep_memory.h"
 #include "tests/survey/temporary_folder.h"
 
 // Of every test program: testing::TempDir() is a folder of its own, removed afterwards, so that
 // tests can run beside each other.
 int main(int argc, char** argv) {
+  stucco::KeepFreedMemory();
   const stucco::test::TemporaryFolder folder;
   setenv("TEST_TMPDIR", (folder.path() / "").c_str(), 1);
   testing::InitGoogleMock(&argc, argv);

@@ -14,7 +14,8 @@ import stucco
 
 TRUTH = stucco.ROOT / "data/sample/truth"
 # Small enough for a test, large enough for every wall to be found.
-SIZES = {"calib": {"max_features": 1500}, "dense": {"max_image_px": 400}}
+SIZES = {"calib": {"max_image_px": 700, "max_features": 1500}, "dense": {"max_image_px": 320},
+         "texture": {"texel_size": 0.05}}
 
 
 def set_options(survey, sections):

@@ -17,62 +17,45 @@ constexpr double kHighest_m = 1.6;
 constexpr double kMostPlanes = 48;
 constexpr int kPhotoSide = 1600;      // photos are read this small
 constexpr int kLattice = 4;           // cells between exact projections
-constexpr int kWindow = 2;            // cells around one
+constexpr int kWindow = 5;            // cells a side
 constexpr float kNoise = 16;          // grey levels squared: plain surfaces look alike anywhere
 constexpr double kBestShare = 0.5;    // of the pairs at a place; something may hide it from others
 constexpr float kLonePairs = 0.5f;    // pairs that agree by chance
 constexpr float kPlainPairs = 0.25f;  // what a pair weighs that says nothing
 constexpr float kAlong = 0.1f;        // share of slopes along the way of a pair that weighs half
 
-// Sums over windows of a raster.
-class WindowSums {
+// Means over the windows of a raster, cut off at its rim.
+class WindowMeans {
  public:
-  WindowSums(int width, int height) : width_(width), height_(height) {
-    table_.resize((static_cast<size_t>(width) + 1) * (static_cast<size_t>(height) + 1), 0);
-  }
+  WindowMeans(int width, int height)
+      : cells_per_window_(Sums(cv::Mat::ones(height, width, CV_32F))) {}
 
-  template <typename Value>
-  void Fill(const Value& value) {
-    for (int y = 0; y < height_; ++y) {
-      double row = 0;
-      for (int x = 0; x < width_; ++x) {
-        row += value(static_cast<size_t>(y) * width_ + x);
-        At(x + 1, y + 1) = At(x + 1, y) + row;
-      }
-    }
-  }
-
-  double Around(int x, int y) const {
-    const int left = std::max(0, x - kWindow);
-    const int right = std::min(width_, x + kWindow + 1);
-    const int top = std::max(0, y - kWindow);
-    const int bottom = std::min(height_, y + kWindow + 1);
-    return At(right, bottom) - At(left, bottom) - At(right, top) + At(left, top);
-  }
+  cv::Mat Of(const cv::Mat& values) const { return Sums(values) / cells_per_window_; }
 
  private:
-  double& At(int x, int y) { return table_[static_cast<size_t>(y) * (width_ + 1) + x]; }
-  double At(int x, int y) const { return table_[static_cast<size_t>(y) * (width_ + 1) + x]; }
+  static cv::Mat Sums(const cv::Mat& values) {
+    cv::Mat sums;
+    cv::boxFilter(values, sums, CV_32F, {kWindow, kWindow}, {-1, -1}, false, cv::BORDER_CONSTANT);
+    return sums;
+  }
 
-  int width_;
-  int height_;
-  std::vector<double> table_;
+  cv::Mat cells_per_window_;
 };
 
-// What a photo shows on a plane, with the moments of each window.
+// What a photo shows on a plane, with the moments of each window; rasters of floats.
 struct Shown {
-  std::vector<float> grey;
-  std::vector<uint8_t> valid;
-  std::vector<float> mean;
-  std::vector<float> variance;
+  cv::Mat grey;
+  cv::Mat valid;  // bytes: whether it shows the whole window
+  cv::Mat mean;
+  cv::Mat variance;
   // Of the slopes of grey, products: along u, across, along v.
-  std::array<std::vector<float>, 3> slopes;
+  std::array<cv::Mat, 3> slopes;
 
   // The share of a window's slopes that runs along a direction.
-  float Along(const Eigen::Vector2f& way, size_t cell) const {
-    const float uu = slopes[0][cell];
-    const float uv = slopes[1][cell];
-    const float vv = slopes[2][cell];
+  float Along(const Eigen::Vector2f& way, int cell) const {
+    const float uu = slopes[0].at<float>(cell);
+    const float uv = slopes[1].at<float>(cell);
+    const float vv = slopes[2].at<float>(cell);
     const float along =
         way.x() * way.x() * uu + 2 * way.x() * way.y() * uv + way.y() * way.y() * vv;
     return std::max(0.0f, along) / (uu + vv + kNoise);
@@ -107,10 +90,20 @@ struct Pair {
 // What a pair says of a cell. Edges along the way that things move look alike on any plane: there,
 // a pair weighs little.
 struct Vote {
-  float correlation = 0;
+  float value = 0;  // correlation times weight
   float weight = 0;
   float slant = 0;  // of the squarer photo
 };
+
+float MeanVote(std::span<const Vote> votes) {
+  float sum = 0;
+  float weights = kLonePairs + kPlainPairs * static_cast<float>(votes.size());
+  for (const Vote& vote : votes) {
+    sum += vote.value;
+    weights += vote.weight;
+  }
+  return sum / weights;
+}
 
 // Pixels of a photo at every few cells of a plane; far outside where it does not see them.
 cv::Mat ProjectLattice(const SweepPhoto& photo, const TexelGrid& plane) {
@@ -129,32 +122,31 @@ cv::Mat ProjectLattice(const SweepPhoto& photo, const TexelGrid& plane) {
   return out;
 }
 
-// The photo on the plane, projected exactly every few cells and between them by interpolation.
-Shown Bring(const SweepPhoto& photo, const TexelGrid& plane) {
+// Brings the photo onto the plane: projected exactly every few cells and between them by
+// interpolation.
+void Bring(const SweepPhoto& photo, const TexelGrid& plane, Shown& out) {
   const cv::Mat lattice = ProjectLattice(photo, plane);
-  Shown out;
-  out.grey.resize(plane.size());
-  out.valid.resize(plane.size());
+  out.grey = cv::Mat::zeros(plane.height, plane.width, CV_32F);
+  out.valid = cv::Mat::zeros(plane.height, plane.width, CV_8U);
   for (int y = 0; y < plane.height; ++y) {
     const float t = (static_cast<float>(y % kLattice) + 0.5f) / kLattice;
     for (int x = 0; x < plane.width; ++x) {
-      const size_t i = static_cast<size_t>(y) * plane.width + x;
-      if (!photo.sees[i]) continue;
+      if (!photo.sees[static_cast<size_t>(y) * plane.width + x]) continue;
       const float s = (static_cast<float>(x % kLattice) + 0.5f) / kLattice;
       const auto* above = lattice.ptr<cv::Vec2f>(y / kLattice) + x / kLattice;
       const auto* below = lattice.ptr<cv::Vec2f>(y / kLattice + 1) + x / kLattice;
       const cv::Vec2f at =
           (1 - t) * ((1 - s) * above[0] + s * above[1]) + t * ((1 - s) * below[0] + s * below[1]);
-      out.valid[i] = SampleGrey(photo.grey, at[0] - 0.5f, at[1] - 0.5f, out.grey[i]);
+      out.valid.at<uint8_t>(y, x) =
+          SampleGrey(photo.grey, at[0] - 0.5f, at[1] - 0.5f, out.grey.at<float>(y, x));
     }
   }
-  return out;
 }
 
 class Sweep {
  public:
   Sweep(const TexelGrid& raster, const std::vector<SweepPhoto>& photos)
-      : raster_(raster), photos_(photos), sums_(raster.width, raster.height) {}
+      : raster_(raster), photos_(photos), means_(raster.width, raster.height) {}
 
   std::optional<PlaneSweep> Run() {
     PlaneSweep out;
@@ -190,103 +182,75 @@ class Sweep {
     return most;
   }
 
-  Shown Show(const SweepPhoto& photo, const TexelGrid& plane) {
-    Shown out = Bring(photo, plane);
-    out.mean = WindowMeans([&](size_t i) { return out.grey[i]; });
-    out.variance = WindowMeans([&](size_t i) { return out.grey[i] * out.grey[i]; });
-    for (size_t i = 0; i < out.mean.size(); ++i) out.variance[i] -= out.mean[i] * out.mean[i];
-    const auto slope = [&](size_t i, size_t stride, bool inside) {
-      return inside ? (out.grey[i + stride] - out.grey[i - stride]) / 2 : 0.0f;
-    };
-    const size_t width = plane.width;
-    const auto along_u = [&](size_t i) {
-      return slope(i, 1, i % width > 0 && i % width + 1 < width);
-    };
-    const auto along_v = [&](size_t i) {
-      return slope(i, width, i >= width && i + width < plane.size());
-    };
-    out.slopes = {WindowMeans([&](size_t i) { return along_u(i) * along_u(i); }),
-                  WindowMeans([&](size_t i) { return along_u(i) * along_v(i); }),
-                  WindowMeans([&](size_t i) { return along_v(i) * along_v(i); })};
-    const std::vector<float> share = WindowMeans([&](size_t i) { return out.valid[i]; });
-    for (size_t i = 0; i < out.valid.size(); ++i) out.valid[i] = share[i] > 0.999f;
+  Shown Show(const SweepPhoto& photo, const TexelGrid& plane) const {
+    Shown out;
+    Bring(photo, plane, out);
+    out.mean = means_.Of(out.grey);
+    out.variance = means_.Of(out.grey.mul(out.grey)) - out.mean.mul(out.mean);
+    const cv::Mat difference = (cv::Mat_<float>(1, 3) << -0.5f, 0, 0.5f);
+    cv::Mat along_u;
+    cv::Mat along_v;
+    cv::filter2D(out.grey, along_u, CV_32F, difference);
+    cv::filter2D(out.grey, along_v, CV_32F, difference.t());
+    out.slopes = {means_.Of(along_u.mul(along_u)), means_.Of(along_u.mul(along_v)),
+                  means_.Of(along_v.mul(along_v))};
+    cv::erode(out.valid, out.valid, cv::Mat::ones(kWindow, kWindow, CV_8U));
     return out;
   }
 
-  template <typename Value>
-  std::vector<float> WindowMeans(const Value& value) {
-    sums_.Fill(value);
-    std::vector<float> out(raster_.size());
-    for (int y = 0; y < raster_.height; ++y) {
-      const int rows = std::min(raster_.height, y + kWindow + 1) - std::max(0, y - kWindow);
-      for (int x = 0; x < raster_.width; ++x) {
-        const int columns = std::min(raster_.width, x + kWindow + 1) - std::max(0, x - kWindow);
-        out[static_cast<size_t>(y) * raster_.width + x] =
-            static_cast<float>(sums_.Around(x, y) / (rows * columns));
-      }
-    }
-    return out;
-  }
-
-  void Measure(int label, PlaneSweep& out) {
+  void Measure(int label, PlaneSweep& out) const {
     TexelGrid plane = raster_;
     plane.origin += out.HeightOf(label) * raster_.normal;
     std::vector<Shown> shown;
     for (const SweepPhoto& photo : photos_) shown.push_back(Show(photo, plane));
-    std::vector<Vote> votes(raster_.size() * pairs_.size());
-    std::vector<uint8_t> counts(raster_.size(), 0);
+    std::vector<cv::Mat> covariances;
     for (const Pair& pair : pairs_) {
       const Shown& a = shown[pair.a];
       const Shown& b = shown[pair.b];
-      const std::vector<float> products =
-          WindowMeans([&](size_t i) { return a.grey[i] * b.grey[i]; });
-      for (size_t i = 0; i < products.size(); ++i) {
-        if (!a.valid[i] || !b.valid[i]) continue;
-        const float covariance = products[i] - a.mean[i] * b.mean[i];
-        const float scale = (a.variance[i] + kNoise) * (b.variance[i] + kNoise);
-        const float along = std::min(a.Along(pair.way, i), b.Along(pair.way, i));
-        votes[i * pairs_.size() + counts[i]++] = {covariance / std::sqrt(scale),
-                                                  along / (along + kAlong), pair.slant};
-      }
+      covariances.emplace_back(means_.Of(a.grey.mul(b.grey)) - a.mean.mul(b.mean));
     }
-    for (size_t i = 0; i < raster_.size(); ++i) {
-      if (counts[i] == 0) continue;
-      Summarise(label, i, std::span(votes).subspan(i * pairs_.size(), counts[i]), out);
+    std::vector<Vote> votes;
+    for (int cell = 0; cell < static_cast<int>(raster_.size()); ++cell) {
+      votes.clear();
+      for (size_t i = 0; i < pairs_.size(); ++i) {
+        const Shown& a = shown[pairs_[i].a];
+        const Shown& b = shown[pairs_[i].b];
+        if (!a.valid.at<uint8_t>(cell) || !b.valid.at<uint8_t>(cell)) continue;
+        votes.push_back(VoteOf(pairs_[i], a, b, covariances[i].at<float>(cell), cell));
+      }
+      if (!votes.empty()) Summarise(label, cell, votes, out);
     }
   }
 
-  // What the pairs that show a cell say of a plane; sorts them.
-  static void Summarise(int label, size_t cell, std::span<Vote> votes, PlaneSweep& out) {
+  static Vote VoteOf(const Pair& pair, const Shown& a, const Shown& b, float covariance, int cell) {
+    const float variances =
+        (a.variance.at<float>(cell) + kNoise) * (b.variance.at<float>(cell) + kNoise);
+    const float along = std::min(a.Along(pair.way, cell), b.Along(pair.way, cell));
+    const float weight = along / (along + kAlong);
+    return {weight * covariance / std::sqrt(variances), weight, pair.slant};
+  }
+
+  // What the pairs that show a cell say of a plane; orders them.
+  static void Summarise(int label, int cell, std::span<Vote> votes, PlaneSweep& out) {
     const size_t i = label * out.raster.size() + cell;
-    std::ranges::sort(votes, {}, &Vote::slant);
-    const auto others = std::ranges::upper_bound(votes, votes.front().slant, {}, &Vote::slant);
-    out.squarest[i] = MeanVote(votes.first(static_cast<size_t>(others - votes.begin())));
-    std::ranges::sort(votes, std::greater<>(),
-                      [](const Vote& vote) { return vote.weight * vote.correlation; });
-    const auto half =
-        static_cast<size_t>(std::lround(kBestShare * static_cast<double>(votes.size())));
-    out.best[i] = MeanVote(votes.first(std::max<size_t>(1, half)));
     out.all[i] = MeanVote(votes);
-    out.closest[i] = votes.front().weight * votes.front().correlation;
+    const float squarest = std::ranges::min(votes, {}, &Vote::slant).slant;
+    const auto others =
+        std::ranges::partition(votes, [&](const Vote& vote) { return vote.slant == squarest; });
+    out.squarest[i] = MeanVote(std::span(votes.begin(), others.begin()));
+    const auto half = std::max(1L, std::lround(kBestShare * static_cast<double>(votes.size())));
+    std::ranges::nth_element(votes, votes.begin() + half - 1, std::greater<>(), &Vote::value);
+    out.best[i] = MeanVote(votes.first(half));
+    out.closest[i] = std::ranges::max(votes.first(half), {}, &Vote::value).value;
     if (label == out.plane) {
       out.pairs[cell] = static_cast<uint8_t>(std::min<size_t>(votes.size(), 255));
     }
   }
 
-  static float MeanVote(std::span<const Vote> votes) {
-    float sum = 0;
-    float weights = kLonePairs + kPlainPairs * static_cast<float>(votes.size());
-    for (const Vote& vote : votes) {
-      sum += vote.weight * vote.correlation;
-      weights += vote.weight;
-    }
-    return sum / weights;
-  }
-
   const TexelGrid& raster_;
   const std::vector<SweepPhoto>& photos_;
   std::vector<Pair> pairs_;
-  WindowSums sums_;
+  WindowMeans means_;
 };
 
 }  // namespace

@@ -95,7 +95,7 @@ void RetextureSample::SetUpTestSuite() {
   InitSurvey(Survey(), *folder_ / "old", DefaultStages());
   RunOptions options;
   options.until = "calib";
-  options.set = {"calib.max_features=1200"};
+  options.set = {"calib.max_image_px=700", "calib.max_features=1200"};
   Console console(log_, false, Verbosity::kQuiet);
   ASSERT_EQ(RunSurvey(Survey(), DefaultStages(), options, console, RealPlatform()).exit_code, 0);
   WriteTrueProxy(Survey());
