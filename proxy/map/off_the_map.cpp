@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "proxy/facets/outline.h"
+#include "proxy/map/corners.h"
 #include "proxy/map/floors.h"
 #include "proxy/map/registration.h"
 
@@ -30,15 +31,25 @@ bool IsInside(std::span<const Polygon> floors, std::span<const Eigen::AlignedBox
 
 // A wall as a line of the ground plan, between the ends of its samples.
 struct WallLine {
+  static constexpr double kBin_m = 0.5;
+
   Eigen::Vector2d outwards;
   double offset = 0;
-  double from = 0, to = 0;  // along the direction to the left of `outwards`
+  double from = 0, to = 0;   // along the direction to the left of `outwards`
+  std::vector<double> tops;  // of the wall, by half metres from `from`
 
   Eigen::Vector2d Along() const { return {-outwards.y(), outwards.x()}; }
-  // Whether a place lies below the eaves of the wall.
-  bool HasBefore(const Eigen::Vector2d& p) const {
-    const double off = outwards.dot(p) - offset, at = Along().dot(p);
-    return off > 0 && off < kOverhang_m && at > from && at < to;
+
+  // Where a place on a roof is: close before the wall as its eaves, or as what leans on it, below
+  // more of the wall.
+  enum class Before { kNot, kAsEaves, kLeaning };
+  Before PlaceOf(const Eigen::Vector3d& p, const Eigen::Vector3d& roof_normal) const {
+    constexpr double kAboveRoof_m = 0.5;
+    const double off = outwards.dot(p.head<2>()) - offset, at = Along().dot(p.head<2>());
+    if (!(off > 0 && off < kOverhang_m && at > from && at < to)) return Before::kNot;
+    const double roof = p.z() + off * outwards.dot(roof_normal.head<2>()) / roof_normal.z();
+    const bool more = tops[static_cast<size_t>((at - from) / kBin_m)] > roof + kAboveRoof_m;
+    return more ? Before::kLeaning : Before::kAsEaves;
   }
   CutLine Crease() const {
     return {
@@ -47,7 +58,8 @@ struct WallLine {
 };
 
 WallLine LineOf(const Segment2d& edge) {
-  WallLine line{.outwards = OutwardsOf(edge)};
+  WallLine line;
+  line.outwards = OutwardsOf(edge);
   line.offset = line.outwards.dot(edge.a);
   std::tie(line.from, line.to) = std::minmax({line.Along().dot(edge.a), line.Along().dot(edge.b)});
   return line;
@@ -55,7 +67,7 @@ WallLine LineOf(const Segment2d& edge) {
 
 // What of one cluster of planes lies beside all floors.
 struct Beside {
-  std::vector<Eigen::Vector2d> roof;  // samples
+  std::vector<Eigen::Vector2d> roof;  // samples, without eaves and balconies
   std::vector<WallLine> walls;
 };
 
@@ -92,38 +104,68 @@ class NewFootprints {
     constexpr size_t kFewest = 12;
     Beside beside;
     const Eigen::Matrix3d upright_from_world = UprightFromWorld(scene_.up);
+    std::vector<std::pair<Eigen::Vector3d, std::vector<Eigen::Vector3d>>> roofs;
     for (const Plane& plane : cluster) {
       const Eigen::Vector3d normal = upright_from_world * plane.normal;
-      std::vector<Eigen::Vector2d> outside;
+      std::vector<Eigen::Vector3d> outside;
       double low = INFINITY, high = -INFINITY;
       for (const int i : plane.points) {
         const Eigen::Vector3d& p = survey_.samples.positions[i];
         if (IsInside(floors_, boxes_, p.head<2>())) continue;
-        outside.emplace_back(p.head<2>());
+        outside.push_back(p);
         low = std::min(low, p.z());
         high = std::max(high, p.z());
       }
       if (normal.z() > kRoof) {
-        beside.roof.insert(beside.roof.end(), outside.begin(), outside.end());
+        roofs.emplace_back(normal, std::move(outside));
       } else if (LooksLikeWall(normal) && outside.size() >= kFewest && high - low > kRaised_m) {
         // The inner faces of parapets are lower, and look at the roof.
         beside.walls.push_back(WallOf(plane, normal, outside));
       }
     }
+    for (const auto& [normal, samples] : roofs) AddRoof(normal, samples, beside);
     return beside;
   }
 
+  // The roof of a wing that leans on a wall goes on far before it; balconies end there.
+  static void AddRoof(const Eigen::Vector3d& normal, const std::vector<Eigen::Vector3d>& samples,
+                      Beside& beside) {
+    constexpr double kMostLeaning = 0.5;
+    std::vector<Eigen::Vector2d> roof;
+    size_t leaning = 0;
+    for (const Eigen::Vector3d& p : samples) {
+      bool leans = false, is_eaves = false;
+      for (const WallLine& wall : beside.walls) {
+        const WallLine::Before place = wall.PlaceOf(p, normal);
+        leans = leans || place == WallLine::Before::kLeaning;
+        is_eaves = is_eaves || place == WallLine::Before::kAsEaves;
+      }
+      if (leans) ++leaning;
+      if (!is_eaves) roof.emplace_back(p.head<2>());
+    }
+    if (static_cast<double>(leaning) > kMostLeaning * static_cast<double>(samples.size())) return;
+    beside.roof.insert(beside.roof.end(), roof.begin(), roof.end());
+  }
+
   static WallLine WallOf(const Plane& plane, const Eigen::Vector3d& normal,
-                         const std::vector<Eigen::Vector2d>& samples) {
-    WallLine wall{.outwards = normal.head<2>().normalized()};
+                         const std::vector<Eigen::Vector3d>& samples) {
+    WallLine wall;
+    wall.outwards = normal.head<2>().normalized();
     wall.offset = plane.offset / normal.head<2>().norm();
     std::vector<double> along;
     along.reserve(samples.size());
-    for (const auto& p : samples) along.push_back(wall.Along().dot(p));
+    for (const auto& p : samples) along.push_back(wall.Along().dot(p.head<2>()));
     std::ranges::sort(along);
     const size_t stray = along.size() / 50;
     wall.from = along[stray];
     wall.to = along[along.size() - 1 - stray];
+    wall.tops.assign(static_cast<size_t>((wall.to - wall.from) / WallLine::kBin_m) + 1, -INFINITY);
+    for (const auto& p : samples) {
+      const double at = wall.Along().dot(p.head<2>());
+      if (at < wall.from || at > wall.to) continue;
+      double& top = wall.tops[static_cast<size_t>((at - wall.from) / WallLine::kBin_m)];
+      top = std::max(top, p.z());
+    }
     return wall;
   }
 
@@ -153,13 +195,6 @@ class NewFootprints {
       return cv::getStructuringElement(cv::MORPH_ELLIPSE, {size, size});
     };
     cv::morphologyEx(roofed, roofed, cv::MORPH_CLOSE, disc(kOverhang_m / 2));
-    for (int y = 0; y < raster.height; ++y) {
-      for (int x = 0; x < raster.width; ++x) {
-        const Eigen::Vector2d p = raster.Center(x, y);
-        const auto before = [&](const WallLine& wall) { return wall.HasBefore(p); };
-        if (std::ranges::any_of(beside.walls, before)) roofed.at<uint8_t>(y, x) = 0;
-      }
-    }
     cv::Mat wide;
     cv::morphologyEx(roofed, wide, cv::MORPH_OPEN, disc(kOverhang_m));
     cv::dilate(wide, wide, disc(kOverhang_m / 2));  // the corners that this took off
@@ -192,7 +227,19 @@ class NewFootprints {
                                    .epsilon = tolerances.epsilon,
                                    .reach = kOverhang_m / 2,
                                    .free_length = 5 * tolerances.level_of_detail});
-    for (const Polygon& outline : outlines) found.push_back(FootprintOf(outline, walls));
+    const auto is_held = [&](const Segment2d& edge) {
+      return std::ranges::any_of(creases, [&](const CutLine& line) {
+        constexpr double kOnIt_m = 0.01;
+        return std::abs(Cross(line.direction, edge.a - line.point)) < kOnIt_m &&
+               std::abs(Cross(line.direction, edge.b - line.point)) < kOnIt_m;
+      });
+    };
+    for (Polygon outline : outlines) {
+      for (Ring& ring : outline.rings) {
+        ring = WithCorners(std::move(ring), is_held, 2 * kOverhang_m);
+      }
+      if (IsSimple(outline)) found.push_back(FootprintOf(outline, walls));
+    }
   }
 
   // Its edges are held where walls are.

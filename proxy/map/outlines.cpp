@@ -82,6 +82,12 @@ Eigen::AlignedBox2d BoundsOf(const MapBuilding& building, double margin) {
           box.max() + Eigen::Vector2d::Constant(margin)};
 }
 
+double Area(const MapBuilding& building) {
+  double area = 0;
+  for (const Polygon& part : building.parts) area += Area(part);
+  return area;
+}
+
 double DistanceTo(const MapBuilding& building, const Eigen::Vector2d& p) {
   double distance = std::numeric_limits<double>::infinity();
   for (const Polygon& part : building.parts) distance = std::min(distance, Distance(part, p));

@@ -34,6 +34,7 @@ struct OutlineMap {
 MapBuilding Moved(const MapBuilding& building, const Eigen::Isometry2d& motion);
 
 Eigen::AlignedBox2d BoundsOf(const MapBuilding& building, double margin);
+double Area(const MapBuilding& building);
 // 0 inside.
 double DistanceTo(const MapBuilding& building, const Eigen::Vector2d& p);
 // To the nearest edge, from either side.

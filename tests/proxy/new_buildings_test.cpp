@@ -21,23 +21,58 @@ using test::MakeModel;
 using test::Rectangle;
 using test::VolumeOf;
 
-TEST(NewBuildings, AWingThatTheMapLacksIsClosedBesideItsHouse) {
+size_t WallsOf(const Building& building) {
+  return static_cast<size_t>(
+      std::ranges::count(building.facets, FacetClass::kWall, &Facet::facet_class));
+}
+
+TEST(NewBuildings, AWingThatTheMapLacksBecomesAPartOfItsHouse) {
   // An L of 14 x 12 m; the map has its southern bar, 14 x 6 m.
   const auto captured =
       test::Capture({test::LShapedHouse(14, 12, 7)}, {test::GroundSquare(25)}, kDenseCapture);
   const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-7, -6, 7, 0)}, 7}});
-  EXPECT_NEAR(VolumeOf(ClosedIn(made, "B0001")), 14 * 6 * 7, 12);
-  const Building* wing = test::Find(made.proxy, "C0001");
-  ASSERT_NE(wing, nullptr);
-  EXPECT_TRUE(wing->watertight);
-  EXPECT_EQ(FindOpening(wing->facets), std::nullopt);
-  EXPECT_EQ(wing->source, "cloud");
-  EXPECT_EQ(wing->detail, "full");
-  EXPECT_NEAR(VolumeOf(*wing), 7 * 6 * 7, 10);
-  EXPECT_EQ(wing->facets.size(), 6u);
-  // The house and its wing hide each other's wall.
+  EXPECT_EQ(test::Find(made.proxy, "C0001"), nullptr);
+  const Building& house = ClosedIn(made, "B0001");
+  EXPECT_EQ(FindOpening(house.facets), std::nullopt);
+  EXPECT_EQ(house.source, "map");
+  EXPECT_EQ(house.detail, "full");
+  EXPECT_NEAR(VolumeOf(house), (14 * 6 + 7 * 6) * 7, 15);
+  // No wall between them, and one roof; the wall that goes on along both ends where the map does.
+  EXPECT_EQ(house.facets.size(), 9u);
+  for (const Facet& facet : house.facets) EXPECT_LT(facet.party, 0.05) << facet.id;
+  // Only walls of the map have its facades.
+  const auto named = std::ranges::count_if(
+      house.facets, [](const Facet& facet) { return !facet.planned_facades.empty(); });
+  EXPECT_GE(named, 3);
+  EXPECT_LT(static_cast<size_t>(named), WallsOf(house));
+}
+
+TEST(NewBuildings, ALowerWingLeavesTheWallAboveItsRoof) {
+  test::House wing = FlatHouse(Rectangle(0, 4, 6, 9), 4);
+  const auto captured = test::Capture({FlatHouse(Rectangle(-7, -4, 7, 4), 8), wing},
+                                      {test::GroundSquare(25)}, kDenseCapture);
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-7, -4, 7, 4)}, 8}});
+  EXPECT_EQ(test::Find(made.proxy, "C0001"), nullptr);
+  const Building& house = ClosedIn(made, "B0001");
+  EXPECT_EQ(FindOpening(house.facets), std::nullopt);
+  EXPECT_NEAR(VolumeOf(house), 14 * 8 * 8 + 6 * 5 * 4, 15);
+  EXPECT_NEAR(AreaOf(house, FacetClass::kWall), 2 * (14 + 8) * 8 + (6 + 2 * 5) * 4 - 6 * 4, 8);
+}
+
+TEST(NewBuildings, ALargerNeighbourIsAHouseOfItsOwn) {
+  const auto captured =
+      test::Capture({FlatHouse(Rectangle(-9, -4, -2, 4), 6), FlatHouse(Rectangle(-2, -4, 9, 4), 9)},
+                    {test::GroundSquare(25)}, kDenseCapture);
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-9, -4, -2, 4)}, 6}});
+  EXPECT_NEAR(VolumeOf(ClosedIn(made, "B0001")), 7 * 8 * 6, 10);
+  const Building* other = test::Find(made.proxy, "C0001");
+  ASSERT_NE(other, nullptr);
+  EXPECT_TRUE(other->watertight);
+  EXPECT_EQ(other->source, "cloud");
+  EXPECT_NEAR(VolumeOf(*other), 11 * 8 * 9, 15);
+  // Each hides the other's wall.
   const auto hidden =
-      std::ranges::count_if(wing->facets, [](const Facet& facet) { return facet.party > 0.95; });
+      std::ranges::count_if(other->facets, [](const Facet& facet) { return facet.party > 0.6; });
   EXPECT_EQ(hidden, 1);
 }
 

@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/map/close_building.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "proxy/map/roof_cells.h"
+#include "proxy/map/wall_facets.h"
+#include "proxy/solids/closed_check.h"
+#include "proxy/solids/soundness.h"
+#include "proxy/solids/written_check.h"
+#include "survey/median.h"
+
+namespace stucco {
+namespace {
+
+// What a building is made from.
+struct BuildingEvidence {
+  FittedBuilding fitted;
+  RoofEvidence roof;
+  Samples near;               // on and around the building
+  std::optional<double> top;  // where its points say that it ends; a level roof's height
+  double map_top = 0;
+  bool walls_seen = true;  // false: a scan from above, without photos and walls
+};
+
+// Height of a level top: the middle of what lies above the footprint, else where its walls end.
+std::optional<double> TopOf(const BuildingEvidence& evidence) {
+  constexpr size_t kFewest = 30;
+  constexpr double kWallTop = 0.95;
+  std::vector<double> heights;
+  for (const auto& p : evidence.roof.samples.positions) heights.push_back(p.z());
+  if (heights.size() >= kFewest) return Median(heights);
+  if (!(evidence.fitted.held > 0)) return std::nullopt;
+  heights.clear();
+  for (size_t i = 0; i < evidence.near.size(); ++i) {
+    if (LooksLikeWall(evidence.near.normals[i])) {
+      heights.push_back(evidence.near.positions[i].z());
+    }
+  }
+  if (heights.size() < kFewest) return std::nullopt;
+  std::sort(heights.begin(), heights.end());
+  return heights[static_cast<size_t>(kWallTop * static_cast<double>(heights.size() - 1))];
+}
+
+// Nobody sees the ground below a building; below trees one does, between the leaves.
+bool ShowsGround(const BuildingEvidence& evidence) {
+  constexpr double kBare = 0.5;  // of what is seen of the footprint
+  constexpr double kSeen = 0.2;  // of the footprint
+  const RoofEvidence& roof = evidence.roof;
+  return roof.seen_m2 > kSeen * Area(evidence.fitted.building) &&
+         roof.bare_m2 > kBare * roof.seen_m2;
+}
+
+// What a building is that does not stand.
+Standing AbsenceOf(const BuildingEvidence& evidence) {
+  return ShowsGround(evidence) ? Standing::kGone : Standing::kUnseen;
+}
+
+// Leaves are no planes. What stands open may still be a roof on posts or a ring of walls with a
+// yard.
+Standing StandingOf(const BuildingEvidence& evidence) {
+  constexpr double kRoofed = 0.3;       // of the footprint
+  constexpr double kSmooth = 0.75;      // of what lies above it
+  constexpr double kHeld = 0.4;         // of the walls
+  constexpr double kHeldAround = 0.75;  // of the walls, where the ground shows between them
+  const double area = Area(evidence.fitted.building);
+  const RoofEvidence& roof = evidence.roof;
+  double roofed = 0;
+  size_t on_planes = 0;
+  for (const Plane& plane : roof.planes) {
+    roofed += plane.area;
+    on_planes += plane.points.size();
+  }
+  const bool smooth =
+      static_cast<double>(on_planes) > kSmooth * static_cast<double>(roof.samples.size());
+  const bool walled = evidence.fitted.held > (ShowsGround(evidence) ? kHeldAround : kHeld);
+  if (walled || (smooth && roofed > kRoofed * area)) return Standing::kStands;
+  return AbsenceOf(evidence);
+}
+
+// Whether the cloud shows what was made of it. Crowns of trees hold edges of a map by leaves that
+// stand upright, and roofs by leaves that lie flat, but fill neither walls nor roofs.
+bool ShowsWhatStands(const std::vector<Facet>& facets) {
+  constexpr double kWalled = 0.2;   // of the walls, without party walls where facades are known
+  constexpr double kCovered = 0.4;  // of the roofs
+  const bool has_facades = std::ranges::any_of(
+      facets, [](const Facet& facet) { return !facet.planned_facades.empty(); });
+  double walls = 0, walls_seen = 0, roofs = 0, roofs_seen = 0;
+  for (const Facet& facet : facets) {
+    const bool wall = facet.facet_class == FacetClass::kWall;
+    if (wall && has_facades && facet.planned_facades.empty()) continue;
+    if (!wall && facet.facet_class != FacetClass::kRoof) continue;
+    (wall ? walls : roofs) += facet.area;
+    (wall ? walls_seen : roofs_seen) += facet.area * facet.seen;
+  }
+  return walls_seen > kWalled * walls || roofs_seen > kCovered * roofs;
+}
+
+// One way to close a building.
+struct Attempt {
+  FittedBuilding building;
+  RoofCells cells;
+  bool walls_seen = true;
+};
+
+// From above nobody sees walls: samples look upright there only because they lie on both sides of
+// an edge.
+void ForgetWalls(std::vector<Facet>& facets) {
+  for (Facet& facet : facets) {
+    if (facet.facet_class != FacetClass::kWall) continue;
+    facet.seen = facet.rms = 0;
+    facet.inferred = 1;
+    facet.support = 0;
+    if (facet.source == "planes") facet.source = "extruded";
+  }
+}
+
+// The facets of a solid that stays one when its corners are written.
+Solid SolidOf(const Attempt& attempt, const Samples& near, const Tolerances& tolerances,
+              const Eigen::Matrix3d& world_from_upright, double normal_angle_deg) {
+  Solid solid;
+  const auto faces =
+      ExtrudeCells(attempt.cells.arrangement, attempt.cells.lines, attempt.cells.labels,
+                   attempt.cells.roofs, attempt.building.ground);
+  if (faces.empty()) {
+    solid.why_not = "the ground lies open all over it";
+    return solid;
+  }
+  auto upright = FacetsOf(faces, attempt.building, near, tolerances, normal_angle_deg);
+  if (!attempt.walls_seen) ForgetWalls(upright);
+  if (const auto fault = FindFaultAsWritten(upright, world_from_upright)) {
+    solid.why_not = *fault;
+    return solid;
+  }
+  solid.facets = Turned(upright, world_from_upright);
+  if (const auto problem = FindOpening(solid.facets)) {
+    solid.why_not = *problem;
+    solid.facets.clear();
+  }
+  return solid;
+}
+
+// The edges where the map has them; they keep their names.
+FittedBuilding AsMapped(FittedBuilding building, const MapBuilding& mapped) {
+  building.building = mapped;
+  size_t edge = 0;
+  for (const Polygon& part : mapped.parts) {
+    for (const Ring& ring : part.rings) {
+      for (size_t i = 0; i < ring.size(); ++i, ++edge) {
+        building.edges[edge].line = {ring[i], ring[(i + 1) % ring.size()]};
+        building.edges[edge].fitted = false;
+      }
+    }
+  }
+  return building;
+}
+
+// The finest solid that is sound, and why none that is finer is.
+struct Finest {
+  Solid solid;
+  SolidDetail detail = SolidDetail::kFull;
+  std::string not_finer;
+};
+
+class SolidMaker {
+ public:
+  SolidMaker(const Tolerances& tolerances, const ProxyOptions& options,
+             const Eigen::Matrix3d& world_from_upright)
+      : tolerances_(tolerances), options_(options), world_from_upright_(world_from_upright) {}
+
+  Finest Make(const BuildingEvidence& evidence, const MapBuilding& mapped) const {
+    std::vector<int> all, large;
+    const double area = Area(evidence.fitted.building);
+    for (size_t p = 0; p < evidence.roof.planes.size(); ++p) {
+      if (all.size() < static_cast<size_t>(options_.max_planes)) all.push_back(int(p));
+      constexpr double kLarge = 0.1;  // of the footprint
+      constexpr size_t kFew = 4;
+      const bool is_large = evidence.roof.planes[p].area > kLarge * area;
+      if (is_large && large.size() < kFew) large.push_back(int(p));
+    }
+    Finest finest;
+    for (const SolidDetail detail :
+         {SolidDetail::kFull, SolidDetail::kCoarse, SolidDetail::kFlatTop, SolidDetail::kFromMap}) {
+      if (detail == SolidDetail::kFull && all.empty()) continue;
+      if (detail == SolidDetail::kCoarse && (large.empty() || large.size() == all.size())) continue;
+      if (detail == SolidDetail::kFlatTop && !evidence.top) continue;
+      finest.detail = detail;
+      finest.solid = CloseOrExplain([&] {
+        const Attempt attempt =
+            AttemptOf(detail, evidence, mapped, detail == SolidDetail::kFull ? all : large);
+        return SolidOf(attempt, evidence.near, tolerances_, world_from_upright_,
+                       options_.normal_angle_deg);
+      });
+      if (finest.solid.why_not.empty()) break;
+      finest.not_finer += fmt::format("{}{}: {}", finest.not_finer.empty() ? "" : "; ",
+                                      Name(detail), finest.solid.why_not);
+    }
+    return finest;
+  }
+
+ private:
+  Attempt AttemptOf(SolidDetail detail, const BuildingEvidence& evidence, const MapBuilding& mapped,
+                    const std::vector<int>& planes) const {
+    Attempt attempt{.building = evidence.fitted, .cells = {}, .walls_seen = evidence.walls_seen};
+    const double lowest = evidence.fitted.ground + kRaised_m;
+    if (detail == SolidDetail::kFull || detail == SolidDetail::kCoarse) {
+      attempt.cells = LabelRoof(evidence.fitted, evidence.roof, planes, tolerances_);
+    } else if (detail == SolidDetail::kFlatTop) {
+      attempt.cells = FlatRoof(evidence.fitted.building, std::max(lowest, *evidence.top));
+    } else {
+      attempt.building = AsMapped(evidence.fitted, mapped);
+      attempt.cells = FlatRoof(mapped, std::max(lowest, evidence.top.value_or(evidence.map_top)));
+    }
+    return attempt;
+  }
+
+  const Tolerances& tolerances_;
+  const ProxyOptions& options_;
+  const Eigen::Matrix3d& world_from_upright_;
+};
+
+}  // namespace
+
+std::string_view Name(SolidDetail detail) {
+  switch (detail) {
+    case SolidDetail::kFull:
+      return "full";
+    case SolidDetail::kCoarse:
+      return "coarse";
+    case SolidDetail::kFlatTop:
+      return "LoD1.2";
+    case SolidDetail::kFromMap:
+      return "extrusion";
+  }
+  return "";
+}
+
+BuildingCloser::BuildingCloser(const UprightSurvey& survey, const Eigen::Vector3d& up,
+                               const ProxyOptions& options)
+    : survey_(survey), options_(options), world_from_upright_(UprightFromWorld(up).transpose()) {}
+
+ClosedBuilding BuildingCloser::Close(const MapBuilding& mapped, const FittedBuilding& fitted,
+                                     double plan_to_survey_m) const {
+  constexpr double kAround_m = 1;
+  BuildingEvidence evidence;
+  evidence.fitted = fitted;
+  evidence.roof = FindRoofPlanes(survey_, fitted, options_);
+  evidence.near = SubsetOf(survey_.samples, survey_.bins.In(BoundsOf(fitted.building, kAround_m)));
+  evidence.top = TopOf(evidence);
+  evidence.map_top = mapped.z_m.to_m + plan_to_survey_m;
+  evidence.walls_seen = !survey_.samples.camera_centers.empty() || fitted.held > 0;
+  ClosedBuilding closed;
+  closed.standing = StandingOf(evidence);
+  closed.fitted = fitted;
+  closed.roof_planes = evidence.roof.planes.size();
+  const SolidMaker maker(survey_.tolerances, options_, world_from_upright_);
+  const auto make = [&] {
+    Finest finest = maker.Make(evidence, mapped);
+    closed.facets = std::move(finest.solid.facets);
+    closed.detail = finest.detail;
+    closed.not_finer = std::move(finest.not_finer);
+  };
+  const auto wanted_unseen = [&] {
+    return closed.standing == Standing::kUnseen && mapped.to_capture;
+  };
+  if (closed.standing == Standing::kStands || wanted_unseen()) make();
+  const bool doubtful = closed.standing == Standing::kStands && !closed.facets.empty() &&
+                        !ShowsWhatStands(closed.facets);
+  if (!doubtful) return closed;
+  closed.standing = AbsenceOf(evidence);
+  closed.facets.clear();
+  closed.not_finer.clear();
+  if (wanted_unseen()) {
+    evidence.roof.planes.clear();  // as the map has it
+    evidence.top.reset();
+    make();
+  }
+  return closed;
+}
+
+bool IsNewBuilding(const ClosedBuilding& closed) {
+  constexpr double kSeen = 0.6;  // of its roofs
+  const bool modelled =
+      closed.detail == SolidDetail::kFull || closed.detail == SolidDetail::kCoarse;
+  double roofs = 0, seen = 0;
+  for (const Facet& facet : closed.facets) {
+    if (facet.facet_class != FacetClass::kRoof) continue;
+    roofs += facet.area;
+    seen += facet.area * facet.seen;
+  }
+  return closed.standing == Standing::kStands && modelled && roofs > 0 && seen > kSeen * roofs;
+}
+
+}  // namespace stucco
