@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "proxy/map/outline_fit.h"
+#include "proxy/map/fitted_building.h"
 #include "proxy/map/outlines.h"
 #include "proxy/map/upright_survey.h"
 #include "proxy/options/proxy_options.h"

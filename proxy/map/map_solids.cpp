@@ -18,6 +18,7 @@
 #include "proxy/map/close_building.h"
 #include "proxy/map/closer_look.h"
 #include "proxy/map/off_the_map.h"
+#include "proxy/map/outline_fit.h"
 #include "proxy/map/wings.h"
 #include "survey/median.h"
 #include "survey/parallel.h"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "proxy/map/outline_fit.h"
+#include "proxy/map/fitted_building.h"
 #include "proxy/map/outlines.h"
 #include "proxy/map/upright_survey.h"
 #include "proxy/options/findings.h"

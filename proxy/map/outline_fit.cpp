@@ -10,6 +10,9 @@
 #include <set>
 #include <utility>
 
+#include "proxy/map/move_edges.h"
+#include "proxy/map/neighbours.h"
+#include "proxy/map/shared_length.h"
 #include "proxy/map/wall_among.h"
 #include "survey/disjoint_sets.h"
 #include "survey/median.h"
@@ -38,20 +41,6 @@ struct RingPlace {
 
 Segment2d EdgeOf(const Ring& ring, size_t i) {
   return {ring[i], ring[(i + 1) % ring.size()]};
-}
-
-// Metres of a line that lie on another that is parallel (or opposite), within `reach` of it.
-double Shared(const Segment2d& line, const Segment2d& other, double reach, bool opposite) {
-  constexpr double kParallel = 0.97;
-  const Eigen::Vector2d along = (line.b - line.a).normalized();
-  const Eigen::Vector2d theirs = (other.b - other.a).normalized();
-  if (along.dot(theirs) * (opposite ? -1 : 1) < kParallel) return 0;
-  const double a = along.dot(other.a - line.a), b = along.dot(other.b - line.a);
-  const double from = std::max(0.0, std::min(a, b));
-  const double to = std::min((line.b - line.a).norm(), std::max(a, b));
-  if (!(to > from)) return 0;
-  const Eigen::Vector2d middle = line.a + (from + to) / 2 * along;
-  return std::abs(Cross(theirs, middle - other.a)) < reach ? to - from : 0;
 }
 
 RingPlace RunsOf(const MapBuilding& building, size_t part, size_t ring_index,
@@ -244,42 +233,20 @@ double SpreadOf(const std::vector<std::vector<const Run*>>& groups, const MapErr
   return std::clamp(kSigmaOfMedian * *Median(off), kRunSigma_m, kMapSigma_m);
 }
 
-// Where a corner between two edges goes when they move outwards.
-Eigen::Vector2d CornerMove(const Eigen::Vector2d& n1, double o1, const Eigen::Vector2d& n2,
-                           double o2) {
-  constexpr double kFarthest = 3;  // times the larger offset: sharp corners run away
-  const double cross = Cross(n1, n2);
-  Eigen::Vector2d mean = (n1 * o1 + n2 * o2) / 2;
-  if (std::abs(cross) < kStraight) return mean;
-  Eigen::Vector2d move =
-      Eigen::Vector2d(o1 * n2.y() - o2 * n1.y(), n1.x() * o2 - n2.x() * o1) / cross;
-  if (move.norm() > kFarthest * std::max(std::abs(o1), std::abs(o2))) move = mean;
-  return move;
-}
-
 // The building with every run where its points are; as it was where that crosses itself.
 MapBuilding Fitted(const MapBuilding& building, const Fitting& fitting, double outset) {
-  MapBuilding fitted = building;
+  std::vector<std::vector<double>> offsets(building.parts.size());
   for (const RingPlace& place : fitting.rings) {
-    const Ring& ring = building.parts[place.part].rings[place.ring];
-    Ring& moved = fitted.parts[place.part].rings[place.ring];
-    const auto offset_of = [&](size_t edge) {
-      const Run& run = place.runs[place.run_of_edge[edge]];
-      return run.offset.value_or(run.party ? 0 : outset);
-    };
-    for (size_t i = 0; i < ring.size(); ++i) {
-      const size_t before = (i + ring.size() - 1) % ring.size();
-      moved[i] += CornerMove(OutwardsOf(EdgeOf(ring, before)), offset_of(before),
-                             OutwardsOf(EdgeOf(ring, i)), offset_of(i));
+    for (const int run_index : place.run_of_edge) {
+      const Run& run = place.runs[run_index];
+      offsets[place.part].push_back(run.offset.value_or(run.party ? 0 : outset));
     }
   }
+  MapBuilding fitted = building;
   for (size_t p = 0; p < fitted.parts.size(); ++p) {
-    const double before = Area(building.parts[p]), after = Area(fitted.parts[p]);
-    const bool kept = after > before / 2 && after < 2 * before;
-    if (!kept || !IsSimple(fitted.parts[p])) {
-      fitted = building;
-      break;
-    }
+    auto moved = WithEdgesMoved(building.parts[p], offsets[p]);
+    if (!moved) return building;
+    fitted.parts[p] = std::move(*moved);
   }
   return fitted;
 }
@@ -295,7 +262,7 @@ double Against(const Segment2d& edge, const Polygon& polygon) {
   double shared = 0;
   for (const Ring& ring : polygon.rings) {
     for (size_t k = 0; k < ring.size(); ++k) {
-      shared += Shared(edge, EdgeOf(ring, k), kParty_m, /*opposite=*/true);
+      shared += SharedLength(edge, EdgeOf(ring, k), kParty_m, Heading::kOpposite);
     }
   }
   return shared;
@@ -353,7 +320,7 @@ std::vector<std::string> FacadesOn(const Segment2d& edge, const std::string& bui
     const bool own = facade.id.starts_with(building) && facade.id.size() > building.size() &&
                      facade.id[building.size()] == '/';
     if (!own) continue;
-    const double shared = Shared(edge, {facade.a, facade.b}, kOnLine_m, /*opposite=*/false);
+    const double shared = SharedLength(edge, {facade.a, facade.b}, kOnLine_m, Heading::kAlike);
     if (shared > kLeast_m) found.emplace_back(shared, &facade);
   }
   std::stable_sort(found.begin(), found.end(),
@@ -425,37 +392,6 @@ std::vector<std::vector<const Run*>> HeldRuns(const std::vector<Fitting>& fittin
 
 }  // namespace
 
-bool IsSimple(const Polygon& polygon) {
-  constexpr double kApart_m = 0.01;
-  std::vector<Segment2d> edges;
-  std::vector<std::pair<size_t, size_t>> place;  // ring, edge
-  for (size_t r = 0; r < polygon.rings.size(); ++r) {
-    const Ring& ring = polygon.rings[r];
-    if (ring.size() < 3 || (SignedArea(ring) > 0) != (r == 0)) return false;
-    if (r > 0 && !Contains(polygon.rings[0], ring[0])) return false;
-    for (size_t i = 0; i < ring.size(); ++i) {
-      edges.push_back(EdgeOf(ring, i));
-      place.emplace_back(r, i);
-    }
-  }
-  for (size_t a = 0; a < edges.size(); ++a) {
-    if ((edges[a].b - edges[a].a).norm() < kApart_m) return false;
-    for (size_t b = a + 1; b < edges.size(); ++b) {
-      const size_t n = polygon.rings[place[a].first].size();
-      const size_t steps = place[b].second - place[a].second;
-      const bool next = place[a].first == place[b].first && (steps == 1 || steps == n - 1);
-      if (!next && SquaredDistance(edges[a], edges[b]) < kApart_m * kApart_m) return false;
-      if (!next) continue;
-      const Segment2d& first = steps == 1 ? edges[a] : edges[b];
-      const Segment2d& second = steps == 1 ? edges[b] : edges[a];
-      const Eigen::Vector2d u = (first.b - first.a).normalized();
-      const Eigen::Vector2d v = (second.b - second.a).normalized();
-      if (u.dot(v) < -1 + 1e-6) return false;  // a spike
-    }
-  }
-  return !edges.empty();
-}
-
 std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
                                         std::span<const MapBuilding> buildings,
                                         std::span<const Facade> facades, double plan_to_survey_m) {
@@ -488,6 +424,10 @@ std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
     fitted[b].ground = fittings[b].ground;
     fitted[b].held = HeldShare(fittings[b]);
   }
+  // Of a scan from above, without walls, a map is all that is known of them.
+  const bool has_walls =
+      std::ranges::any_of(fitted, [](const FittedBuilding& building) { return building.held > 0; });
+  if (has_walls) MeetNeighbours(survey, prior.sigma, fitted);
   return fitted;
 }
 

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <tuple>
+
+#include "proxy/map/move_edges.h"
+#include "proxy/map/shared_length.h"
 
 namespace stucco {
 namespace {
 
+constexpr double kTouching_m = 1e-6;
 constexpr double kTouch_m = 0.05;  // floors are known to millimetres, outlines to some more
 
 // The place on the nearest edge of the house, its corners first; the place itself where none is
@@ -40,31 +43,18 @@ std::vector<Polygon> SnappedParts(const FittedBuilding& house, const FittedBuild
   return parts;
 }
 
-// How much of two edges is the same line, seen from both its sides.
-double SharedLength(const Segment2d& edge, const Segment2d& other) {
-  constexpr double kSameLine_m = 1e-6;
-  const double length = (edge.b - edge.a).norm();
-  if (!(length > 0)) return 0;
-  const Eigen::Vector2d along = (edge.b - edge.a) / length;
-  if (along.dot(other.b - other.a) >= 0) return 0;
-  for (const Eigen::Vector2d& p : {other.a, other.b}) {
-    if (std::abs(Cross(along, p - edge.a)) > kSameLine_m) return 0;
-  }
-  const double from = std::max(0.0, along.dot(other.b - edge.a));
-  const double to = std::min(length, along.dot(other.a - edge.a));
-  return std::max(0.0, to - from);
-}
-
 }  // namespace
 
 double ContactOf(const FittedBuilding& house, const FittedBuilding& wing) {
   double contact = 0;
+  const auto add = [&](const Segment2d& edge) {
+    for (const FittedEdge& other : house.edges) {
+      contact += SharedLength(edge, other.line, kTouching_m, Heading::kOpposite);
+    }
+  };
   for (const Polygon& part : SnappedParts(house, wing)) {
     for (const Ring& ring : part.rings) {
-      for (size_t i = 0; i < ring.size(); ++i) {
-        const Segment2d edge{ring[i], ring[(i + 1) % ring.size()]};
-        for (const FittedEdge& other : house.edges) contact += SharedLength(edge, other.line);
-      }
+      for (size_t i = 0; i < ring.size(); ++i) add({ring[i], ring[(i + 1) % ring.size()]});
     }
   }
   return contact;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "proxy/map/outline_fit.h"
+#include "proxy/map/fitted_building.h"
 
 namespace stucco {
 

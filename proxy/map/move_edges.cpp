@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/map/move_edges.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace stucco {
+namespace {
+
+Segment2d RingEdge(const Ring& ring, size_t i) {
+  return {ring[i], ring[(i + 1) % ring.size()]};
+}
+
+// Where a corner between two edges goes when they move outwards.
+Eigen::Vector2d CornerMove(const Eigen::Vector2d& n1, double o1, const Eigen::Vector2d& n2,
+                           double o2) {
+  constexpr double kParallel = 0.26;  // sine of 15 degrees
+  constexpr double kFarthest = 3;     // times the larger offset: sharp corners run away
+  const double cross = Cross(n1, n2);
+  Eigen::Vector2d mean = (n1 * o1 + n2 * o2) / 2;
+  if (std::abs(cross) < kParallel) return mean;
+  Eigen::Vector2d move =
+      Eigen::Vector2d(o1 * n2.y() - o2 * n1.y(), n1.x() * o2 - n2.x() * o1) / cross;
+  if (move.norm() > kFarthest * std::max(std::abs(o1), std::abs(o2))) move = mean;
+  return move;
+}
+
+size_t EdgeCount(const Polygon& polygon) {
+  size_t edges = 0;
+  for (const Ring& ring : polygon.rings) edges += ring.size();
+  return edges;
+}
+
+}  // namespace
+
+bool IsSimple(const Polygon& polygon) {
+  constexpr double kApart_m = 0.01;
+  std::vector<Segment2d> edges;
+  std::vector<std::pair<size_t, size_t>> place;  // ring, edge
+  for (size_t r = 0; r < polygon.rings.size(); ++r) {
+    const Ring& ring = polygon.rings[r];
+    if (ring.size() < 3 || (SignedArea(ring) > 0) != (r == 0)) return false;
+    if (r > 0 && !Contains(polygon.rings[0], ring[0])) return false;
+    for (size_t i = 0; i < ring.size(); ++i) {
+      edges.push_back(RingEdge(ring, i));
+      place.emplace_back(r, i);
+    }
+  }
+  for (size_t a = 0; a < edges.size(); ++a) {
+    if ((edges[a].b - edges[a].a).norm() < kApart_m) return false;
+    for (size_t b = a + 1; b < edges.size(); ++b) {
+      const size_t n = polygon.rings[place[a].first].size();
+      const size_t steps = place[b].second - place[a].second;
+      const bool next = place[a].first == place[b].first && (steps == 1 || steps == n - 1);
+      if (!next && SquaredDistance(edges[a], edges[b]) < kApart_m * kApart_m) return false;
+      if (!next) continue;
+      const Segment2d& first = steps == 1 ? edges[a] : edges[b];
+      const Segment2d& second = steps == 1 ? edges[b] : edges[a];
+      const Eigen::Vector2d u = (first.b - first.a).normalized();
+      const Eigen::Vector2d v = (second.b - second.a).normalized();
+      if (u.dot(v) < -1 + 1e-6) return false;  // a spike
+    }
+  }
+  return !edges.empty();
+}
+
+std::optional<Polygon> WithEdgesMoved(const Polygon& polygon, std::span<const double> outwards_m) {
+  assert(outwards_m.size() == EdgeCount(polygon));
+  Polygon moved = polygon;
+  size_t first = 0;
+  for (size_t r = 0; r < polygon.rings.size(); ++r) {
+    const Ring& ring = polygon.rings[r];
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const size_t before = (i + ring.size() - 1) % ring.size();
+      moved.rings[r][i] +=
+          CornerMove(OutwardsOf(RingEdge(ring, before)), outwards_m[first + before],
+                     OutwardsOf(RingEdge(ring, i)), outwards_m[first + i]);
+    }
+    first += ring.size();
+  }
+  const double area_before = Area(polygon), area = Area(moved);
+  if (!(area > area_before / 2 && area < 2 * area_before) || !IsSimple(moved)) return std::nullopt;
+  return moved;
+}
+
+}  // namespace stucco
