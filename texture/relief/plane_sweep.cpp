@@ -235,9 +235,9 @@ class Sweep {
     const size_t i = label * out.raster.size() + cell;
     out.all[i] = MeanVote(votes);
     const float squarest = std::ranges::min(votes, {}, &Vote::slant).slant;
-    const auto others =
-        std::ranges::partition(votes, [&](const Vote& vote) { return vote.slant == squarest; });
-    out.squarest[i] = MeanVote(std::span(votes.begin(), others.begin()));
+    const auto others = std::partition(votes.begin(), votes.end(),
+                                       [&](const Vote& vote) { return vote.slant == squarest; });
+    out.squarest[i] = MeanVote(votes.first(static_cast<size_t>(others - votes.begin())));
     const auto half = std::max(1L, std::lround(kBestShare * static_cast<double>(votes.size())));
     std::ranges::nth_element(votes, votes.begin() + half - 1, std::greater<>(), &Vote::value);
     out.best[i] = MeanVote(votes.first(half));
