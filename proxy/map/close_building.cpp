@@ -147,16 +147,8 @@ Solid SolidOf(const Attempt& attempt, const Samples& near, const Tolerances& tol
 
 // The edges where the map has them; they keep their names.
 FittedBuilding AsMapped(FittedBuilding building, const MapBuilding& mapped) {
-  building.building = mapped;
-  size_t edge = 0;
-  for (const Polygon& part : mapped.parts) {
-    for (const Ring& ring : part.rings) {
-      for (size_t i = 0; i < ring.size(); ++i, ++edge) {
-        building.edges[edge].line = {ring[i], ring[(i + 1) % ring.size()]};
-        building.edges[edge].fitted = false;
-      }
-    }
-  }
+  building = WithParts(std::move(building), mapped.parts);
+  for (FittedEdge& edge : building.edges) edge.fitted = false;
   return building;
 }
 

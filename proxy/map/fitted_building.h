@@ -25,4 +25,7 @@ struct FittedBuilding {
   double held = 0;                // share of its free walls that points hold, by length
 };
 
+// The building with other parts, its edges along them. Requires as many corners as it has edges.
+FittedBuilding WithParts(FittedBuilding building, std::vector<Polygon> parts);
+
 }  // namespace stucco

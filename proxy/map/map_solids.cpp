@@ -143,12 +143,13 @@ std::vector<ClosedBuilding> CloseAsFitted(const UprightSurvey& survey,
   return closed;
 }
 
-Building AsBuilding(const std::string& id, const std::string& source, ClosedBuilding closed) {
+Building AsBuilding(const std::string& id, const std::string& source,
+                    const ClosedBuilding& closed) {
   return {.id = id,
           .watertight = true,
           .source = source,
           .detail = std::string(Name(closed.detail)),
-          .facets = std::move(closed.facets)};
+          .facets = closed.facets};
 }
 
 // What the map lacks, closed on footprints of its own.
@@ -285,11 +286,11 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
     Report(houses.mapped[b].id, houses.closed[b], houses.mapped[b].to_capture, findings);
   }
   MapModel model{.buildings = BuildingsOf(houses), .outlines = std::move(houses.mapped)};
-  for (ClosedBuilding& other : others) {
+  for (const ClosedBuilding& other : others) {
     MapBuilding& outline = model.outlines.emplace_back(other.fitted.building);
     outline.id = fmt::format("C{:04}", model.outlines.size() - houses.closed.size());
     findings.notes.push_back(NoteOf(outline.id, other) + "; on no footprint of the map");
-    model.buildings.push_back(AsBuilding(outline.id, "cloud", std::move(other)));
+    model.buildings.push_back(AsBuilding(outline.id, "cloud", other));
   }
   return model;
 }

@@ -5,16 +5,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "proxy/map/outlines.h"
+
 namespace stucco {
 namespace {
-
-Segment2d RingEdge(const Ring& ring, size_t i) {
-  return {ring[i], ring[(i + 1) % ring.size()]};
-}
 
 // Where a corner between two edges goes when they move outwards.
 Eigen::Vector2d CornerMove(const Eigen::Vector2d& n1, double o1, const Eigen::Vector2d& n2,
@@ -47,7 +44,7 @@ bool IsSimple(const Polygon& polygon) {
     if (ring.size() < 3 || (SignedArea(ring) > 0) != (r == 0)) return false;
     if (r > 0 && !Contains(polygon.rings[0], ring[0])) return false;
     for (size_t i = 0; i < ring.size(); ++i) {
-      edges.push_back(RingEdge(ring, i));
+      edges.push_back(EdgeOf(ring, i));
       place.emplace_back(r, i);
     }
   }
@@ -77,9 +74,8 @@ std::optional<Polygon> WithEdgesMoved(const Polygon& polygon, std::span<const do
     const Ring& ring = polygon.rings[r];
     for (size_t i = 0; i < ring.size(); ++i) {
       const size_t before = (i + ring.size() - 1) % ring.size();
-      moved.rings[r][i] +=
-          CornerMove(OutwardsOf(RingEdge(ring, before)), outwards_m[first + before],
-                     OutwardsOf(RingEdge(ring, i)), outwards_m[first + i]);
+      moved.rings[r][i] += CornerMove(OutwardsOf(EdgeOf(ring, before)), outwards_m[first + before],
+                                      OutwardsOf(EdgeOf(ring, i)), outwards_m[first + i]);
     }
     first += ring.size();
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "proxy/map/move_edges.h"
 #include "proxy/map/shared_length.h"
@@ -112,15 +113,7 @@ void MoveEdges(std::span<const double> offsets, FittedBuilding& building) {
     moved.push_back(std::move(*polygon));
     first += edges;
   }
-  building.building.parts = std::move(moved);
-  size_t edge = 0;
-  for (const Polygon& part : building.building.parts) {
-    for (const Ring& ring : part.rings) {
-      for (size_t i = 0; i < ring.size(); ++i) {
-        building.edges[edge++].line = {ring[i], ring[(i + 1) % ring.size()]};
-      }
-    }
-  }
+  building = WithParts(std::move(building), std::move(moved));
 }
 
 }  // namespace

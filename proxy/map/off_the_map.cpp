@@ -215,7 +215,7 @@ class NewFootprints {
       if (!boxes_[f].intersects(box)) continue;
       for (const Ring& ring : floors_[f].rings) {
         for (size_t i = 0; i < ring.size(); ++i) {
-          creases.push_back(LineOf({ring[i], ring[(i + 1) % ring.size()]}).Crease());
+          creases.push_back(LineOf(EdgeOf(ring, i)).Crease());
         }
       }
     }
@@ -251,7 +251,7 @@ class NewFootprints {
     for (const Ring& ring : outline.rings) {
       for (size_t i = 0; i < ring.size(); ++i) {
         FittedEdge& edge = footprint.edges.emplace_back();
-        edge.line = {ring[i], ring[(i + 1) % ring.size()]};
+        edge.line = EdgeOf(ring, i);
         const WallLine line = LineOf(edge.line);
         edge.fitted = std::ranges::any_of(walls, [&](const WallLine& wall) {
           return wall.outwards.dot(line.outwards) > 0.999 &&

@@ -39,10 +39,6 @@ struct RingPlace {
   std::vector<int> run_of_edge;
 };
 
-Segment2d EdgeOf(const Ring& ring, size_t i) {
-  return {ring[i], ring[(i + 1) % ring.size()]};
-}
-
 RingPlace RunsOf(const MapBuilding& building, size_t part, size_t ring_index,
                  const std::vector<bool>& party) {
   const Ring& ring = building.parts[part].rings[ring_index];

@@ -99,7 +99,7 @@ double ToOutline(const MapBuilding& building, const Eigen::Vector2d& p) {
   for (const Polygon& part : building.parts) {
     for (const Ring& ring : part.rings) {
       for (size_t i = 0; i < ring.size(); ++i) {
-        distance = std::min(distance, Distance(Segment2d{ring[i], ring[(i + 1) % ring.size()]}, p));
+        distance = std::min(distance, Distance(EdgeOf(ring, i), p));
       }
     }
   }

@@ -33,6 +33,11 @@ struct OutlineMap {
 // The same building somewhere else.
 MapBuilding Moved(const MapBuilding& building, const Eigen::Isometry2d& motion);
 
+// From corner i to the next.
+inline Segment2d EdgeOf(const Ring& ring, size_t i) {
+  return {ring[i], ring[(i + 1) % ring.size()]};
+}
+
 Eigen::AlignedBox2d BoundsOf(const MapBuilding& building, double margin);
 double Area(const MapBuilding& building);
 // 0 inside.

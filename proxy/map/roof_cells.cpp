@@ -66,7 +66,7 @@ std::vector<CutLine> EdgeLines(const MapBuilding& building, const Eigen::Aligned
   for (const Polygon& part : building.parts) {
     for (const Ring& ring : part.rings) {
       for (size_t i = 0; i < ring.size(); ++i) {
-        edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
+        edges.push_back(EdgeOf(ring, i));
       }
     }
   }

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "proxy/map/move_edges.h"
 #include "proxy/map/shared_length.h"
@@ -54,7 +55,7 @@ double ContactOf(const FittedBuilding& house, const FittedBuilding& wing) {
   };
   for (const Polygon& part : SnappedParts(house, wing)) {
     for (const Ring& ring : part.rings) {
-      for (size_t i = 0; i < ring.size(); ++i) add({ring[i], ring[(i + 1) % ring.size()]});
+      for (size_t i = 0; i < ring.size(); ++i) add(EdgeOf(ring, i));
     }
   }
   return contact;
@@ -62,18 +63,11 @@ double ContactOf(const FittedBuilding& house, const FittedBuilding& wing) {
 
 FittedBuilding WithWing(FittedBuilding house, const FittedBuilding& wing) {
   assert(ContactOf(house, wing) > 0);
-  size_t edge = 0;
-  for (Polygon& part : SnappedParts(house, wing)) {
-    for (const Ring& ring : part.rings) {
-      for (size_t i = 0; i < ring.size(); ++i, ++edge) {
-        FittedEdge& added = house.edges.emplace_back(wing.edges[edge]);
-        added.line = {ring[i], ring[(i + 1) % ring.size()]};
-      }
-    }
-    house.building.parts.push_back(std::move(part));
-  }
+  std::vector<Polygon> parts = house.building.parts;
+  for (Polygon& part : SnappedParts(house, wing)) parts.push_back(std::move(part));
+  house.edges.insert(house.edges.end(), wing.edges.begin(), wing.edges.end());
   house.ground = std::min(house.ground, wing.ground);
-  return house;
+  return WithParts(std::move(house), std::move(parts));
 }
 
 bool IsWingOf(const FittedBuilding& house, const FittedBuilding& wing) {

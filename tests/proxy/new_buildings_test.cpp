@@ -59,6 +59,16 @@ TEST(NewBuildings, ALowerWingLeavesTheWallAboveItsRoof) {
   EXPECT_NEAR(AreaOf(house, FacetClass::kWall), 2 * (14 + 8) * 8 + (6 + 2 * 5) * 4 - 6 * 4, 8);
 }
 
+TEST(NewBuildings, BalconiesAreNoRoofs) {
+  // The same wing with a balcony, 1 m deep, along most of its western wall.
+  test::House house = test::LShapedHouse(14, 12, 7);
+  house.polygons.push_back({"balcony", {{-8, 0.5, 4}, {-7, 0.5, 4}, {-7, 5.5, 4}, {-8, 5.5, 4}}});
+  const auto captured = test::Capture({house}, {test::GroundSquare(25)}, kDenseCapture);
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-7, -6, 7, 0)}, 7}});
+  EXPECT_EQ(test::Find(made.proxy, "C0001"), nullptr);
+  EXPECT_NEAR(VolumeOf(ClosedIn(made, "B0001")), (14 * 6 + 7 * 6) * 7, 15);
+}
+
 TEST(NewBuildings, ALargerNeighbourIsAHouseOfItsOwn) {
   const auto captured =
       test::Capture({FlatHouse(Rectangle(-9, -4, -2, 4), 6), FlatHouse(Rectangle(-2, -4, 9, 4), 9)},
