@@ -30,7 +30,7 @@ Stage IngestStage() {
 Stage CalibStage() {
   Stage stage;
   stage.name = "calib";
-  stage.version = 6;
+  stage.version = 7;
   stage.title = "camera poses and lens calibration";
   stage.needs = {"ingest"};
   stage.inputs = {kCapturesFile, kPlanFile, kGroundControlFile};

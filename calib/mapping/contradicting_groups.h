@@ -10,6 +10,9 @@ namespace stucco {
 
 // The square of three normal variables that one in ten thousand exceeds (chi squared).
 inline constexpr double kUnlikelySquare = 21.1;
+// That one in a hundred exceeds, and that of six variables that one in ten thousand does.
+inline constexpr double kDoubtfulSquare = 11.3;
+inline constexpr double kUnlikelySixSquare = 27.9;
 
 // Photos that are off their records together, ascending: each by no more than records are off, but
 // all the same way, as a part that hangs on the rest by little is when it is bent. Groups are a

@@ -177,11 +177,17 @@ bool SeesSeveralPlanes(const Scene& scene, int photo) {
 
 RecordVerdict JudgePose(const Scene& scene, int photo) {
   assert(scene.photos[photo].pose);
-  if (AttitudeSquare(scene.photos[photo]) > kUnlikelySquare) return RecordVerdict::kContradicts;
-  if (PositionSquare(scene.photos[photo]) <= kUnlikelySquare) return RecordVerdict::kAgrees;
+  const double attitude = AttitudeSquare(scene.photos[photo]);
+  const double position = PositionSquare(scene.photos[photo]);
+  if (attitude > kUnlikelySquare) return RecordVerdict::kContradicts;
+  if (position <= kUnlikelySquare) {
+    return attitude + position > kUnlikelySixSquare ? RecordVerdict::kContradicts
+                                                    : RecordVerdict::kAgrees;
+  }
   const bool holds =
       NumTrustedPartners(scene, photo) >= kEnoughPartners || SeesSeveralPlanes(scene, photo);
-  return holds ? RecordVerdict::kPositionOff : RecordVerdict::kContradicts;
+  return holds && attitude <= kDoubtfulSquare ? RecordVerdict::kPositionOff
+                                              : RecordVerdict::kContradicts;
 }
 
 std::vector<int> ContradictingPoses(const Scene& scene) {

@@ -19,10 +19,10 @@ enum class RecordVerdict {
 
 // Holds a photo's pose against its priors (ScenePhoto::prior and attitude, with their measured
 // deviations): the squares of the differences in standard deviations are those of three normal
-// variables each, at a level of 1e-4. A position alone is not believed against a pose that four
-// photos share points with which agree with their own records, nor against one whose points lie on
-// several planes, since what repeats along one wall does not fit the others. Requires a pose in the
-// frame of the priors.
+// variables each and of six together, at a level of 1e-4. A position alone, with angles that agree
+// at a level of 1e-2, is not believed against a pose that four photos share points with which agree
+// with their own records, nor against one whose points lie on several planes, since what repeats
+// along one wall does not fit the others. Requires a pose in the frame of the priors.
 RecordVerdict JudgePose(const Scene& scene, int photo);
 
 // Whether a good part of the points that a photo sees lies off the plane that fits most of them.

@@ -9,8 +9,10 @@
 #include <map>
 #include <utility>
 
+#include "calib/expect/project_inside.h"
 #include "calib/features/descriptors.h"
 #include "calib/features/same_place.h"
+#include "calib/matching/which_bay.h"
 #include "survey/median.h"
 #include "survey/parallel.h"
 
@@ -24,6 +26,8 @@ constexpr double kOffWall_m = 0.2;
 constexpr size_t kLeastKeypointsOnWall = 10;
 constexpr size_t kLeastMatches = 8;
 constexpr double kAgreeingShift_m = 0.5;
+// Matches are looked for so near to where it was told that they are.
+constexpr double kTold_m = 0.4;
 
 // What a photo shows of one wall.
 struct Shown {
@@ -118,6 +122,46 @@ void KeepSure(const Shown& first, const Shown& second, double period_m, double s
   if (matches.size() < kLeastMatches || log_odds < -std::log(kWrongBay)) matches.clear();
 }
 
+// A wall that both photos show.
+struct SharedWall {
+  int wall = 0;
+  const Shown& first;
+  const Shown& second;
+  double sigma_m = 0;  // of the shift between the two
+};
+
+// Where what differs between bays tells which of them is which.
+std::vector<Match> MatchTold(const AgainInput& input, int second, const SharedWall& shared) {
+  const PlannedFacade& facade = input.set.guidance.facades[shared.wall];
+  const Camera& camera = input.set.captures.cameras[input.set.photos[second]->camera].intrinsics;
+  const Pose& pose = input.poses[second]->cam_from_plan;
+  const auto second_shows = [&](const Eigen::Vector2d& place) {
+    const Eigen::Vector2d level = facade.a_m + place.x() * facade.along();
+    return ProjectInside(camera, pose * Eigen::Vector3d(level.x(), level.y(), place.y()))
+        .has_value();
+  };
+  const auto told =
+      TellBay({shared.first.on_wall, shared.second.on_wall, shared.sigma_m, second_shows});
+  if (!told) return {};
+  WallKeypoints moved = shared.first.on_wall;
+  for (OnWall& at : moved.places) {
+    const Eigen::Vector2d place = *told * Eigen::Vector3d(at.along_m, at.z_m, 1);
+    at.along_m = static_cast<float>(place.x());
+    at.z_m = static_cast<float>(place.y());
+  }
+  return MatchWithin(moved, shared.second.on_wall, kTold_m, input.options.match_ratio);
+}
+
+// Where the poses tell which bay is which.
+std::vector<Match> MatchPosed(const AgainInput& input, const SharedWall& shared) {
+  const double period_m = input.repeating.period_m.at(shared.wall);
+  // No more than one of the bays lies within half a period.
+  std::vector<Match> matches = MatchWithin(shared.first.on_wall, shared.second.on_wall,
+                                           period_m / 2, input.options.match_ratio);
+  KeepSure(shared.first, shared.second, period_m, shared.sigma_m, matches);
+  return matches;
+}
+
 // In the numbers of the photos' keypoints.
 std::vector<Match> MatchShown(const AgainInput& input, int first, int second,
                               const std::vector<ShownWalls>& shown) {
@@ -125,13 +169,11 @@ std::vector<Match> MatchShown(const AgainInput& input, int first, int second,
   for (const auto& [wall, of_first] : shown[first]) {
     const auto of_second = shown[second].find(wall);
     if (of_second == shown[second].end()) continue;
-    const double period_m = input.repeating.period_m.at(wall);
-    // No more than one of the bays lies within half a period.
-    std::vector<Match> on_wall = MatchWithin(of_first.on_wall, of_second->second.on_wall,
-                                             period_m / 2, input.options.match_ratio);
     const double distance_m = std::max(of_first.distance_m, of_second->second.distance_m);
-    KeepSure(of_first, of_second->second, period_m, ShiftSigma(input, first, second, distance_m),
-             on_wall);
+    const SharedWall shared{wall, of_first, of_second->second,
+                            ShiftSigma(input, first, second, distance_m)};
+    std::vector<Match> on_wall = MatchTold(input, second, shared);
+    if (on_wall.empty()) on_wall = MatchPosed(input, shared);
     for (const Match& match : on_wall) {
       matches.push_back({of_first.of_photo[match.first], of_second->second.of_photo[match.second]});
     }

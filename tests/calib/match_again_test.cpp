@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Two photos of a wall whose bays all look the same.
+// Two photos of a wall whose bays all look the same, unless the test says otherwise.
 class MatchAgainTest : public testing::Test {
  protected:
   MatchAgainTest() {
@@ -48,6 +48,10 @@ class MatchAgainTest : public testing::Test {
     const std::vector<std::optional<KnownPose>> poses = {KnownPose{truth_[0], 0.05, 1e-3},
                                                          KnownPose{moved, sigma_m, 1e-3}};
     return MatchAgain({options_, set, features_, repeating_, poses, context_}, matched_);
+  }
+
+  void LetBaysDiffer() {
+    for (size_t i = 0; i < truth_.size(); ++i) features_.plain[i] = SeeBays(truth_[i], false);
   }
 
   // Matches that join another bay.
@@ -88,6 +92,14 @@ TEST_F(MatchAgainTest, ChoosesNoBayWherePosesDoNotTellIt) {
   EXPECT_EQ(Again({0.6, 0, 0.3}, 2), 0);
   EXPECT_EQ(Again({1.4, 0, 0}, 0.6), 0);  // about as far from the next
   EXPECT_TRUE(matched_.verified.empty());
+}
+
+TEST_F(MatchAgainTest, JoinsTheRightBayWhereBaysDiffer) {
+  LetBaysDiffer();
+  EXPECT_EQ(Again({1.4, 0, 0.3}, 1), 1);
+  ASSERT_EQ(matched_.verified.size(), 1U);
+  EXPECT_GT(matched_.verified[0].pair.matches.size(), 60U);
+  EXPECT_EQ(NumWrong(), 0);
 }
 
 TEST_F(MatchAgainTest, KeepsWhatAPairHas) {

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "tests/calib/made_records.h"
 
@@ -71,6 +73,30 @@ TEST_F(WrongPosesTest, AShiftAlongAWallIsNotBelieved) {
   const WrongPoses wrong = MendWrongPoses({}, context_, scene_);
   EXPECT_EQ(wrong.taken, std::vector{photo});
   EXPECT_FALSE(scene_.photos[photo].pose);
+}
+
+// Neither alone is more than records may be off by.
+TEST_F(WrongPosesTest, PlaceAndDirectionTogetherAreNotBelieved) {
+  ScenePhoto& photo = scene_.photos[12];
+  const double sigma_m = std::hypot(photo.prior->sigma_horizontal_m, 0.1);
+  const double sigma_rad = std::hypot(photo.attitude->sigma_rad, 0.3 * std::numbers::pi / 180);
+  const Pose truth = *photo.pose;
+  const Eigen::Quaterniond record = photo.attitude->cam_from_world;
+  const Eigen::Vector3d place = photo.prior->position + Eigen::Vector3d(4.2 * sigma_m, 0, 0);
+  const Eigen::Quaterniond turned =
+      Eigen::Quaterniond(Eigen::AngleAxisd(4.2 * sigma_rad, Eigen::Vector3d::UnitX())) * record;
+  photo.pose = Pose{record, -(record * place)};
+  EXPECT_EQ(JudgePose(scene_, 12), RecordVerdict::kAgrees);
+  photo.pose = Pose{turned, -(turned * photo.prior->position)};
+  EXPECT_EQ(JudgePose(scene_, 12), RecordVerdict::kAgrees);
+  photo.pose = Pose{turned, -(turned * place)};
+  EXPECT_EQ(JudgePose(scene_, 12), RecordVerdict::kContradicts);
+  // However sure a pose is by itself, its record is not wrong in both by chance.
+  photo.prior->position.y() += 5;
+  photo.pose = truth;
+  EXPECT_EQ(JudgePose(scene_, 12), RecordVerdict::kPositionOff);
+  photo.attitude->cam_from_world = turned;
+  EXPECT_EQ(JudgePose(scene_, 12), RecordVerdict::kContradicts);
 }
 
 TEST_F(WrongPosesTest, APositionIsDistrustedWhereThePoseIsSure) {

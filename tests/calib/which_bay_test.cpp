@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/matching/which_bay.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "calib/features/descriptors.h"
+#include "tests/calib/made_scene.h"
+
+namespace stucco::test {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kBay_m = 2.5;
+constexpr int kOfBay = 40;
+
+// Eight bays beside each other; in each of two storeys. Of the keypoints of a bay those from
+// `alike` on differ from the ones in the other bays.
+struct Facade {
+  int alike = 20;
+
+  // What one photo finds of the bays [from, to): descriptors with its own noise, places where
+  // `posed` puts them.
+  WallKeypoints See(int from, int to, const WallFromWall& posed, int photo) const {
+    WallKeypoints seen;
+    std::vector<float> rows;
+    Random noise(70 + photo);
+    for (int bay = from; bay < to; ++bay) {
+      for (int i = 0; i < kOfBay; ++i) {
+        Random place(100 + i);
+        const double x = kBay_m * bay + place.Uniform(0, kBay_m);
+        const Vector2d at = posed * Eigen::Vector3d(x, place.Uniform(0, 6), 1);
+        seen.places.push_back({static_cast<float>(at.x()), static_cast<float>(at.y()), 0.05F});
+        Random look(i < alike ? 500 + i : 5000 + i + kOfBay * bay);
+        for (int k = 0; k < kDescriptorSize; ++k) {
+          rows.push_back(
+              static_cast<float>(std::max(0.0, look.Uniform(0, 100) + noise.Uniform(-15, 15))));
+        }
+      }
+    }
+    seen.descriptors = UnitRows(rows);
+    return seen;
+  }
+};
+
+WallFromWall Posed(const Vector2d& shift, double scale) {
+  WallFromWall posed;
+  posed << scale, 0, shift.x(), 0, scale, shift.y();
+  return posed;
+}
+
+// Both photos show six of the eight bays.
+std::optional<WallFromWall> Tell(const Facade& facade, const WallFromWall& second_posed,
+                                 double sigma_m) {
+  const WallKeypoints first = facade.See(0, 6, Posed({0, 0}, 1), 1);
+  const WallKeypoints second = facade.See(2, 8, second_posed, 2);
+  const double left = 2 * kBay_m + second_posed(0, 2);
+  return TellBay({first, second, sigma_m, [&](const Vector2d& place) { return place.x() > left; }});
+}
+
+TEST(TellBay, FindsTheBayThatDiffersFromTheOthersInHalfOfItsKeypoints) {
+  // Nearer to the next bay than to the right one, and two hundredths too large.
+  const WallFromWall posed = Posed({-1.7, 0.6}, 1.02);
+  const auto told = Tell({20}, posed, 1);
+  ASSERT_TRUE(told);
+  for (const Vector2d& at : {Vector2d(6, 1), Vector2d(10, 3), Vector2d(14, 5)}) {
+    EXPECT_LT((*told * at.homogeneous() - posed * at.homogeneous()).norm(), 0.05);
+  }
+}
+
+TEST(TellBay, IsOfTwoMindsWhereBaysAreTheSame) {
+  EXPECT_FALSE(Tell({kOfBay}, Posed({-1.7, 0.6}, 1.02), 1));
+  EXPECT_FALSE(Tell({kOfBay}, Posed({0, 0}, 1), 1));
+  EXPECT_FALSE(Tell({kOfBay - 1}, Posed({0, 0}, 1), 1));  // too few to tell
+}
+
+TEST(TellBay, BelievesNoShiftThatPosesRuleOut) {
+  EXPECT_FALSE(Tell({20}, Posed({-1.7, 0.6}, 1.02), 0.3));
+}
+
+TEST(TellBay, SaysNothingOfNothing) {
+  const WallKeypoints none;
+  const auto everywhere = [](const Vector2d&) { return true; };
+  EXPECT_FALSE(TellBay({none, none, 1, everywhere}));
+  const WallKeypoints some = Facade{}.See(0, 2, Posed({0, 0}, 1), 1);
+  EXPECT_FALSE(TellBay({some, none, 1, everywhere}));
+  EXPECT_FALSE(TellBay({none, some, 1, everywhere}));
+}
+
+}  // namespace
+}  // namespace stucco::test
