@@ -100,6 +100,19 @@ CellCount CountCells(const PointStream& stream, const Eigen::AlignedBox3d& box, 
   return result;
 }
 
+// Points that fall on each cell of a surface, when points at random occupy this share of as many
+// cells as there are points: solves (1 - exp(-x)) / x = share. Few for each means hardly fewer
+// cells than points, whatever their size.
+double PointsPerCell(double share) {
+  double low = 0;
+  double high = 1 / share;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    ((1 - std::exp(-middle)) / middle > share ? low : high) = middle;
+  }
+  return high;
+}
+
 // The cell size that leaves about nine tenths of `max_points`; 0 when no thinning is needed.
 double ChooseCell(const PointStream& stream, const Eigen::AlignedBox3d& box, int max_points,
                   double min_cell) {
@@ -111,9 +124,11 @@ double ChooseCell(const PointStream& stream, const Eigen::AlignedBox3d& box, int
   const CellCount count = CountCells(stream, box, guess, 2 * most);
   if (count.kept <= most) return min_cell > finest ? min_cell : 0;
   if (count.cells <= most && count.cell <= least) return least;
-  // Points lie on surfaces: the number of cells falls with the square of their side.
-  const double wanted = 0.88 * max_points;
-  return std::max(least, count.cell * std::sqrt(static_cast<double>(count.cells) / wanted));
+  // Points lie on surfaces: those that fall on a cell grow with the square of its side.
+  const auto points = static_cast<double>(count.kept);
+  const double now = PointsPerCell(static_cast<double>(count.cells) / points);
+  const double wanted = PointsPerCell(0.88 * max_points / points);
+  return std::max(least, count.cell * std::sqrt(wanted / now));
 }
 
 // Running sums of the points of one cell.
@@ -198,7 +213,7 @@ Samples ThinCloud(const PointStream& stream, std::span<const SurveyPhoto> photos
 
 Samples ThinInside(const Eigen::AlignedBox3d& box, const PointStream& stream,
                    std::span<const SurveyPhoto> photos, int max_points, double cell) {
-  constexpr double kLarger = 1.08;  // about 15 % fewer cells
+  double larger = 1.08;  // about 15 % fewer cells
   Samples samples;
   PlaceOfPhoto places;
   for (const SurveyPhoto& photo : photos) {
@@ -209,7 +224,8 @@ Samples ThinInside(const Eigen::AlignedBox3d& box, const PointStream& stream,
   samples.cell = cell;
   CellSums cells = SumCells(stream, places, box, samples.cell, most);
   while (cells.too_many) {
-    samples.cell *= kLarger;
+    samples.cell *= larger;
+    larger *= larger;  // each try reads all points
     cells = SumCells(stream, places, box, samples.cell, most);
   }
   samples.dropped = cells.dropped;

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -29,6 +30,7 @@ constexpr double kLeastCosine = 0.966;  // 15 degrees: a frame from GPS may be t
 constexpr double kLeastOverlap = 0.5;   // of the shorter of wall and facade
 constexpr double kLeastFound = 0.5;     // of all walls, or of all facades, by length and nearness
 constexpr double kShortest_m = 0.1;     // as the planner's shortest facade
+constexpr size_t kEnoughWalls = 6000;   // to try all shifts with
 
 double LengthOf_m(const Segment2d& line) {
   return (line.b - line.a).norm();
@@ -62,16 +64,59 @@ struct WallBesideFacade {
   }
 };
 
+// Facades by squares of the ground plan that a shift may bring them into.
+class NearFacades {
+ public:
+  explicit NearFacades(const std::vector<Segment2d>& facades) {
+    for (size_t f = 0; f < facades.size(); ++f) {
+      const double around = kMostShift_m + kReach_m;
+      ForSquares(facades[f], around, [&](const Square& at) { squares_[at].push_back(f); });
+    }
+  }
+
+  // Ascending.
+  std::vector<size_t> Of(const Segment2d& wall) const {
+    std::vector<size_t> near;
+    ForSquares(wall, 0, [&](const Square& at) {
+      const auto found = squares_.find(at);
+      if (found == squares_.end()) return;
+      near.insert(near.end(), found->second.begin(), found->second.end());
+    });
+    std::ranges::sort(near);
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    return near;
+  }
+
+ private:
+  using Square = std::pair<int, int>;
+
+  template <typename Visit>
+  static void ForSquares(const Segment2d& line, double around, const Visit& visit) {
+    constexpr double kSide_m = 20;
+    const Eigen::Array2i low =
+        ((line.a.cwiseMin(line.b).array() - around) / kSide_m).floor().cast<int>();
+    const Eigen::Array2i high =
+        ((line.a.cwiseMax(line.b).array() + around) / kSide_m).floor().cast<int>();
+    for (int x = low.x(); x <= high.x(); ++x) {
+      for (int y = low.y(); y <= high.y(); ++y) visit(Square{x, y});
+    }
+  }
+
+  std::map<Square, std::vector<size_t>> squares_;
+};
+
 // The pairs that some shift may bring together, by wall, then facade.
 std::vector<WallBesideFacade> FindCandidates(const std::vector<Segment2d>& walls,
                                              const std::vector<Segment2d>& facades) {
+  const NearFacades near(facades);
   std::vector<WallBesideFacade> candidates;
   for (size_t w = 0; w < walls.size(); ++w) {
+    if (!(LengthOf_m(walls[w]) >= kShortest_m)) continue;
     const Eigen::Vector2d middle = (walls[w].a + walls[w].b) / 2;
     const Eigen::Vector2d wall_along = (walls[w].b - walls[w].a).normalized();
-    for (size_t f = 0; f < facades.size(); ++f) {
+    for (const size_t f : near.Of(walls[w])) {
       const double length = LengthOf_m(facades[f]);
-      if (!(length >= kShortest_m) || !(LengthOf_m(walls[w]) >= kShortest_m)) continue;
+      if (!(length >= kShortest_m)) continue;
       WallBesideFacade pair{.wall = static_cast<int>(w), .facade = static_cast<int>(f)};
       pair.along = (facades[f].b - facades[f].a) / length;
       pair.length_m = length;
@@ -84,6 +129,14 @@ std::vector<WallBesideFacade> FindCandidates(const std::vector<Segment2d>& walls
       candidates.push_back(pair);
     }
   }
+  return candidates;
+}
+
+// Those of some walls that are spread over all.
+std::vector<WallBesideFacade> CandidatesOfSome(std::vector<WallBesideFacade> candidates,
+                                               size_t walls) {
+  const size_t step = walls / kEnoughWalls + 1;
+  std::erase_if(candidates, [&](const WallBesideFacade& pair) { return pair.wall % step != 0; });
   return candidates;
 }
 
@@ -231,7 +284,8 @@ std::optional<Eigen::Vector2d> FindShift(const std::vector<Segment2d>& walls,
   const std::vector<WallBesideFacade> candidates = FindCandidates(walls, facades);
   if (candidates.empty()) return std::nullopt;
   const Eigen::Vector2d shift =
-      Refined(candidates, walls.size(), BestOnGrid(candidates, walls.size()));
+      Refined(candidates, walls.size(),
+              BestOnGrid(CandidatesOfSome(candidates, walls.size()), walls.size()));
   if (!IsOfThisPlace(MatchesOf(candidates, walls.size(), shift), walls, facades, shift))
     return std::nullopt;
   return shift;

@@ -20,12 +20,12 @@
 namespace stucco {
 namespace {
 
-constexpr double kSinOfWall = 0.26;    // 15 degrees
-constexpr double kTraceCell_m = 0.5;   // about a window's width: finer tells no more of a shift
-constexpr size_t kMostTraces = 6000;   // larger cells where a town has more
-constexpr double kLeastHeight_m = 1;   // of what stands upright in a cell
-constexpr double kBesideCloud_m = 10;  // facades with no point this near were not flown
-constexpr double kRing_m = 4;          // around a building, where its ground is looked for
+constexpr double kSinOfWall = 0.26;     // 15 degrees
+constexpr double kTraceCell_m = 0.5;    // about a window's width: finer tells no more of a shift
+constexpr size_t kEnoughTraces = 6000;  // to tell a turn by
+constexpr double kLeastHeight_m = 1;    // of what stands upright in a cell
+constexpr double kBesideCloud_m = 10;   // facades with no point this near were not flown
+constexpr double kRing_m = 4;           // around a building, where its ground is looked for
 
 // Samples of one cell of the ground plan that look the same way.
 struct Pile {
@@ -171,6 +171,17 @@ void Refine(const std::vector<Segment2d>& traces, const std::vector<Segment2d>& 
   }
 }
 
+// Of a town so many that are spread over it.
+std::vector<Segment2d> EnoughOf(const std::vector<Segment2d>& traces) {
+  if (traces.size() <= kEnoughTraces) return traces;
+  std::vector<Segment2d> some;
+  some.reserve(kEnoughTraces);
+  for (size_t i = 0; i < kEnoughTraces; ++i) {
+    some.push_back(traces[i * traces.size() / kEnoughTraces]);
+  }
+  return some;
+}
+
 // The motion that brings the facades onto what stands upright, or nothing where they do not match.
 std::optional<Motion> MotionOnto(const std::vector<Segment2d>& traces,
                                  const std::vector<Segment2d>& facades) {
@@ -180,7 +191,7 @@ std::optional<Motion> MotionOnto(const std::vector<Segment2d>& traces,
   motion.shift = *shift;
   for (const Segment2d& facade : facades) motion.center += (facade.a + facade.b) / 2;
   motion.center /= static_cast<double>(facades.size());
-  Refine(traces, facades, motion);
+  Refine(EnoughOf(traces), facades, motion);
   return motion;
 }
 
@@ -254,13 +265,7 @@ bool LooksLikeWall(const Eigen::Vector3d& normal) {
 }
 
 std::vector<Segment2d> WallTraces(const Samples& upright) {
-  std::vector<Segment2d> traces;
-  double cell = kTraceCell_m;
-  do {
-    traces = TracesOf(upright, cell);
-    cell *= 2;
-  } while (traces.size() > kMostTraces);
-  return traces;
+  return TracesOf(upright, std::max(kTraceCell_m, upright.cell));
 }
 
 MapRegistration RegisterMap(const UprightSurvey& survey, const OutlineMap& map) {

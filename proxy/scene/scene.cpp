@@ -64,8 +64,9 @@ CloudScale PrepareSamples(const ProxyInput& input, const ProxyOptions& options,
 }
 
 // Says when points too far apart, by `max_points` or in the cloud itself, cost details.
-void WarnOfCoarseness(const CloudScale& scale, const Georef& georef, const ProxyOptions& options,
+void WarnOfCoarseness(const CloudScale& scale, const ProxyInput& input, const ProxyOptions& options,
                       const PlanarScene& scene, ProxyFindings& findings) {
+  const Georef& georef = input.georef;
   CloudScale dense = scale;
   dense.spacing = 0;
   const Tolerances wanted = DeriveTolerances(dense, georef.metric, options);
@@ -75,14 +76,17 @@ void WarnOfCoarseness(const CloudScale& scale, const Georef& georef, const Proxy
       got.fill_gap <= kWorthAWord * wanted.fill_gap) {
     return;
   }
+  const std::string thinned =
+      std::string(input.plan ? "Buildings of the map are looked at closely all the same. For what "
+                               "else there is, raise"
+                             : "Raise") +
+      " proxy.max_points (a million points take about 0.3 GB), or divide the survey.";
   findings.warnings.push_back(fmt::format(
       "points {:.3g} {} apart tell few details: the level of detail is {:.3g} instead of {:.3g}, "
       "gaps are closed up to {:.3g}, facets below an area of {:.3g} are left out. {}",
       scale.spacing, georef.metric ? "m" : "units", got.level_of_detail, wanted.level_of_detail,
       got.fill_gap, got.min_area,
-      scene.samples.cell > 0 ? "Raise proxy.max_points (a million points take about 0.3 GB), or "
-                               "divide the survey."
-                             : "A finer dense quality gives more points."));
+      scene.samples.cell > 0 ? thinned : "A finer dense quality gives more points."));
 }
 
 std::vector<Plane> PlanesOf(const ProxyOptions& options, int threads, PlanarScene& scene) {
@@ -148,7 +152,7 @@ PlanarScene UnderstandCloud(const ProxyInput& input, const ProxyOptions& options
       fmt::format("{} points thinned to {}, {} dropped; noise {:.4g}, level of detail {:.4g} {}",
                   input.cloud.count, scene.samples.size(), scene.samples.dropped, scale.noise,
                   scene.tolerances.level_of_detail, georef.metric ? "m" : "units"));
-  WarnOfCoarseness(scale, georef, options, scene, findings);
+  WarnOfCoarseness(scale, input, options, scene, findings);
   auto planes = PlanesOf(options, threads, scene);
   if (planes.empty()) {
     throw Error(ErrorKind::kStageFailed,

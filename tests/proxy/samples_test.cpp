@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <random>
 
 #include "proxy/cloud/grid_index.h"
 #include "proxy/cloud/scale.h"
@@ -53,6 +54,24 @@ TEST(ThinCloud, StaysBelowTheLimitAndKeepsEveryPointsWeight) {
   for (const int w : samples.weights) weight += w;
   EXPECT_EQ(weight, 40000);
   for (const auto& p : samples.positions) EXPECT_NEAR(p.z(), 1, 1e-12);
+}
+
+// Cells somewhat larger than points lie apart are hardly fewer than the points.
+TEST(ThinCloud, FindsTheCellsOfHardlyTooManyPointsAtOnce) {
+  PointCloud cloud;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(0, 100);
+  for (int i = 0; i < 21000; ++i) cloud.positions.emplace_back(place(random), place(random), 0);
+  const PointStream stream = StreamOf(cloud);
+  int readings = 0;
+  const PointStream counted{stream.count, [&](const auto& visit) {
+                              ++readings;
+                              stream.for_each(visit);
+                            }};
+  const Samples samples = ThinCloud(counted, {}, 20000, 0);
+  EXPECT_LE(samples.size(), 20000U);
+  EXPECT_GE(samples.size(), 15000U);
+  EXPECT_LE(readings, 4);  // the box, the count, the sums; and once more at most
 }
 
 TEST(ThinCloud, GivesTheSameFromAFileAsFromMemory) {
