@@ -193,7 +193,7 @@ Reconstructed PlaceInRounds(const PlaceInput& input, MatchedPairs& matched, Scen
   for (int round = 0; round < kMostRounds && NumRegistered(scene) > before; ++round) {
     before = NumRegistered(scene);
     ApplyRecords(placed.records, MeasureRecordErrors(placed.records, scene), scene);
-    const auto poses = KnowPoses(input.guidance, placed.records, scene);
+    const auto poses = KnowPoses({input.guidance, input.repeating, placed.records}, scene);
     if (MatchAgain({input.options, set, input.features, input.repeating, poses, input.context},
                    all) == 0) {
       break;

@@ -73,9 +73,31 @@ Eigen::Vector2d Refined(const std::vector<NearWall>& points, Eigen::Vector2d shi
   return shift;
 }
 
-std::optional<KnownPose> KnowPose(const Scene& scene, int index) {
+// By photo: many points hold it, and what it shows does not repeat itself.
+std::vector<bool> FindWitnesses(const OnRepeatingWalls& repeating, const Scene& scene) {
+  std::vector<bool> witnesses(scene.photos.size());
+  for (int i = 0; i < static_cast<int>(witnesses.size()); ++i) {
+    witnesses[i] = scene.photos[i].pose && !repeating.IsMostOf(i) &&
+                   NumUsedObservations(scene, i) >= kEnoughObservations;
+  }
+  return witnesses;
+}
+
+// Points of the photo that witnesses see too.
+int NumWitnessed(const Scene& scene, int photo, const std::vector<bool>& witnesses) {
+  const std::vector<int> tracks = TracksSeenBy(scene, photo);
+  return static_cast<int>(std::ranges::count_if(tracks, [&](int track) {
+    return std::ranges::any_of(scene.tracks[track].elements, [&](const SceneElement& e) {
+      return e.used && e.photo != photo && witnesses[e.photo];
+    });
+  }));
+}
+
+std::optional<KnownPose> KnowPose(const Scene& scene, int index,
+                                  const std::vector<bool>& witnesses) {
   const ScenePhoto& photo = scene.photos[index];
-  if (photo.pose && NumUsedObservations(scene, index) >= kEnoughObservations) {
+  if (photo.pose &&
+      (witnesses[index] || NumWitnessed(scene, index, witnesses) >= kEnoughObservations)) {
     return KnownPose{*photo.pose, kKnownSigma_m, kKnownSigma_rad};
   }
   const auto recorded = RecordedPose(photo);
@@ -120,19 +142,18 @@ Eigen::Vector2d ShiftOntoWalls(std::span<const Eigen::Vector3d> points,
   return Refined(near, best);
 }
 
-std::vector<std::optional<KnownPose>> KnowPoses(const Guidance& guidance,
-                                                const std::vector<PoseRecord>& records,
-                                                const Scene& scene) {
-  assert(guidance.views && records.size() == scene.photos.size());
-  Eigen::Vector3d plan_from_world = PlanFromRecords(*guidance.views, records);
+std::vector<std::optional<KnownPose>> KnowPoses(const KnowInput& input, const Scene& scene) {
+  assert(input.guidance.views && input.records.size() == scene.photos.size());
+  Eigen::Vector3d plan_from_world = PlanFromRecords(*input.guidance.views, input.records);
   std::vector<Eigen::Vector3d> points;
   for (const SceneTrack& track : scene.tracks) {
     if (track.position) points.push_back(*track.position + plan_from_world);
   }
-  plan_from_world.head<2>() += ShiftOntoWalls(points, guidance.facades);
+  plan_from_world.head<2>() += ShiftOntoWalls(points, input.guidance.facades);
+  const std::vector<bool> witnesses = FindWitnesses(input.repeating, scene);
   std::vector<std::optional<KnownPose>> known(scene.photos.size());
   for (size_t i = 0; i < known.size(); ++i) {
-    known[i] = KnowPose(scene, static_cast<int>(i));
+    known[i] = KnowPose(scene, static_cast<int>(i), witnesses);
     if (!known[i]) continue;
     Pose& pose = known[i]->cam_from_plan;
     pose = Pose{pose.rotation, -(pose.rotation * (pose.Center() + plan_from_world))};

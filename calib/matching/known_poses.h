@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calib/matching/guidance.h"
+#include "calib/matching/repeating_walls.h"
 #include "calib/records/records.h"
 #include "calib/scene/scene.h"
 #include "survey/plan.h"
@@ -22,12 +23,18 @@ struct KnownPose {
   double sigma_rad = 0;  // about each axis
 };
 
+struct KnowInput {
+  const Guidance& guidance;
+  const OnRepeatingWalls& repeating;
+  const std::vector<PoseRecord>& records;
+};
+
 // By photo: its pose where it has a sure one, else its record, corrected by what records of its
-// flight err by and as sure as these turned out to be; nothing where it has neither. Requires a
-// scene in the frame of the records, whose priors were corrected (ApplyRecords).
-std::vector<std::optional<KnownPose>> KnowPoses(const Guidance& guidance,
-                                                const std::vector<PoseRecord>& records,
-                                                const Scene& scene);
+// flight err by and as sure as these turned out to be; nothing where it has neither. Photos of
+// which most shows walls that repeat themselves may hang together as they like: their poses are
+// sure by what they share with others only. Requires a scene in the frame of the records, whose
+// priors were corrected (ApplyRecords).
+std::vector<std::optional<KnownPose>> KnowPoses(const KnowInput& input, const Scene& scene);
 
 // The level shift, metres, that brings most points onto walls: receivers and maps are off against
 // each other by metres. The best of a grid of 6 m each way, refined by medians; zero where hardly

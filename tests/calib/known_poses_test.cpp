@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
+
 #include "tests/calib/made_records.h"
 #include "tests/site/made_plan.h"
 
@@ -43,35 +45,69 @@ TEST(ShiftOntoWalls, LeavesPointsThatLieOnNone) {
   EXPECT_EQ(ShiftOntoWalls({}, TwoHouses().facades), Vector2d(0, 0));
 }
 
-TEST(KnowPoses, TakesTheRecordWhereNoPoseIsSure) {
-  Scene scene = MakeScene({.num_photos = 6, .num_points = 400});
-  const std::vector<PoseRecord> records = MakeRecords(scene, {});
-  ApplyRecords(records, MeasureRecordErrors(records, scene), scene);
-  Guidance guidance;
-  // The plan's frame is the records', 100 m east.
-  std::vector<std::optional<Pose>> expected;
-  for (const PoseRecord& record : records) {
-    const Vector3d center = record.position->position + Vector3d(100, 0, 0);
-    expected.emplace_back(Pose{*record.gimbal, -(*record.gimbal * center)});
+class KnowPosesTest : public testing::Test {
+ protected:
+  KnowPosesTest() {
+    scene_ = MakeScene({.num_photos = 6, .num_points = 400});
+    records_ = MakeRecords(scene_, {});
+    ApplyRecords(records_, MeasureRecordErrors(records_, scene_), scene_);
+    // The plan's frame is the records', 100 m east.
+    std::vector<std::optional<Pose>> expected;
+    for (const PoseRecord& record : records_) {
+      const Vector3d center = record.position->position + kEast;
+      expected.emplace_back(Pose{*record.gimbal, -(*record.gimbal * center)});
+    }
+    guidance_.views.emplace(ExpectedViews{expected, {}, {}, Occluders({}, {})});
+    repeating_.wall_of.resize(scene_.photos.size());
   }
-  guidance.views.emplace(ExpectedViews{expected, {}, {}, Occluders({}, {})});
-  scene.photos[2].pose.reset();
-  scene.photos[3].pose.reset();
-  scene.photos[3].prior.reset();
-  const auto known = KnowPoses(guidance, records, scene);
+
+  // All that they show is of a wall that repeats itself.
+  void LetRepeat(std::initializer_list<int> photos) {
+    for (const int photo : photos) {
+      repeating_.wall_of[photo].assign(scene_.photos[photo].keypoints.size(), 0);
+    }
+  }
+
+  std::vector<std::optional<KnownPose>> Know() const {
+    return KnowPoses({guidance_, repeating_, records_}, scene_);
+  }
+
+  inline static const Vector3d kEast{100, 0, 0};
+  Scene scene_;
+  std::vector<PoseRecord> records_;
+
+ private:
+  Guidance guidance_;
+  OnRepeatingWalls repeating_;
+};
+
+TEST_F(KnowPosesTest, TakesTheRecordWhereNoPoseIsSure) {
+  scene_.photos[2].pose.reset();
+  scene_.photos[3].pose.reset();
+  scene_.photos[3].prior.reset();
+  const auto known = Know();
   ASSERT_EQ(known.size(), 6U);
   EXPECT_FALSE(known[3]);
   ASSERT_TRUE(known[1] && known[2]);
   EXPECT_LT(known[1]->sigma_m, 0.1);
-  EXPECT_LT(
-      (known[1]->cam_from_plan.Center() - scene.photos[1].pose->Center() - Vector3d(100, 0, 0))
-          .norm(),
-      1e-6);
-  EXPECT_GE(known[2]->sigma_m, scene.photos[2].prior->sigma_horizontal_m);
-  EXPECT_LT(
-      (known[2]->cam_from_plan.Center() - scene.photos[2].prior->position - Vector3d(100, 0, 0))
-          .norm(),
-      1e-6);
+  EXPECT_LT((known[1]->cam_from_plan.Center() - scene_.photos[1].pose->Center() - kEast).norm(),
+            1e-6);
+  EXPECT_GE(known[2]->sigma_m, scene_.photos[2].prior->sigma_horizontal_m);
+  EXPECT_LT((known[2]->cam_from_plan.Center() - scene_.photos[2].prior->position - kEast).norm(),
+            1e-6);
+}
+
+TEST_F(KnowPosesTest, TakesThePoseOfWhatHangsOnOthers) {
+  LetRepeat({4, 5});
+  EXPECT_LT(Know()[4]->sigma_m, 0.1);
+}
+
+TEST_F(KnowPosesTest, TakesTheRecordsOfPhotosThatHangOnEachOther) {
+  LetRepeat({0, 1, 2, 3, 4, 5});
+  for (const auto& known : Know()) {
+    ASSERT_TRUE(known);
+    EXPECT_GE(known->sigma_m, scene_.photos[0].prior->sigma_horizontal_m);
+  }
 }
 
 }  // namespace
