@@ -122,29 +122,6 @@ bool IsSure(const BestTwo& match) {
   return keypoints.descriptors.size() == keypoints.places.size() * kDescriptorSize;
 }
 
-// Keypoints in the order of their places along the wall.
-struct AlongOrder {
-  std::vector<int> index;
-  std::vector<float> along_m;
-  std::vector<int16_t> descriptors;
-};
-
-AlongOrder SortAlong(const WallKeypoints& keypoints) {
-  AlongOrder order;
-  order.index.resize(keypoints.places.size());
-  std::iota(order.index.begin(), order.index.end(), 0);
-  std::stable_sort(order.index.begin(), order.index.end(), [&](int a, int b) {
-    return keypoints.places[a].along_m < keypoints.places[b].along_m;
-  });
-  for (const int i : order.index) {
-    order.along_m.push_back(keypoints.places[i].along_m);
-    const auto row =
-        keypoints.descriptors.begin() + static_cast<std::ptrdiff_t>(i) * kDescriptorSize;
-    order.descriptors.insert(order.descriptors.end(), row, row + kDescriptorSize);
-  }
-  return order;
-}
-
 // Where keypoints of the second photo may lie for those of the first: shifted on the wall and about
 // there within `reach_m`; what is as similar within `rivals_m` makes a match doubtful.
 struct Window {
@@ -240,6 +217,22 @@ std::optional<Eigen::Vector2d> CommonShift(const WallKeypoints& first, const Wal
 }
 
 }  // namespace
+
+AlongOrder SortAlong(const WallKeypoints& keypoints) {
+  AlongOrder order;
+  order.index.resize(keypoints.places.size());
+  std::iota(order.index.begin(), order.index.end(), 0);
+  std::stable_sort(order.index.begin(), order.index.end(), [&](int a, int b) {
+    return keypoints.places[a].along_m < keypoints.places[b].along_m;
+  });
+  for (const int i : order.index) {
+    order.along_m.push_back(keypoints.places[i].along_m);
+    const auto row =
+        keypoints.descriptors.begin() + static_cast<std::ptrdiff_t>(i) * kDescriptorSize;
+    order.descriptors.insert(order.descriptors.end(), row, row + kDescriptorSize);
+  }
+  return order;
+}
 
 Features DetectOnWall(const Image& image, const Camera& camera, const WallView& view,
                       int max_features) {

@@ -53,6 +53,15 @@ struct WallKeypoints {
   std::vector<OnWall> places;
 };
 
+// Keypoints in the order of their places along the wall.
+struct AlongOrder {
+  std::vector<int> index;
+  std::vector<float> along_m;
+  std::vector<int16_t> descriptors;
+};
+
+AlongOrder SortAlong(const WallKeypoints& keypoints);
+
 // Mutual nearest neighbours among keypoints of like size within `reach_m` of each other on the
 // wall, which pass the ratio test among these.
 std::vector<Match> MatchWithin(const WallKeypoints& first, const WallKeypoints& second,

@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -52,30 +51,22 @@ Vector2d MiddleOf(const WallKeypoints& keypoints) {
 
 Likes FindLikes(const BayQuestion& question, double reach_m) {
   const WallKeypoints& second = question.second;
-  std::vector<int> order(second.places.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, [&](int i) { return second.places[i].along_m; });
-  std::vector<float> along;
-  std::vector<int16_t> rows;
-  for (const int i : order) {
-    along.push_back(second.places[i].along_m);
-    const auto row = second.descriptors.begin() + static_cast<std::ptrdiff_t>(i) * kDescriptorSize;
-    rows.insert(rows.end(), row, row + kDescriptorSize);
-  }
+  const AlongOrder columns = SortAlong(second);
   Likes likes(question.first.places.size());
-  std::vector<int32_t> products(order.size());
+  std::vector<int32_t> products(second.places.size());
   for (size_t i = 0; i < likes.size(); ++i) {
     const OnWall& here = question.first.places[i];
     const auto column = [&](double at) {
-      return std::lower_bound(along.begin(), along.end(), at) - along.begin();
+      return std::lower_bound(columns.along_m.begin(), columns.along_m.end(), at) -
+             columns.along_m.begin();
     };
     const auto begin = column(here.along_m - reach_m);
     const auto end = column(here.along_m + reach_m);
     DotProducts(question.first.descriptors.data() + i * kDescriptorSize,
-                rows.data() + begin * kDescriptorSize, static_cast<int>(end - begin),
+                columns.descriptors.data() + begin * kDescriptorSize, static_cast<int>(end - begin),
                 products.data());
     for (auto c = begin; c < end; ++c) {
-      const OnWall& there = second.places[order[c]];
+      const OnWall& there = second.places[columns.index[c]];
       const double size = there.scale_m / here.scale_m;
       if (std::abs(there.z_m - here.z_m) > reach_m || size > kLikeBlob || size * kLikeBlob < 1)
         continue;
