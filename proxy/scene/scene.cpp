@@ -77,8 +77,8 @@ void WarnOfCoarseness(const CloudScale& scale, const ProxyInput& input, const Pr
     return;
   }
   const std::string thinned =
-      std::string(input.plan ? "Buildings of the map are looked at closely all the same. For what "
-                               "else there is, raise"
+      std::string(input.plan ? "Buildings that the map gives shape are looked at closely all the "
+                               "same. For what else there is, raise"
                              : "Raise") +
       " proxy.max_points (a million points take about 0.3 GB), or divide the survey.";
   findings.warnings.push_back(fmt::format(
