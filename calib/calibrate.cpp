@@ -22,6 +22,7 @@
 #include "calib/mapping/mapper.h"
 #include "calib/mapping/wrong_poses.h"
 #include "calib/matching/detect_photos.h"
+#include "calib/matching/known_poses.h"
 #include "calib/matching/match_photos.h"
 #include "calib/matching/repeating_walls.h"
 #include "calib/parts/parts.h"
@@ -266,12 +267,13 @@ std::map<int, std::string> Unregistered(const MapperOptions& mapper,
 }
 
 // A pose that little holds may be a bay off where a photo shows hardly anything but walls that
-// repeat themselves.
+// repeat themselves, unless photos that show something else say where it is.
 void TakeWeak(const OnRepeatingWalls& repeating, const std::vector<PoseSigma>& sigmas, Scene& scene,
               SceneParts& parts) {
   if (repeating.period_m.empty()) return;
   std::vector<int> taken = WeakPoses(scene, sigmas);
-  std::erase_if(taken, [&](int photo) { return !repeating.IsMostOf(photo); });
+  const std::vector<bool> surely = SurelyPosed(repeating, scene);
+  std::erase_if(taken, [&](int photo) { return !repeating.IsMostOf(photo) || surely[photo]; });
   TakePoses(taken, scene);
   for (const int photo : taken) parts.part_of_photo[photo] = -1;
 }
@@ -299,7 +301,7 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   const Guidance guidance = GuideByPlan(options, photos.captures, photos.usable, context);
   const PhotoSet set{photos.captures, photos.usable, guidance};
   DetectedFeatures features = DetectAll(options, set, context);
-  const OnRepeatingWalls repeating = FindOnRepeatingWalls({options, set, context}, features);
+  OnRepeatingWalls repeating = FindOnRepeatingWalls({options, set, context}, features);
   MatchedPairs matched = MatchAll(options, set, features, repeating, context);
   DropDescriptors(features);  // what is matched again reads its own
 
@@ -309,8 +311,8 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   mapper.threads = context.threads;
   mapper.adjust_threads = options.fast_adjustment ? context.threads : 1;
   Scene scene;
-  Reconstructed placed = PlacePhotos(
-      {options, mapper, photos, guidance, features, repeating, context}, matched, scene);
+  Reconstructed placed = PlacePhotos({options, mapper, photos, guidance, features, context},
+                                     repeating, matched, scene);
   const std::vector<VerifiedPair>& pairs = matched.verified;
   std::vector<std::string> findings = DescribePanoramas(scene, pairs, photos.usable);
   if (NumRegistered(scene) < 2) ThrowNothingRegistered(pairs, findings);

@@ -181,24 +181,36 @@ void NoteRepeating(const Guidance& guidance, const OnRepeatingWalls& repeating,
                   fmt::join(names, ", ")));
 }
 
+std::vector<std::optional<Pose>> SurePoses(const std::vector<std::optional<KnownPose>>& known) {
+  std::vector<std::optional<Pose>> poses(known.size());
+  for (size_t i = 0; i < known.size(); ++i) {
+    if (known[i] && !known[i]->is_recorded) poses[i] = known[i]->cam_from_plan;
+  }
+  return poses;
+}
+
 // Those that hang on what repeats itself are placed once others tell where they are.
-Reconstructed PlaceInRounds(const PlaceInput& input, MatchedPairs& matched, Scene& scene) {
+Reconstructed PlaceInRounds(const PlaceInput& input, OnRepeatingWalls& repeating,
+                            MatchedPairs& matched, Scene& scene) {
   const Scene start = scene;
-  MatchedPairs all = matched;
+  const MatchedPairs first = matched;
   Reconstructed placed = PlaceMatched(input, matched.verified, scene);
   if (!placed.is_in_frame) return placed;
-  NoteRepeating(input.guidance, input.repeating, input.context);
+  NoteRepeating(input.guidance, repeating, input.context);
   const PhotoSet set{input.photos.captures, input.photos.usable, input.guidance};
   int before = 0;
   for (int round = 0; round < kMostRounds && NumRegistered(scene) > before; ++round) {
     before = NumRegistered(scene);
     ApplyRecords(placed.records, MeasureRecordErrors(placed.records, scene), scene);
-    const auto poses = KnowPoses({input.guidance, input.repeating, placed.records}, scene);
-    if (MatchAgain({input.options, set, input.features, input.repeating, poses, input.context},
-                   all) == 0) {
+    const auto poses = KnowPoses({input.guidance, repeating, placed.records}, scene);
+    LookAgain({input.options, set, input.context}, input.features, SurePoses(poses), repeating);
+    MatchedPairs again = first;
+    DropOnRepeatingWalls(repeating, static_cast<size_t>(input.mapper.min_inliers), again.verified);
+    if (MatchAgain({input.options, set, input.features, repeating, poses, input.context}, again) ==
+        0) {
       break;
     }
-    matched = all;
+    matched = std::move(again);
     scene = start;
     placed = PlaceMatched(input, matched.verified, scene);
   }
@@ -207,10 +219,11 @@ Reconstructed PlaceInRounds(const PlaceInput& input, MatchedPairs& matched, Scen
 
 }  // namespace
 
-Reconstructed PlacePhotos(const PlaceInput& input, MatchedPairs& matched, Scene& scene) {
+Reconstructed PlacePhotos(const PlaceInput& input, OnRepeatingWalls& repeating,
+                          MatchedPairs& matched, Scene& scene) {
   scene = MakeScene(input.options, input.photos, input.features);
   GuessFocalLengths(input.photos, matched.verified, input.context, scene);
-  if (!input.repeating.period_m.empty()) return PlaceInRounds(input, matched, scene);
+  if (!repeating.period_m.empty()) return PlaceInRounds(input, repeating, matched, scene);
   return PlaceMatched(input, matched.verified, scene);
 }
 

@@ -39,14 +39,15 @@ struct PlaceInput {
   const UsablePhotos& photos;
   const Guidance& guidance;
   const DetectedFeatures& features;
-  const OnRepeatingWalls& repeating;
   const StageContext& context;
 };
 
 // Makes a scene of poses, cameras and points by the matches and by what photos and plan say of
 // where they were taken. Walls that repeat themselves are matched again as far as poses then tell
 // their bays apart (match_again.h), and photos placed anew, until no more of them have a pose.
-// `matched` holds the pairs that were used in the end.
-Reconstructed PlacePhotos(const PlaceInput& input, MatchedPairs& matched, Scene& scene);
+// `matched` holds the pairs that were used in the end, `repeating` what photos show of such walls
+// from there.
+Reconstructed PlacePhotos(const PlaceInput& input, OnRepeatingWalls& repeating,
+                          MatchedPairs& matched, Scene& scene);
 
 }  // namespace stucco

@@ -93,18 +93,15 @@ int NumWitnessed(const Scene& scene, int photo, const std::vector<bool>& witness
   }));
 }
 
-std::optional<KnownPose> KnowPose(const Scene& scene, int index,
-                                  const std::vector<bool>& witnesses) {
-  const ScenePhoto& photo = scene.photos[index];
-  if (photo.pose &&
-      (witnesses[index] || NumWitnessed(scene, index, witnesses) >= kEnoughObservations)) {
+std::optional<KnownPose> KnowPose(const ScenePhoto& photo, bool surely) {
+  if (surely) {
     return KnownPose{*photo.pose, kKnownSigma_m, kKnownSigma_rad};
   }
   const auto recorded = RecordedPose(photo);
   if (!recorded) return std::nullopt;
   return KnownPose{*recorded,
                    std::max(photo.prior->sigma_horizontal_m, photo.prior->sigma_vertical_m),
-                   photo.attitude->sigma_rad};
+                   photo.attitude->sigma_rad, true};
 }
 
 // From the frame of the records into that of the plan: medians, as single records may be wrong.
@@ -142,6 +139,16 @@ Eigen::Vector2d ShiftOntoWalls(std::span<const Eigen::Vector3d> points,
   return Refined(near, best);
 }
 
+std::vector<bool> SurelyPosed(const OnRepeatingWalls& repeating, const Scene& scene) {
+  const std::vector<bool> witnesses = FindWitnesses(repeating, scene);
+  std::vector<bool> surely = witnesses;
+  for (int i = 0; i < static_cast<int>(surely.size()); ++i) {
+    if (surely[i] || !scene.photos[i].pose) continue;
+    surely[i] = NumWitnessed(scene, i, witnesses) >= kEnoughObservations;
+  }
+  return surely;
+}
+
 std::vector<std::optional<KnownPose>> KnowPoses(const KnowInput& input, const Scene& scene) {
   assert(input.guidance.views && input.records.size() == scene.photos.size());
   Eigen::Vector3d plan_from_world = PlanFromRecords(*input.guidance.views, input.records);
@@ -150,10 +157,10 @@ std::vector<std::optional<KnownPose>> KnowPoses(const KnowInput& input, const Sc
     if (track.position) points.push_back(*track.position + plan_from_world);
   }
   plan_from_world.head<2>() += ShiftOntoWalls(points, input.guidance.facades);
-  const std::vector<bool> witnesses = FindWitnesses(input.repeating, scene);
+  const std::vector<bool> surely = SurelyPosed(input.repeating, scene);
   std::vector<std::optional<KnownPose>> known(scene.photos.size());
   for (size_t i = 0; i < known.size(); ++i) {
-    known[i] = KnowPose(scene, static_cast<int>(i), witnesses);
+    known[i] = KnowPose(scene.photos[i], surely[i]);
     if (!known[i]) continue;
     Pose& pose = known[i]->cam_from_plan;
     pose = Pose{pose.rotation, -(pose.rotation * (pose.Center() + plan_from_world))};

@@ -19,8 +19,9 @@ namespace stucco {
 // Where a photo was taken, as far as a first adjustment knows.
 struct KnownPose {
   Pose cam_from_plan;
-  double sigma_m = 0;    // per axis
-  double sigma_rad = 0;  // about each axis
+  double sigma_m = 0;        // per axis
+  double sigma_rad = 0;      // about each axis
+  bool is_recorded = false;  // by its record, for want of a sure pose
 };
 
 struct KnowInput {
@@ -29,11 +30,14 @@ struct KnowInput {
   const std::vector<PoseRecord>& records;
 };
 
-// By photo: its pose where it has a sure one, else its record, corrected by what records of its
-// flight err by and as sure as these turned out to be; nothing where it has neither. Photos of
-// which most shows walls that repeat themselves may hang together as they like: their poses are
-// sure by what they share with others only. Requires a scene in the frame of the records, whose
-// priors were corrected (ApplyRecords).
+// By photo: whether a hundred points hold its pose. Photos of which most shows walls that repeat
+// themselves may hang together as they like: of theirs only points count that such as show
+// something else see too.
+std::vector<bool> SurelyPosed(const OnRepeatingWalls& repeating, const Scene& scene);
+
+// By photo: its pose where it is sure, else its record, corrected by what records of its flight err
+// by and as sure as these turned out to be; nothing where it has neither. Requires a scene in the
+// frame of the records, whose priors were corrected (ApplyRecords).
 std::vector<std::optional<KnownPose>> KnowPoses(const KnowInput& input, const Scene& scene);
 
 // The level shift, metres, that brings most points onto walls: receivers and maps are off against

@@ -19,6 +19,11 @@ struct AgainInput {
   const StageContext& context;
 };
 
+// Takes matches out that join what photos show of such walls, and pairs that fewer than
+// `least_matches` are left of: told by records that are off, some were taken for plain ones.
+void DropOnRepeatingWalls(const OnRepeatingWalls& repeating, size_t least_matches,
+                          std::vector<VerifiedPair>& pairs);
+
 // What photos show of walls that repeat themselves, matched with what an adjustment knows of their
 // poses: within half a period of where these put it, and only where poses are so sure that the next
 // bay is a thousand times less likely. A pair whose poses are not keeps what it has: several bays

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -187,28 +188,36 @@ std::map<int, double> FindRepeatingWalls(const DetectInput& input,
 }
 
 OnRepeatingWalls FindOnRepeatingWalls(const DetectInput& input, const DetectedFeatures& features) {
-  const PhotoSet& set = input.set;
   OnRepeatingWalls result;
-  result.wall_of.resize(set.photos.size());
-  if (!set.guidance.views) return result;
-  const ExpectedViews& views = *set.guidance.views;
+  result.wall_of.resize(input.set.photos.size());
+  if (!input.set.guidance.views) return result;
   result.period_m = FindRepeatingWalls(input, features);
   if (result.period_m.empty()) return result;
+  LookAgain(input, features, input.set.guidance.views->poses, result);
+  return result;
+}
+
+void LookAgain(const DetectInput& input, const DetectedFeatures& features,
+               const std::vector<std::optional<Pose>>& poses, OnRepeatingWalls& repeating) {
+  const PhotoSet& set = input.set;
+  assert(set.guidance.views && poses.size() == set.photos.size());
+  const ExpectedViews& views = *set.guidance.views;
   ParallelFor(set.photos.size(), input.context.threads, [&](size_t i) {
-    if (!views.poses[i]) return;
-    const std::vector<int> walls = WallsShown(views, static_cast<int>(i), result.period_m);
+    if (!poses[i]) return;
+    const std::vector<int> walls = WallsShown(views, static_cast<int>(i), repeating.period_m);
     if (walls.empty()) return;
     std::vector<WallView> of_walls;
     of_walls.reserve(walls.size());
     for (const int wall : walls) {
-      of_walls.push_back({set.guidance.facades[wall], {}, {}, *views.poses[i]});
+      of_walls.push_back({set.guidance.facades[wall], {}, {}, *poses[i]});
     }
     const Camera& camera = set.captures.cameras[set.photos[i]->camera].intrinsics;
+    std::vector<int>& wall_of = repeating.wall_of[i];
+    wall_of.clear();
     for (const Keypoint& k : features.plain[i].keypoints) {
-      result.wall_of[i].push_back(WallOf(k, camera, of_walls, walls, views.site));
+      wall_of.push_back(WallOf(k, camera, of_walls, walls, views.site));
     }
   });
-  return result;
 }
 
 }  // namespace stucco

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "calib/features/wall_features.h"
 #include "calib/matching/detect_photos.h"
 #include "calib/matching/photo_set.h"
+#include "survey/pose.h"
 
 namespace stucco {
 
@@ -43,5 +45,10 @@ struct OnRepeatingWalls {
 // From where the photos should be by their records, and a little beyond the walls' edges: these are
 // off.
 OnRepeatingWalls FindOnRepeatingWalls(const DetectInput& input, const DetectedFeatures& features);
+
+// The same from where photos turned out to be, which may be metres beside their records: of those
+// that have a pose here, cam_from_plan.
+void LookAgain(const DetectInput& input, const DetectedFeatures& features,
+               const std::vector<std::optional<Pose>>& poses, OnRepeatingWalls& repeating);
 
 }  // namespace stucco

@@ -14,6 +14,7 @@
 #include <string>
 #include <utility>
 
+#include "calib/records/flight_ties.h"
 #include "survey/attitude.h"
 #include "survey/median.h"
 
@@ -30,6 +31,8 @@ constexpr double kLeastAttitude_rad = 0.05 * std::numbers::pi / 180;
 constexpr int kRounds = 10;  // of reweighting
 constexpr double kExpectedMount_rad = 2 * std::numbers::pi / 180;
 constexpr double kExpectedTilt_rad = 5 * std::numbers::pi / 180;
+// Flights that nothing ties have their heading from their own positions, to no better than this.
+constexpr double kUntiedYaw_rad = 2 * std::numbers::pi / 180;
 constexpr double kExpectedYaw_rad = 10 * std::numbers::pi / 180;  // that is left
 
 std::optional<double> SecondsOf(const std::string& capture_time) {
@@ -145,19 +148,21 @@ void SetSigmas(const std::vector<PositionError>& errors, FlightErrors& flight) {
 }
 
 // Takes the flight's shift off its errors and measures what is left.
-void MeasureFlight(const Eigen::Vector3d& common, std::vector<PositionError>& errors,
-                   FlightErrors& flight) {
+void MeasureFlight(const Eigen::Vector3d& common, const FlightTie& tie,
+                   std::vector<PositionError>& errors, FlightErrors& flight) {
   const Eigen::Vector3d shift = MedianShift(errors);
   for (PositionError& error : errors) error.recorded_minus_posed -= shift;
   SetSigmas(errors, flight);
   // The standard deviation of a median of normal variables is 1.25 times that of the mean.
   const double own =
       1.25 * flight.sigma_horizontal_m / std::sqrt(static_cast<double>(errors.size()));
-  if ((shift - common).norm() > kSignificant * own) flight.shift_m = shift - common;
+  if ((shift - common).norm() > kSignificant * std::hypot(own, tie.position_m)) {
+    flight.shift_m = shift - common;
+  }
 }
 
 void MeasurePositions(const std::vector<PoseRecord>& records, const Scene& scene,
-                      std::vector<FlightErrors>& flights) {
+                      const std::vector<FlightTie>& ties, std::vector<FlightErrors>& flights) {
   const std::vector<PositionError> all = PositionErrors(records, scene);
   if (all.size() < kEnoughForOneFlight) return;
   std::vector<std::vector<PositionError>> by_flight(flights.size());
@@ -173,7 +178,7 @@ void MeasurePositions(const std::vector<PoseRecord>& records, const Scene& scene
     if (by_flight[f].size() < kEnoughForOneFlight) {
       for (PositionError& error : by_flight[f]) error.recorded_minus_posed -= common;
     } else {
-      MeasureFlight(common, by_flight[f], flights[f]);
+      MeasureFlight(common, ties[f], by_flight[f], flights[f]);
     }
     together.insert(together.end(), by_flight[f].begin(), by_flight[f].end());
   }
@@ -338,7 +343,7 @@ AttitudeUnknowns GuessYaws(const std::vector<AttitudePair>& pairs,
 }
 
 void MeasureAttitudes(const std::vector<PoseRecord>& records, const Scene& scene,
-                      RecordErrors& errors) {
+                      const std::vector<FlightTie>& ties, RecordErrors& errors) {
   const std::vector<AttitudePair> pairs = AttitudePairs(records, scene);
   if (pairs.size() < kEnoughAtAll) return;
   std::vector<FlightErrors>& flights = errors.flights;
@@ -349,7 +354,8 @@ void MeasureAttitudes(const std::vector<PoseRecord>& records, const Scene& scene
   for (size_t f = 0; f < flights.size(); ++f) {
     const int index = before.yaw[f] ? before.yaw_index(static_cast<int>(f)) : -1;
     const double yaw = flights[f].yaw_rad + (index < 0 ? 0 : fit.values[index]);
-    const double sigma = index < 0 ? std::numbers::pi : std::hypot(heading, fit.sigmas[index]);
+    const double posed = std::hypot(heading, std::min(ties[f].yaw_rad, kUntiedYaw_rad));
+    const double sigma = index < 0 ? std::numbers::pi : std::hypot(posed, fit.sigmas[index]);
     if (std::abs(yaw) >= kSignificant * sigma) continue;
     flights[f].yaw_rad = 0;
     unknowns.yaw[f] = false;
@@ -394,8 +400,11 @@ RecordErrors MeasureRecordErrors(const std::vector<PoseRecord>& records, const S
     const bool counts = scene.photos[i].pose && (records[i].position || records[i].gimbal);
     errors.flights[records[i].flight].num_photos += counts;
   }
-  MeasurePositions(records, scene, errors.flights);
-  MeasureAttitudes(records, scene, errors);
+  std::vector<int> flight_of_photo;
+  for (const PoseRecord& record : records) flight_of_photo.push_back(record.flight);
+  const std::vector<FlightTie> ties = TiesOfFlights(flight_of_photo, scene);
+  MeasurePositions(records, scene, ties, errors.flights);
+  MeasureAttitudes(records, scene, ties, errors);
   return errors;
 }
 

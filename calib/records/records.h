@@ -55,7 +55,9 @@ struct RecordErrors {
 
 // Variance components of the records from the photos that have poses, by medians, so that wrong
 // poses and wrong records do not count; the scene must be in the frame of the records. A shift, a
-// mount or a yaw that is no more than three of its own standard deviations is taken to be zero.
+// mount or a yaw that is no more than three of its own standard deviations is taken to be zero;
+// those of a flight's shift and yaw include how surely matches hold the flight against the others
+// (TiesOfFlights), else records would be bent to a flight that hangs on a single photo.
 // Flights with fewer than eight posed photos share the deviations of all.
 RecordErrors MeasureRecordErrors(const std::vector<PoseRecord>& records, const Scene& scene);
 

@@ -100,6 +100,7 @@ TEST_F(KnowPosesTest, TakesTheRecordWhereNoPoseIsSure) {
 TEST_F(KnowPosesTest, TakesThePoseOfWhatHangsOnOthers) {
   LetRepeat({4, 5});
   EXPECT_LT(Know()[4]->sigma_m, 0.1);
+  EXPECT_FALSE(Know()[4]->is_recorded);
 }
 
 TEST_F(KnowPosesTest, TakesTheRecordsOfPhotosThatHangOnEachOther) {
@@ -107,6 +108,7 @@ TEST_F(KnowPosesTest, TakesTheRecordsOfPhotosThatHangOnEachOther) {
   for (const auto& known : Know()) {
     ASSERT_TRUE(known);
     EXPECT_GE(known->sigma_m, scene_.photos[0].prior->sigma_horizontal_m);
+    EXPECT_TRUE(known->is_recorded);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "tests/calib/expect/made_site.h"
 #include "tests/calib/made_bays.h"
@@ -107,6 +109,24 @@ TEST_F(MatchAgainTest, KeepsWhatAPairHas) {
   const std::vector<Match> before = matched_.verified.at(0).pair.matches;
   EXPECT_EQ(Again({0, 0, 0}, 5), 0);
   EXPECT_EQ(matched_.verified.at(0).pair.matches, before);
+}
+
+TEST(DropOnRepeatingWalls, LeavesWhatElsePhotosShow) {
+  OnRepeatingWalls repeating;
+  repeating.wall_of = {{0, -1, -1, -1}, {}, {-1, 4, -1, -1}};
+  const auto pair = [](int first, int second, std::vector<Match> matches) {
+    VerifiedPair verified;
+    verified.pair = {first, second, std::move(matches)};
+    return verified;
+  };
+  // The last keypoint of each is one of a rectified wall.
+  std::vector<VerifiedPair> pairs = {pair(0, 1, {{0, 0}, {1, 1}, {2, 2}, {4, 9}}),
+                                     pair(0, 2, {{0, 0}, {1, 1}, {2, 2}}),
+                                     pair(1, 2, {{7, 0}, {8, 2}})};
+  DropOnRepeatingWalls(repeating, 2, pairs);
+  ASSERT_EQ(pairs.size(), 2U);
+  EXPECT_EQ(pairs[0].pair.matches, (std::vector<Match>{{1, 1}, {2, 2}, {4, 9}}));
+  EXPECT_EQ(pairs[1].pair.matches, (std::vector<Match>{{7, 0}, {8, 2}}));
 }
 
 }  // namespace

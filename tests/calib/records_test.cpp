@@ -15,6 +15,26 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
+// Points around and below the photos, each seen by those that have it in their pictures.
+void ShowPoints(Scene& scene) {
+  Random random(11);
+  scene.tracks.clear();
+  for (ScenePhoto& photo : scene.photos) photo.keypoints.clear();
+  for (int i = 0; i < 600; ++i) {
+    const double east = random.Uniform(-60, 150);
+    const double north = random.Uniform(-60, 140);
+    SceneTrack track{{}, Eigen::Vector3d(east, north, random.Uniform(0, 40))};
+    for (int p = 0; p < static_cast<int>(scene.photos.size()); ++p) {
+      ScenePhoto& photo = scene.photos[p];
+      const auto pixel = scene.CameraOf(p).Project(*photo.pose * *track.position);
+      if (!pixel || !scene.CameraOf(p).Contains(*pixel)) continue;
+      track.elements.push_back({p, static_cast<int>(photo.keypoints.size()), true});
+      photo.keypoints.push_back(*pixel);
+    }
+    if (track.elements.size() > 1) scene.tracks.push_back(std::move(track));
+  }
+}
+
 // Photos that look all ways, as those of a flight do: what turns with the camera and what stays
 // with the world are told apart by that.
 Scene MakeFlight(int num_photos) {
@@ -25,6 +45,7 @@ Scene MakeFlight(int num_photos) {
     const Eigen::Vector3d place(8.0 * (i % 12), 9.0 * (i / 12), 30 + 5 * (i % 2));
     scene.photos[i].pose = Pose{rotation, -(rotation * place)};
   }
+  ShowPoints(scene);
   return scene;
 }
 
@@ -129,6 +150,38 @@ TEST(MeasureRecordErrors, FindsShiftsBetweenFlights) {
   const Eigen::Vector3d between = errors.flights[1].shift_m - errors.flights[0].shift_m;
   EXPECT_LT((between - Eigen::Vector3d(-2, 0, 4)).norm(), 0.5);
   EXPECT_NEAR(errors.flights[0].sigma_horizontal_m, 0.5, 0.15);
+}
+
+// Leaves of flight 1 only what one of its photos sees in a narrow part of its picture, at about one
+// distance, as of a wall.
+void TieByAStrip(const std::vector<PoseRecord>& records, int only, Scene& scene) {
+  for (SceneTrack& track : scene.tracks) {
+    const Eigen::Vector3d local = *scene.photos[only].pose * *track.position;
+    const bool in_strip = local.z() > 40 && local.z() < 60 && std::abs(local.x()) < 2;
+    std::erase_if(track.elements, [&](const SceneElement& e) {
+      return records[e.photo].flight == 1 && !(e.photo == only && in_strip);
+    });
+  }
+}
+
+TEST(MeasureRecordErrors, DoesNotBendRecordsToAFlightThatHangsOnOnePhoto) {
+  Scene scene = MakeFlight(96);
+  const auto records = MakeRecords(scene, {.yaw_rad = {0, 0}});
+  const Eigen::Quaterniond turn = AboutUp(1 * kDegree);
+  const Eigen::Vector3d shift(0.9, -0.5, 0.3);
+  for (size_t i = 1; i < records.size(); i += 2) {
+    Pose& pose = *scene.photos[i].pose;
+    const Eigen::Vector3d place = pose.Center() + shift;
+    pose.rotation = pose.rotation * turn;
+    pose.translation = -(pose.rotation * place);
+  }
+  const RecordErrors held = MeasureRecordErrors(records, scene);
+  EXPECT_NEAR((held.flights[1].shift_m - held.flights[0].shift_m).norm(), shift.norm(), 0.4);
+  EXPECT_NEAR(held.flights[1].yaw_rad - held.flights[0].yaw_rad, 1 * kDegree, 0.2 * kDegree);
+  TieByAStrip(records, 1, scene);
+  const RecordErrors loose = MeasureRecordErrors(records, scene);
+  EXPECT_EQ(loose.flights[1].shift_m, Eigen::Vector3d::Zero());
+  EXPECT_EQ(loose.flights[1].yaw_rad, 0);
 }
 
 TEST(MeasureRecordErrors, IsNotMovedByWrongOnes) {

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 #include "calib/features/descriptors.h"
 #include "tests/calib/expect/made_site.h"
@@ -46,15 +48,15 @@ class OnRepeatingWallsTest : public testing::Test {
     guidance_.facades = TwoHouses().facades;
   }
 
-  // Three photos that show the wall, plain and rectified.
-  OnRepeatingWalls Find(bool alike) {
+  // Three photos that show the wall, plain and rectified, with records that are `off` along it.
+  OnRepeatingWalls Find(bool alike, double off_m = 0) {
     ExpectInput input{TwoHouses(), {}, {}};
     for (const double x : {8.0, 10.0, 12.0}) {
       CapturedPhoto photo;
       photo.camera = 0;
       captures_.photos.push_back(photo);
       const Pose pose = SitePose({x, -18, 6}, 0, 0);
-      input.poses.push_back(pose);
+      input.poses.push_back(SitePose({x + off_m, -18, 6}, 0, 0));
       input.cameras.push_back(&captures_.cameras[0].intrinsics);
       features_.plain.push_back(SeeBays(pose, alike));
       WallRun& run = features_.walls[{static_cast<int>(features_.plain.size()) - 1, 0}];
@@ -70,6 +72,11 @@ class OnRepeatingWallsTest : public testing::Test {
   OnRepeatingWalls FindAgain() {
     const PhotoSet set{captures_, photos_, guidance_};
     return FindOnRepeatingWalls({options_, set, context_}, features_);
+  }
+
+  void FindFrom(const std::vector<std::optional<Pose>>& poses, OnRepeatingWalls& found) {
+    const PhotoSet set{captures_, photos_, guidance_};
+    LookAgain({options_, set, context_}, features_, poses, found);
   }
 
   Captures captures_;
@@ -92,6 +99,18 @@ TEST_F(OnRepeatingWallsTest, KnowWhichKeypointsLieOnThem) {
     EXPECT_TRUE(found.Shows(photo, 0));
     EXPECT_TRUE(found.IsMostOf(photo));
   }
+}
+
+TEST_F(OnRepeatingWallsTest, AreSeenAnewFromWherePhotosTurnOutToBe) {
+  OnRepeatingWalls found = Find(true, 5);
+  const auto num_off = [&](int photo) {
+    return std::ranges::count(found.wall_of[photo], -1);  // beyond the wall's end
+  };
+  EXPECT_GT(num_off(0), 10);
+  const auto before = num_off(1);
+  FindFrom({SitePose({8, -18, 6}, 0, 0), std::nullopt, std::nullopt}, found);
+  EXPECT_EQ(num_off(0), 0);
+  EXPECT_EQ(num_off(1), before);
 }
 
 TEST_F(OnRepeatingWallsTest, AreNoneWhereBaysDiffer) {
