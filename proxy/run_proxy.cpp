@@ -69,6 +69,14 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
   }
   Proxy proxy = AbstractCloud(input, affordable, context.threads, findings);
   for (const auto& note : findings.notes) progress.Note(note);
+  for (const auto& [text, warns] : findings.of_map) {
+    if (warns) {
+      progress.Warn(text);
+    } else {
+      progress.Note(text);
+    }
+    proxy.findings.push_back(text);
+  }
   for (const auto& warning : findings.warnings) progress.Warn(warning);
   context.ThrowIfCancelled();
   progress.Advance();

@@ -59,15 +59,23 @@ std::string BuildingsSection(const PageContent& page) {
     closed += building.watertight ? 1 : 0;
     rows += Row(building);
   }
+  std::string findings;
+  for (const std::string& finding : page.data.proxy->findings) {
+    findings += fmt::format("<li>{}</li>", EscapeHtml(finding));
+  }
+  if (!findings.empty()) {
+    findings = "<h3>The map and the photos</h3><ul class=\"findings\">" + findings + "</ul>";
+  }
   if (buildings == 0) return "";
   return fmt::format(
       "<section aria-labelledby=\"buildings\"><h2 id=\"buildings\">Buildings</h2>"
-      "<p>{} of {} closed.</p><details{}><summary>All of them</summary><div class=\"scroll\">"
+      "<p>{} of {} closed.</p>{}<details{}><summary>All of them</summary><div class=\"scroll\">"
       "<table class=\"plain\"><thead><tr><th scope=\"col\">Building</th>"
       "<th scope=\"col\" class=\"num\">Facets</th><th scope=\"col\" class=\"num\">Surface with "
       "points</th><th scope=\"col\"></th><th scope=\"col\">Model</th></tr></thead><tbody>{}"
       "</tbody></table></div></details></section>",
-      closed, Count(buildings, "building", "buildings"), buildings <= 12 ? " open" : "", rows);
+      closed, Count(buildings, "building", "buildings"), findings, buildings <= 12 ? " open" : "",
+      rows);
 }
 
 }  // namespace stucco::internal

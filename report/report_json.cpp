@@ -283,6 +283,7 @@ std::string ReportJson(const SurveyData& data, const std::vector<FacetRow>& rows
                        {"photos", PhotosJson(data)},
                        {"calibration", CalibrationJson(data)},
                        {"georef", GeorefJson(data)},
+                       {"map_findings", data.proxy ? TextsJson(data.proxy->findings) : Json()},
                        {"facades", facades},
                        {"stages", StagesJson(data, options.record_times)}};
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

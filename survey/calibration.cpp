@@ -89,6 +89,7 @@ static void Fields(Archive& archive, T& records) {
   archive.Optional("flights", records.flights);
   archive.Optional("shift_m", records.shift_m);
   archive.Optional("attitude_sigma_deg", records.attitude_sigma_deg);
+  archive.Optional("hover_sigma_m", records.hover_sigma_m);
   archive.Optional("mount_deg", records.mount_deg);
 }
 

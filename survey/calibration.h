@@ -79,7 +79,8 @@ struct CalibratedRecords {
   // not known.
   std::vector<double> shift_m;
   double attitude_sigma_deg = -1;  // about each axis; -1: no records of angles
-  double mount_deg = 0;            // angle between what the gimbal says and where the camera looks
+  double hover_sigma_m = -1;  // of photos about the place of their hover, per axis; -1: not known
+  double mount_deg = 0;       // angle between what the gimbal says and where the camera looks
 };
 
 struct UnposedPhoto {

@@ -167,6 +167,7 @@ static void Fields(Archive& archive, T& proxy) {
   archive.Required("up", proxy.up);
   archive.Required("metric", proxy.metric);
   archive.Required("buildings", proxy.buildings);
+  archive.Optional("findings", proxy.findings);
 }
 
 Proxy ReadProxy(const std::filesystem::path& path) {

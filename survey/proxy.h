@@ -54,6 +54,8 @@ struct Proxy {
   std::vector<Building> buildings;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   bool metric = false;
+  // Where the plan's map and what photos show disagree, a sentence each.
+  std::vector<std::string> findings;
 };
 
 // The first ring with under 3 vertices, vertex off its plane, wrong orientation ..., or nothing.

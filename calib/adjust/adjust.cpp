@@ -21,6 +21,7 @@
 
 #include "calib/adjust/internal/control_costs.h"
 #include "calib/adjust/internal/costs.h"
+#include "calib/scene/hovers.h"
 #include "survey/error.h"
 #include "survey/median.h"
 
@@ -297,8 +298,30 @@ class Adjustment {
       has_priors = AddPosition(scene_.photos[index].prior, pose) || has_priors;
       AddAttitude(scene_.photos[index].attitude, pose);
     }
+    if (options_.use_priors) AddHovers();
     if (!has_priors && has_control_) problem_.SetParameterBlockConstant(Shift());
     if (!has_priors && !has_control_) HoldFrame();
+  }
+
+  // Photos of one hover stand in one place.
+  void AddHovers() {
+    for (const SamePlace& pair : SamePlaces(scene_)) {
+      if (!IsVariable(pair.first) && !IsVariable(pair.second)) continue;
+      const auto first = poses_.find(pair.first);
+      const auto second = poses_.find(pair.second);
+      if (first != poses_.end() && second != poses_.end()) {
+        problem_.AddResidualBlock(SamePlaceCost::Create(pair.sigma_m), &prior_loss_,
+                                  first->second.values, second->second.values);
+        continue;
+      }
+      // One that sees none of these points stays where it is.
+      const auto& seen = first != poses_.end() ? first : second;
+      if (seen == poses_.end() || !IsVariable(seen->first)) continue;
+      const int other = seen->first == pair.first ? pair.second : pair.first;
+      problem_.AddResidualBlock(PositionCost::Create(scene_.photos[other].pose->Center(),
+                                                     Eigen::Vector3d::Constant(pair.sigma_m)),
+                                &prior_loss_, seen->second.values);
+    }
   }
 
   bool AddPosition(const std::optional<PositionPrior>& prior, PoseBlock& pose) {

@@ -20,8 +20,9 @@ struct AdjustOptions {
   RefineIntrinsics refine = RefineIntrinsics::kDistortion;
   // Residuals beyond this many standard deviations lose weight (Cauchy loss).
   double loss_scale = 2;
-  // Positions and attitudes that the photos were recorded at, and control points; the scene must be
-  // in their frame. With control points the positions may all be off together.
+  // Positions and attitudes that the photos were recorded at, that photos of one hover stand in one
+  // place, and control points; the scene must be in their frame. With control points the positions
+  // may all be off together.
   bool use_priors = false;
   // Standard deviation of keypoints in units of the one they came with, against which the priors
   // weigh: 1 lets them weigh as much as it says, less lets them weigh less.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "calib/adjust/adjust.h"
 #include "calib/adjust/datum.h"
@@ -16,6 +17,7 @@
 #include "calib/adjust/internal/linearise.h"
 #include "calib/adjust/internal/normal_matrix.h"
 #include "calib/adjust/internal/scatter.h"
+#include "calib/scene/hovers.h"
 #include "survey/median.h"
 
 namespace stucco {
@@ -240,8 +242,40 @@ class ReducedSystem {
     AddKnown(offset, by_focal);
   }
 
+  // Something known of the difference of what two sets of unknowns give.
+  void AddKnownBetween(int a, const Eigen::RowVectorXd& by_a, int b,
+                       const Eigen::RowVectorXd& by_b) {
+    const Draws::Signs signs = NextSigns();
+    for (const auto& [offset, by] : {std::pair(a, &by_a), std::pair(b, &by_b)}) {
+      normal_.Add(offset, offset, variance_ * by->transpose() * *by);
+      for (Draws* draws : {&as_alike_, &as_they_are_}) {
+        draws->Add(offset, signs, variance_ * by->transpose());
+      }
+    }
+    if (a > b) {
+      normal_.Add(a, b, variance_ * by_a.transpose() * by_b);
+    } else {
+      normal_.Add(b, a, variance_ * by_b.transpose() * by_a);
+    }
+  }
+
+  void AddHovers() {
+    for (const SamePlace& pair : SamePlaces(scene_)) {
+      const auto by = [&](int photo) -> Eigen::Matrix<double, 3, 6> {
+        return CenterByPose(*scene_.photos[photo].pose) / pair.sigma_m;
+      };
+      const Eigen::Matrix<double, 3, 6> first = by(pair.first);
+      const Eigen::Matrix<double, 3, 6> second = -by(pair.second);
+      for (int axis = 0; axis < 3; ++axis) {
+        AddKnownBetween(unknowns_.of_pose[pair.first], first.row(axis),
+                        unknowns_.of_pose[pair.second], second.row(axis));
+      }
+    }
+  }
+
   // Returns whether they hold the frame.
   bool AddPriors() {
+    AddHovers();
     int positions = 0;
     for (size_t i = 0; i < scene_.photos.size(); ++i) {
       const ScenePhoto& photo = scene_.photos[i];

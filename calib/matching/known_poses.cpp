@@ -7,8 +7,10 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "calib/scene/hovers.h"
 #include "survey/median.h"
 
 namespace stucco {
@@ -93,15 +95,43 @@ int NumWitnessed(const Scene& scene, int photo, const std::vector<bool>& witness
   }));
 }
 
-std::optional<KnownPose> KnowPose(const ScenePhoto& photo, bool surely) {
+// The place where photos of the same hover were taken that have sure poses.
+struct HoverPlace {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  double sigma_m = 0;  // per axis, of one more photo
+};
+
+std::optional<HoverPlace> PlaceOfHover(const Scene& scene, const std::vector<int>& mates,
+                                       const std::vector<bool>& surely) {
+  HoverPlace place;
+  double count = 0;
+  for (const int mate : mates) {
+    if (!surely[mate]) continue;
+    place.middle += scene.photos[mate].pose->Center();
+    ++count;
+  }
+  if (count == 0 || scene.hover_sigma_m == 0) return std::nullopt;
+  place.middle /= count;
+  place.sigma_m = std::hypot(kKnownSigma_m, scene.hover_sigma_m * std::sqrt(1 + 1 / count));
+  return place;
+}
+
+std::optional<KnownPose> KnowPose(const ScenePhoto& photo, bool surely,
+                                  const std::optional<HoverPlace>& hover) {
   if (surely) {
     return KnownPose{*photo.pose, kKnownSigma_m, kKnownSigma_rad};
   }
+  const double recorded_m =
+      photo.prior ? std::max(photo.prior->sigma_horizontal_m, photo.prior->sigma_vertical_m)
+                  : std::numeric_limits<double>::infinity();
+  if (photo.attitude && hover && hover->sigma_m < recorded_m) {
+    const Eigen::Quaterniond& rotation = photo.attitude->cam_from_world;
+    return KnownPose{Pose{rotation, -(rotation * hover->middle)}, hover->sigma_m,
+                     photo.attitude->sigma_rad, false};
+  }
   const auto recorded = RecordedPose(photo);
   if (!recorded) return std::nullopt;
-  return KnownPose{*recorded,
-                   std::max(photo.prior->sigma_horizontal_m, photo.prior->sigma_vertical_m),
-                   photo.attitude->sigma_rad, true};
+  return KnownPose{*recorded, recorded_m, photo.attitude->sigma_rad, true};
 }
 
 // From the frame of the records into that of the plan: medians, as single records may be wrong.
@@ -158,9 +188,10 @@ std::vector<std::optional<KnownPose>> KnowPoses(const KnowInput& input, const Sc
   }
   plan_from_world.head<2>() += ShiftOntoWalls(points, input.guidance.facades);
   const std::vector<bool> surely = SurelyPosed(input.repeating, scene);
+  const std::vector<std::vector<int>> mates = HoverMates(scene);
   std::vector<std::optional<KnownPose>> known(scene.photos.size());
   for (size_t i = 0; i < known.size(); ++i) {
-    known[i] = KnowPose(scene.photos[i], surely[i]);
+    known[i] = KnowPose(scene.photos[i], surely[i], PlaceOfHover(scene, mates[i], surely));
     if (!known[i]) continue;
     Pose& pose = known[i]->cam_from_plan;
     pose = Pose{pose.rotation, -(pose.rotation * (pose.Center() + plan_from_world))};

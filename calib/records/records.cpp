@@ -27,8 +27,9 @@ constexpr int kEnoughAtAll = 4;
 constexpr double kSignificant = 3;  // of its own standard deviation
 // Receivers are no better than this among themselves, gimbals no better than they write.
 constexpr double kLeastPosition_m = 0.01;
+constexpr double kLeastHover_m = 0.02;
 constexpr double kLeastAttitude_rad = 0.05 * std::numbers::pi / 180;
-constexpr int kRounds = 10;  // of reweighting
+constexpr int kReweightings = 10;  // of reweighting
 constexpr double kExpectedMount_rad = 2 * std::numbers::pi / 180;
 constexpr double kExpectedTilt_rad = 5 * std::numbers::pi / 180;
 // Flights that nothing ties have their heading from their own positions, to no better than this.
@@ -83,6 +84,23 @@ std::vector<int> FlightsOf(const std::vector<const CapturedPhoto*>& captures, co
     before = i;
   }
   return flights;
+}
+
+// Photos of one planned hover in one flight have the same number.
+std::vector<int> HoversOf(const std::vector<const CapturedPhoto*>& captures, const Plan* plan,
+                          const std::vector<int>& flights) {
+  std::vector<int> hovers(captures.size(), -1);
+  if (plan == nullptr) return hovers;
+  std::map<std::string, int> hover_of_view;
+  for (const PlannedView& view : plan->views) hover_of_view[view.id] = view.hover;
+  std::map<std::pair<int, int>, int> numbers;
+  for (size_t i = 0; i < captures.size(); ++i) {
+    const auto found = hover_of_view.find(captures[i]->view);
+    if (found == hover_of_view.end()) continue;
+    const std::pair<int, int> hover(flights[i], found->second);
+    hovers[i] = numbers.try_emplace(hover, static_cast<int>(numbers.size())).first->second;
+  }
+  return hovers;
 }
 
 double MedianOf(std::vector<double> values) {
@@ -187,6 +205,27 @@ void MeasurePositions(const std::vector<PoseRecord>& records, const Scene& scene
   }
 }
 
+// Of single photos about the places of their hovers.
+double MeasureHovers(const std::vector<PoseRecord>& records, const Scene& scene) {
+  // Median of the length of a three-dimensional normal vector with unit variances.
+  constexpr double kMaxwellMedian = 1.5382;
+  std::map<int, std::vector<Eigen::Vector3d>> places;
+  for (size_t i = 0; i < records.size(); ++i) {
+    if (records[i].hover < 0 || !scene.photos[i].pose) continue;
+    places[records[i].hover].push_back(scene.photos[i].pose->Center());
+  }
+  std::vector<double> apart;
+  for (const auto& [hover, of_hover] : places) {
+    for (size_t a = 0; a < of_hover.size(); ++a) {
+      for (size_t b = a + 1; b < of_hover.size(); ++b) {
+        apart.push_back((of_hover[a] - of_hover[b]).norm());
+      }
+    }
+  }
+  if (apart.size() < kEnoughForOneFlight) return 0;
+  return std::max(kLeastHover_m, MedianOf(std::move(apart)) / std::sqrt(2.0) / kMaxwellMedian);
+}
+
 // Attitudes
 
 struct AttitudePair {
@@ -275,7 +314,7 @@ AttitudeFit FitAttitudes(const std::vector<AttitudePair>& pairs, const AttitudeU
     right.push_back(RotationVector(pair.posed * pair.recorded.conjugate()));
   }
   double scale = 0.05;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kReweightings; ++round) {
     Eigen::MatrixXd normal = unknowns.Expected(scale);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(size);
     for (size_t i = 0; i < rows.size(); ++i) {
@@ -381,11 +420,13 @@ std::vector<PoseRecord> ReadRecords(const std::vector<const CapturedPhoto*>& cap
                                     const Plan* plan, const Scene& scene) {
   assert(captures.size() == scene.photos.size());
   const std::vector<int> flights = FlightsOf(captures, plan);
+  const std::vector<int> hovers = HoversOf(captures, plan, flights);
   std::vector<PoseRecord> records(captures.size());
   for (size_t i = 0; i < captures.size(); ++i) {
     records[i].position = scene.photos[i].prior;
     if (captures[i]->gimbal) records[i].gimbal = CamFromEnu(*captures[i]->gimbal);
     records[i].flight = flights[i];
+    records[i].hover = hovers[i];
   }
   return records;
 }
@@ -405,6 +446,7 @@ RecordErrors MeasureRecordErrors(const std::vector<PoseRecord>& records, const S
   const std::vector<FlightTie> ties = TiesOfFlights(flight_of_photo, scene);
   MeasurePositions(records, scene, ties, errors.flights);
   MeasureAttitudes(records, scene, ties, errors);
+  errors.sigma_hover_m = MeasureHovers(records, scene);
   return errors;
 }
 
@@ -412,9 +454,11 @@ void ApplyRecords(const std::vector<PoseRecord>& records, const RecordErrors& er
                   Scene& scene) {
   assert(records.size() == scene.photos.size());
   const Eigen::Quaterniond mount = FromRotationVector(errors.mount_rad);
+  scene.hover_sigma_m = errors.sigma_hover_m;
   for (size_t i = 0; i < records.size(); ++i) {
     ScenePhoto& photo = scene.photos[i];
     photo.prior = records[i].position;
+    photo.hover = records[i].hover;
     photo.attitude.reset();
     const FlightErrors& flight = errors.flights[records[i].flight];
     if (photo.prior) {

@@ -19,12 +19,13 @@ struct PoseRecord {
   std::optional<PositionPrior> position;
   std::optional<Eigen::Quaterniond> gimbal;  // cam_from_world
   int flight = 0;                            // receivers and compasses err alike within one
+  int hover = -1;  // of the flight, as planned: photos of one stand in one place; -1: none
 };
 
 // Records of the scene's photos, which have the given captures and whose positions are in
 // ScenePhoto::prior (FrameFromPositions). The flight is that of the planned view; photos that have
 // none belong to that of the photo before them in time, and without any flight pauses of five
-// minutes and changes of the camera tell flights apart. `plan` may be null.
+// minutes and changes of the camera tell flights apart. Hovers are the plan's. `plan` may be null.
 std::vector<PoseRecord> ReadRecords(const std::vector<const CapturedPhoto*>& captures,
                                     const Plan* plan, const Scene& scene);
 
@@ -49,6 +50,8 @@ struct RecordErrors {
   std::vector<FlightErrors> flights;
   Eigen::Vector3d mount_rad = Eigen::Vector3d::Zero();  // rotation vector in the camera's frame
   double sigma_attitude_rad = 0.02;                     // about each axis
+  // Of single photos about the place of their hover, per axis; 0: too few tell.
+  double sigma_hover_m = 0;
   // The scene's frame against gravity, as the gimbals show it: rotation vector, up component 0.
   Eigen::Vector3d tilt_rad = Eigen::Vector3d::Zero();
 };
@@ -62,7 +65,7 @@ struct RecordErrors {
 RecordErrors MeasureRecordErrors(const std::vector<PoseRecord>& records, const Scene& scene);
 
 // Makes the records, corrected and with their measured deviations, the priors of the scene's
-// photos.
+// photos, and tells the scene which photos stand in one place.
 void ApplyRecords(const std::vector<PoseRecord>& records, const RecordErrors& errors, Scene& scene);
 
 }  // namespace stucco

@@ -41,6 +41,7 @@ CalibratedRecords SummarizeRecords(const RecordErrors& errors) {
   CalibratedRecords result;
   result.attitude_sigma_deg = errors.sigma_attitude_rad / kDegree;
   result.mount_deg = errors.mount_rad.norm() / kDegree;
+  if (errors.sigma_hover_m > 0) result.hover_sigma_m = errors.sigma_hover_m;
   for (const FlightErrors& flight : errors.flights) {
     result.flights.push_back({flight.num_photos,
                               {flight.shift_m.x(), flight.shift_m.y(), flight.shift_m.z()},

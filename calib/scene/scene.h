@@ -48,6 +48,7 @@ struct ScenePhoto {
   std::optional<Pose> pose;  // cam_from_world once it is known
   std::optional<PositionPrior> prior;
   std::optional<AttitudePrior> attitude;
+  int hover = -1;  // photos with the same number were taken from one place; -1: by itself
 
   // Standard deviation of a keypoint. A blob's place is known to a part of its size (Zeisl et al.,
   // "Estimation of location uncertainty for scale invariant feature points", 2009), and no better
@@ -100,6 +101,9 @@ struct Scene {
   std::vector<SceneTrack> tracks;
   std::vector<std::vector<int>> tracks_of_photo;  // per photo: track of each keypoint, -1 for none
   SceneControl control;
+  // Standard deviation of where photos were taken about the place of their hover, per axis; 0: not
+  // known, and hovers hold nothing.
+  double hover_sigma_m = 0;
 
   const Camera& CameraOf(int photo) const { return cameras[photos[photo].camera].intrinsics; }
 };

@@ -59,8 +59,8 @@ std::string NoteOf(const std::string& id, const ClosedBuilding& closed) {
 void Report(const std::string& id, const ClosedBuilding& closed, bool to_capture,
             ProxyFindings& findings) {
   if (closed.standing == Standing::kGone) {
-    findings.warnings.push_back(
-        id + ": not built, or demolished: the cloud shows the ground where the map has it");
+    findings.of_map.push_back(
+        {id + ": not built, or demolished: the cloud shows the ground where the map has it", true});
   } else if (closed.standing == Standing::kUnseen && !to_capture) {
     findings.notes.push_back(id + ": not seen, and not asked for: left out");
   } else if (closed.facets.empty()) {
@@ -69,8 +69,8 @@ void Report(const std::string& id, const ClosedBuilding& closed, bool to_capture
   } else {
     findings.notes.push_back(NoteOf(id, closed));
     if (closed.standing == Standing::kUnseen) {
-      findings.warnings.push_back(id +
-                                  ": the cloud shows too little of it: it is as the plan has it");
+      findings.of_map.push_back(
+          {id + ": the cloud shows too little of it: it is as the plan has it", true});
     }
   }
 }
@@ -232,9 +232,9 @@ void JoinWings(const UprightSurvey& survey, const Workshop& with, Houses& houses
   for (size_t i = 0; i < extended.size(); ++i) {
     const size_t h = extended[i];
     if (!IsAsGood(closed[i], houses.closed[h])) continue;
-    findings.notes.push_back(fmt::format("{}: wings that the map lacks lean on it, {:.0f} m2",
-                                         houses.mapped[h].id,
-                                         Area(mapped[i]) - Area(houses.mapped[h])));
+    findings.of_map.push_back(
+        {fmt::format("{}: wings that the map lacks lean on it, {:.0f} m2", houses.mapped[h].id,
+                     Area(mapped[i]) - Area(houses.mapped[h]))});
     houses.closed[h] = std::move(closed[i]);
     houses.mapped[h] = std::move(mapped[i]);
     for (size_t w = 0; w < wings.size(); ++w) has_joined[w] = has_joined[w] || house_of[w] == h;
@@ -244,6 +244,17 @@ void JoinWings(const UprightSurvey& survey, const Workshop& with, Houses& houses
     if (!has_joined[w]) apart.push_back(std::move(wings[w]));
   }
   wings = std::move(apart);
+}
+
+// A map that lies elsewhere is worth a word to those who fly by it.
+void NoteShift(const MapRegistration& place, ProxyFindings& findings) {
+  constexpr double kMuch_m = 0.5;
+  constexpr double kMuch_rad = 0.2 * std::numbers::pi / 180;
+  if (place.shift_m.norm() < kMuch_m && std::abs(place.turn_rad) < kMuch_rad) return;
+  findings.of_map.push_back({fmt::format(
+      "the map lies {:.1f} m beside what the photos show, turned by {:.1f} degrees: this was taken "
+      "into account",
+      place.shift_m.norm(), std::abs(place.turn_rad) * 180 / std::numbers::pi)});
 }
 
 OutlineMap Moved(OutlineMap map, const Eigen::Isometry2d& motion) {
@@ -266,7 +277,7 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
   const UprightSurvey survey = UprightSurveyOf(scene);
   const MapRegistration place = RegisterMap(survey, map);
   if (!place.refused.empty()) {
-    findings.warnings.push_back("the plan's map gives no shape, because " + place.refused);
+    findings.of_map.push_back({"the plan's map gives no shape, because " + place.refused, true});
     return std::nullopt;
   }
   findings.notes.push_back(fmt::format(
@@ -274,6 +285,7 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
       "{:.2f} deg; of the ground below its buildings {:.0f} % is built over, next to them {:.0f} %",
       place.shift_m.x(), place.shift_m.y(), place.turn_rad * 180 / std::numbers::pi,
       100 * place.raised_inside, 100 * place.raised_outside));
+  NoteShift(place, findings);
   OutlineMap found = Moved(map, place.survey_from_map);
   const Workshop with{scene, input, options, threads};
   Houses houses;
@@ -289,7 +301,9 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
   for (const ClosedBuilding& other : others) {
     MapBuilding& outline = model.outlines.emplace_back(other.fitted.building);
     outline.id = fmt::format("C{:04}", model.outlines.size() - houses.closed.size());
-    findings.notes.push_back(NoteOf(outline.id, other) + "; on no footprint of the map");
+    findings.notes.push_back(NoteOf(outline.id, other));
+    findings.of_map.push_back({fmt::format("{}: stands on no footprint of the map, {:.0f} m2",
+                                           outline.id, Area(outline))});
     model.buildings.push_back(AsBuilding(outline.id, "cloud", other));
   }
   return model;

@@ -7,10 +7,17 @@
 
 namespace stucco {
 
-// What was found on the way: one line each for the log, the last ones are warnings.
+// What was found on the way: one line each for the log.
 struct ProxyFindings {
   std::vector<std::string> notes;
   std::vector<std::string> warnings;
+  // Where the plan's map and the cloud disagree: for the log, and kept (Proxy::findings). Those
+  // that something is missing by are warnings.
+  struct OfMap {
+    std::string text;
+    bool warns = false;
+  };
+  std::vector<OfMap> of_map;
 };
 
 }  // namespace stucco

@@ -24,7 +24,8 @@ std::string FirstLine(const std::exception& thrown) {
 std::optional<std::string> FindFacetFault(const Facet& facet) {
   Facet named = facet;
   named.id = "-";
-  const Proxy alone{.buildings = {{.id = "-", .source = {}, .detail = {}, .facets = {named}}}};
+  Proxy alone;
+  alone.buildings = {{.id = "-", .source = {}, .detail = {}, .facets = {named}}};
   if (auto problem = FindProblem(alone)) return problem->substr(problem->find(": ") + 2);
   if (TriangulateFacet(facet).triangles.empty()) return "nothing lies inside its rings";
   return std::nullopt;

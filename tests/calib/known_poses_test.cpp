@@ -103,6 +103,26 @@ TEST_F(KnowPosesTest, TakesThePoseOfWhatHangsOnOthers) {
   EXPECT_FALSE(Know()[4]->is_recorded);
 }
 
+TEST_F(KnowPosesTest, TakesThePlaceOfOthersOfTheHover) {
+  scene_.photos[2].pose.reset();
+  for (const int photo : {1, 2, 3}) scene_.photos[photo].hover = 4;
+  LetRepeat({3});  // hangs on the others, and is sure by them
+  scene_.hover_sigma_m = 0.1;
+  const auto known = Know()[2];
+  ASSERT_TRUE(known);
+  EXPECT_FALSE(known->is_recorded);
+  EXPECT_LT(known->sigma_m, 0.2);
+  const Vector3d middle =
+      (scene_.photos[1].pose->Center() + scene_.photos[3].pose->Center()) / 2 + kEast;
+  EXPECT_LT((known->cam_from_plan.Center() - middle).norm(), 1e-6);
+  EXPECT_LT(
+      known->cam_from_plan.rotation.angularDistance(scene_.photos[2].attitude->cam_from_world),
+      1e-6);
+  // Where the drone did not stand still, the record is better.
+  scene_.hover_sigma_m = 50;
+  EXPECT_TRUE(Know()[2]->is_recorded);
+}
+
 TEST_F(KnowPosesTest, TakesTheRecordsOfPhotosThatHangOnEachOther) {
   LetRepeat({0, 1, 2, 3, 4, 5});
   for (const auto& known : Know()) {

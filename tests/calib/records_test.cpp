@@ -184,6 +184,28 @@ TEST(MeasureRecordErrors, DoesNotBendRecordsToAFlightThatHangsOnOnePhoto) {
   EXPECT_EQ(loose.flights[1].yaw_rad, 0);
 }
 
+TEST(MeasureRecordErrors, FindsHowStillTheDroneStood) {
+  Scene scene = MakeFlight(96);
+  Random random(5);
+  for (int i = 0; i < 96; ++i) {
+    const Eigen::Quaterniond rotation = scene.photos[i].pose->rotation;
+    const Eigen::Vector3d drift(random.Gauss(0.08), random.Gauss(0.08), random.Gauss(0.08));
+    const Eigen::Vector3d place = scene.photos[i - i % 4].pose->Center() + drift;
+    scene.photos[i].pose = Pose{rotation, -(rotation * place)};
+  }
+  auto records = MakeRecords(scene, {});
+  EXPECT_EQ(MeasureRecordErrors(records, scene).sigma_hover_m, 0);  // nothing says where it stood
+  for (int i = 0; i < 96; ++i) records[i].hover = i / 4;
+  // Of one hover each photo stands beside the one before: a wrong pose, or a drone that moved.
+  for (int i = 1; i < 4; ++i) scene.photos[i].pose->translation.x() += 3.0 * i;
+  const RecordErrors errors = MeasureRecordErrors(records, scene);
+  // The first of each stands beside the drift of the others, by its own.
+  EXPECT_NEAR(errors.sigma_hover_m, 0.08, 0.03);
+  ApplyRecords(records, errors, scene);
+  EXPECT_EQ(scene.hover_sigma_m, errors.sigma_hover_m);
+  EXPECT_EQ(scene.photos[9].hover, 2);
+}
+
 TEST(MeasureRecordErrors, IsNotMovedByWrongOnes) {
   const Scene scene = MakeFlight(96);
   auto records = MakeRecords(scene, {});
@@ -245,6 +267,13 @@ TEST(ReadRecords, TellsFlightsByThePlanAndByPauses) {
     flights.push_back(record.flight);
   }
   EXPECT_EQ(flights, (std::vector{0, 0, 1, 1, 2}));
+  plan.views[0].hover = plan.views[1].hover = 5;
+  photos[1].view = "h1v1";
+  const auto hovers = ReadRecords(captures, &plan, scene);
+  EXPECT_GE(hovers[0].hover, 0);
+  EXPECT_EQ(hovers[0].hover, hovers[1].hover);
+  EXPECT_NE(hovers[0].hover, hovers[2].hover);  // another flight
+  EXPECT_EQ(hovers[3].hover, -1);               // as no plan knows
   flights.clear();
   for (const PoseRecord& record : ReadRecords(captures, nullptr, scene)) {
     flights.push_back(record.flight);

@@ -9,7 +9,7 @@
 namespace stucco::test {
 namespace {
 
-const Eigen::Vector3d kSigma_m(0.02, 0.02, 0.03);
+const Eigen::Vector3d kSurveyedSigma_m(0.02, 0.02, 0.03);
 
 class SummarizeControlTest : public testing::Test {
  protected:
@@ -33,7 +33,7 @@ class SummarizeControlTest : public testing::Test {
 
   Calibration Summary() {
     Calibration calibration;
-    SummarizeControl(control_, outcome_, kSigma_m, calibration);
+    SummarizeControl(control_, outcome_, kSurveyedSigma_m, calibration);
     return calibration;
   }
 

@@ -37,6 +37,12 @@ bool Says(const std::vector<std::string>& lines, const std::string& text) {
       lines, [&](const std::string& line) { return line.find(text) != std::string::npos; });
 }
 
+bool SaysOfMap(const ProxyFindings& findings, const std::string& text, bool warns) {
+  return std::ranges::any_of(findings.of_map, [&](const ProxyFindings::OfMap& finding) {
+    return finding.text.find(text) != std::string::npos && finding.warns == warns;
+  });
+}
+
 // Every facade of the building's ring is on exactly one wall, and that wall lies on it.
 void ExpectFacades(const Building& building, size_t count) {
   std::multiset<std::string> ids;
@@ -239,6 +245,17 @@ TEST(MapSolids, PanesAreNoWallWhereTheOtherWallsSaySo) {
   }
 }
 
+TEST(MapSolids, SaysThatAMapLiesElsewhere) {
+  const StreetOfFive street = MakeStreet();
+  auto map = street.map;
+  for (MapEntry& entry : map) {
+    for (Eigen::Vector2d& corner : entry.rings[0]) corner += Eigen::Vector2d(1.2, -0.5);
+  }
+  const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
+  EXPECT_TRUE(SaysOfMap(MakeModel(captured, map).findings, "the map lies 1.3 m beside", false));
+  EXPECT_TRUE(MakeModel(captured, street.map).findings.of_map.empty());
+}
+
 TEST(MapSolids, RefusesAMapOfAnotherTown) {
   const StreetOfFive street = MakeStreet();
   const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
@@ -248,7 +265,7 @@ TEST(MapSolids, RefusesAMapOfAnotherTown) {
                                            {"B0004", {Rectangle(-8, 16, 10, 28)}, 6},
                                            {"B0005", {Rectangle(-28, -26, -20, -14)}, 6}};
   const MadeModel with = MakeModel(captured, elsewhere);
-  EXPECT_TRUE(Says(with.findings.warnings, "the plan's map gives no shape"));
+  EXPECT_TRUE(SaysOfMap(with.findings, "the plan's map gives no shape", true));
   // The same as without any map.
   ProxyFindings findings;
   const Proxy without = AbstractCloud(test::InputOf(captured, test::MapGeoref()), {}, 2, findings);
@@ -267,9 +284,9 @@ TEST(MapSolids, NamesWhatIsGoneAndWhatIsNew) {
   const auto captured = test::Capture(street.houses, {test::GroundSquare(30)}, kCapture);
   const MadeModel made = MakeModel(captured, street.map);
   EXPECT_EQ(test::Find(made.proxy, "B0002"), nullptr);
-  EXPECT_TRUE(Says(made.findings.warnings, "B0002: not built, or demolished"));
+  EXPECT_TRUE(SaysOfMap(made.findings, "B0002: not built, or demolished", true));
   for (const char* id : {"B0001", "B0003", "B0004", "B0005"}) ClosedIn(made, id);
-  EXPECT_TRUE(Says(made.findings.notes, "on no footprint of the map"));
+  EXPECT_TRUE(SaysOfMap(made.findings, "C0001: stands on no footprint of the map, 81 m2", false));
   const Building* found = test::Find(made.proxy, "C0001");
   ASSERT_NE(found, nullptr);
   EXPECT_TRUE(found->watertight);
@@ -285,7 +302,7 @@ TEST(MapSolids, ExtrudesWhatNobodySaw) {
   const Building& house = ClosedIn(made, "B0009");
   EXPECT_NEAR(VolumeOf(house), 700, 20);
   for (const Facet& facet : house.facets) EXPECT_EQ(facet.seen, 0);
-  EXPECT_TRUE(Says(made.findings.warnings, "B0009: the cloud shows too little"));
+  EXPECT_TRUE(SaysOfMap(made.findings, "B0009: the cloud shows too little", true));
 }
 
 TEST(MapSolids, TreesAreNoPartOfABuilding) {
@@ -311,7 +328,7 @@ TEST(MapSolids, LeavesAboveBareGroundAreNoRoof) {
                                               {"B0002", {Rectangle(14, -3, 20, 2)}, 6}});
   ClosedIn(made, "B0001");
   EXPECT_EQ(test::Find(made.proxy, "B0002"), nullptr);
-  EXPECT_TRUE(Says(made.findings.warnings, "B0002: not built, or demolished"));
+  EXPECT_TRUE(SaysOfMap(made.findings, "B0002: not built, or demolished", true));
 }
 
 TEST(MapSolids, ACrownThatHoldsAnOutlineIsNoHouse) {

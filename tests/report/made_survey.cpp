@@ -220,6 +220,7 @@ MadeSurvey MakeSurvey(const MadeSurveyOptions& options) {
     for (CalibratedPhoto& photo : made.calibration.photos) photo.prior_residual_m = -1;
   }
   made.proxy.metric = options.metric;
+  made.proxy.findings = {"B0002: wings that the map lacks lean on it, 34 m2"};
   int kind = 0;
   for (int i = 0; i < options.buildings; ++i) {
     made.proxy.buildings.push_back(MakeBuilding(i + 1, {22.0 * (i % 3), 26.0 * (i / 3)},

@@ -107,6 +107,18 @@ TEST_F(Report, SaysWhatEachBuildingIsMadeFrom) {
   EXPECT_EQ(CountOf(page, "<td class=\"num\">37 %</td><td>on the map</td>"), 1U);
 }
 
+TEST_F(Report, SaysWhereTheMapAndThePhotosDisagree) {
+  MadeSurvey made = MakeSurvey();
+  WriteSurvey(made, folder_.path());
+  Run();
+  EXPECT_EQ(CountOf(Content(Page()), "<li>B0002: wings that the map lacks lean on it, 34 m2</li>"),
+            1U);
+  made.proxy.findings.clear();
+  WriteSurvey(made, folder_.path());
+  Run();
+  EXPECT_FALSE(Has(Content(Page()), "The map and the photos"));
+}
+
 TEST_F(Report, NamesFacadesAsThePlanDoes) {
   MadeSurvey made = MakeSurvey();
   made.proxy.buildings[0].facets[0].planned_facades = {"B0007/F01"};
@@ -232,6 +244,7 @@ TEST_F(Report, HostileNamesStayText) {
     made.textures.facets[0].gains[names[i]] = 1;
     made.calibration.unposed.push_back({names[i], names[i]});
     made.calibration.findings.push_back(names[i]);
+    made.proxy.findings.push_back(names[i]);
     CalibratedPoint& point = made.calibration.ground_control.emplace_back();
     point.name = point.role = point.state = point.why = point.verdict = names[i];
     made.captures.photos[i].path = names[i];

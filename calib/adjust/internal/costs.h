@@ -158,6 +158,27 @@ struct PositionCost {
   }
 };
 
+// (difference of two camera centres) / sigma. Blocks: the poses.
+struct SamePlaceCost {
+  double inverse_sigma;
+
+  template <typename T>
+  bool operator()(const T* first, const T* second, T* residual) const {
+    const auto center = [](const T* pose) -> Eigen::Matrix<T, 3, 1> {
+      const Eigen::Map<const Eigen::Quaternion<T>> q(pose);
+      return -(q.conjugate() * Eigen::Map<const Eigen::Matrix<T, 3, 1>>(pose + 4));
+    };
+    Eigen::Map<Eigen::Matrix<T, 3, 1>> out(residual);
+    out = (center(first) - center(second)) * T(inverse_sigma);
+    return true;
+  }
+
+  static ceres::CostFunction* Create(double sigma) {
+    return new ceres::AutoDiffCostFunction<SamePlaceCost, 3, kPoseSize, kPoseSize>(
+        new SamePlaceCost{1 / sigma});
+  }
+};
+
 // Twice the vector part of the quaternion: the rotation vector, short of it by the third order.
 template <typename T>
 void WeighRotation(const Eigen::Quaternion<T>& rotation, double inverse_sigma, T* residual) {
