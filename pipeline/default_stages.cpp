@@ -30,7 +30,7 @@ Stage IngestStage() {
 Stage CalibStage() {
   Stage stage;
   stage.name = "calib";
-  stage.version = 7;
+  stage.version = 8;
   stage.title = "camera poses and lens calibration";
   stage.needs = {"ingest"};
   stage.inputs = {kCapturesFile, kPlanFile, kGroundControlFile};
@@ -69,7 +69,7 @@ Stage ProxyStage() {
   Stage stage;
   stage.name = "proxy";
   stage.title = "the planar model";
-  stage.version = 14;
+  stage.version = 15;
   stage.needs = {"calib", "dense"};
   stage.inputs = {kCloudFile, kSparseFolder, kGeorefFile, kPlanFile};
   stage.cost = {.cpu_s_per_photo = 0.25, .disk_mb_per_photo = 0.02, .memory_mb = 700};
@@ -98,7 +98,7 @@ Stage ReportStage() {
   Stage stage;
   stage.name = "report";
   stage.title = "the quality report";
-  stage.version = 7;
+  stage.version = 8;
   stage.needs = {"ingest", "calib", "dense", "proxy", "texture"};
   stage.inputs = {"ingest", "calib", kCloudFile, "proxy", "texture", kPlanFile};
   stage.reports_failures = true;

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "calib/scene/scene.h"
+#include "survey/captures.h"
+#include "survey/plan.h"
+
+namespace stucco {
+
+// What a photo's metadata say of its pose, or its plan where they say nothing, in the frame of the
+// positions (ENU).
+struct PoseRecord {
+  std::optional<PositionPrior> position;
+  std::optional<Eigen::Quaterniond> gimbal;  // cam_from_world
+  int flight = 0;                            // receivers and compasses err alike within one
+  int hover = -1;  // of the flight, as planned: photos of one stand in one place; -1: none
+};
+
+// Records of the scene's photos, which have the given captures and whose positions are in
+// ScenePhoto::prior (FrameFromPositions). The flight is that of the planned view; photos that have
+// none belong to that of the photo before them in time, and without any flight pauses of five
+// minutes and changes of the camera tell flights apart. Hovers are the plan's. `plan` may be null.
+std::vector<PoseRecord> ReadRecords(const std::vector<const CapturedPhoto*>& captures,
+                                    const Plan* plan, const Scene& scene);
+
+}  // namespace stucco
