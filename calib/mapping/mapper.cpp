@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "calib/scene/choose_tracks.h"
+#include "calib/scene/hidden_points.h"
 #include "calib/scene/points.h"
 #include "calib/scene/resect.h"
 #include "calib/scene/triangulate.h"
@@ -345,6 +346,7 @@ void Settle(const MapperOptions& options, bool use_priors, const StageContext& c
     context.ThrowIfCancelled();
     CompleteTracks(options.max_error_sigmas, options.threads, scene);
     TriangulateMissing(ForTriangulation(options), options.threads, scene);
+    if (use_priors) DropHiddenPoints(options.threads, scene);
     const AdjustReport report =
         AdjustChosen(options, ForEverything(options, use_priors, scene), scene);
     FilterScene(options, scene);

@@ -52,7 +52,9 @@ std::map<int, std::string> ExplainUnregistered(const MapperOptions& options,
 std::vector<int> TracksToAdjust(const MapperOptions& options, const Scene& scene);
 
 // Rounds of bundle adjustment of everything, filtering and triangulating anew, until nothing
-// changes. With `use_priors` the scene must be in the frame of its priors.
+// changes. With `use_priors` the scene must be in the frame of its priors; then photos may hang
+// together by records and few points, and points that cannot be seen are taken away
+// (DropHiddenPoints), too.
 void Settle(const MapperOptions& options, bool use_priors, const StageContext& context,
             Scene& scene);
 

@@ -14,6 +14,7 @@
 #include "calib/adjust/adjust.h"
 #include "calib/adjust/rotation_averaging.h"
 #include "calib/scene/choose_tracks.h"
+#include "calib/scene/hidden_points.h"
 #include "calib/scene/points.h"
 #include "calib/two_view/pair_rays.h"
 #include "survey/attitude.h"
@@ -260,6 +261,7 @@ void Anneal(const MapperOptions& options, const std::vector<double>& tolerances,
     MapperOptions wide = options;
     wide.max_error_sigmas = tolerance;
     TriangulateAll({tolerance, options.min_angle_rad}, options.threads, scene);
+    DropHiddenPoints(options.threads, scene);
     AdjustOptions adjust;
     adjust.use_priors = true;
     adjust.threads = options.adjust_threads;
@@ -271,6 +273,7 @@ void Anneal(const MapperOptions& options, const std::vector<double>& tolerances,
     adjust.tracks = ChooseTracks(scene, kObservations);
     Adjust(adjust, scene);
     TriangulateAll({tolerance, options.min_angle_rad}, options.threads, scene);
+    DropHiddenPoints(options.threads, scene);
     FilterScene(wide, scene);
     ApplyRecords(records, MeasureRecordErrors(records, scene), scene);
     context.progress->Advance();

@@ -26,7 +26,7 @@ constexpr double kMostOffset_m = 6;
 constexpr double kStep_m = 0.5;
 constexpr double kOnWall_m = 0.4;
 constexpr double kOffGround_m = 1;  // and roofs: what lies there may belong to them
-constexpr size_t kLeastPoints = 100;
+constexpr size_t kLeastOnWalls = 100;
 constexpr int kRounds = 5;
 
 // A point near the plane of a wall.
@@ -155,7 +155,7 @@ Eigen::Vector2d ShiftOntoWalls(std::span<const Eigen::Vector3d> points,
   const std::vector<NearWall> near = PointsNearWalls(points, walls);
   const int steps = static_cast<int>(kMostOffset_m / kStep_m);
   Eigen::Vector2d best = Eigen::Vector2d::Zero();
-  size_t most = std::max(kLeastPoints, NumOnWalls(near, best));
+  size_t most = std::max(kLeastOnWalls, NumOnWalls(near, best));
   for (int x = -steps; x <= steps; ++x) {
     for (int y = -steps; y <= steps; ++y) {
       const Eigen::Vector2d shift = kStep_m * Eigen::Vector2d(x, y);
@@ -165,7 +165,7 @@ Eigen::Vector2d ShiftOntoWalls(std::span<const Eigen::Vector3d> points,
       best = shift;
     }
   }
-  if (NumOnWalls(near, best) < kLeastPoints) return Eigen::Vector2d::Zero();
+  if (NumOnWalls(near, best) < kLeastOnWalls) return Eigen::Vector2d::Zero();
   return Refined(near, best);
 }
 

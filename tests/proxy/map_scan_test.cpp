@@ -78,8 +78,8 @@ TEST(MapScan, AMapOfAnotherPlaceIsRefused) {
   const std::vector<MapEntry> map = {{"B0001", {Rectangle(-6, -4, 6, 4)}, 3}};
   const FromScan made = MakeFromScan(captured, test::Displaced(map, 0, {10, 10}));
   EXPECT_EQ(test::Find(made.proxy, "B0001"), nullptr);
-  EXPECT_TRUE(std::ranges::any_of(made.findings.warnings, [](const std::string& warning) {
-    return warning.find("map gives no shape") != std::string::npos;
+  EXPECT_TRUE(std::ranges::any_of(made.findings.of_map, [](const ProxyFindings::OfMap& finding) {
+    return finding.warns && finding.text.find("map gives no shape") != std::string::npos;
   }));
 }
 
