@@ -355,6 +355,7 @@ RecordErrors MeasureRecordErrors(const std::vector<PoseRecord>& records, const S
     errors.flights[records[i].flight].num_photos += counts;
   }
   std::vector<int> flight_of_photo;
+  flight_of_photo.reserve(records.size());
   for (const PoseRecord& record : records) flight_of_photo.push_back(record.flight);
   const std::vector<FlightTie> ties = TiesOfFlights(flight_of_photo, scene);
   MeasurePositions(records, scene, ties, errors.flights);
