@@ -65,6 +65,7 @@ function(add_module_test name)
     DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
   foreach(suite ${T_TOGETHER})
     add_test(NAME ${name}/${suite} COMMAND ${name}_test "--gtest_filter=${suite}.*")
-    set_tests_properties(${name}/${suite} PROPERTIES TIMEOUT 600)
+    # Before single tests: what is long must not begin last.
+    set_tests_properties(${name}/${suite} PROPERTIES TIMEOUT 600 COST 10)
   endforeach()
 endfunction()
