@@ -22,7 +22,6 @@
 #include "calib/mapping/mapper.h"
 #include "calib/mapping/wrong_poses.h"
 #include "calib/matching/detect_photos.h"
-#include "calib/matching/known_poses.h"
 #include "calib/matching/match_photos.h"
 #include "calib/matching/repeating_walls.h"
 #include "calib/parts/parts.h"
@@ -267,13 +266,12 @@ std::map<int, std::string> Unregistered(const MapperOptions& mapper,
 }
 
 // A pose that little holds may be a bay off where a photo shows hardly anything but walls that
-// repeat themselves, unless photos that show something else say where it is.
+// repeat themselves.
 void TakeWeak(const OnRepeatingWalls& repeating, const std::vector<PoseSigma>& sigmas, Scene& scene,
               SceneParts& parts) {
   if (repeating.period_m.empty()) return;
   std::vector<int> taken = WeakPoses(scene, sigmas);
-  const std::vector<bool> surely = SurelyPosed(repeating, scene);
-  std::erase_if(taken, [&](int photo) { return !repeating.IsMostOf(photo) || surely[photo]; });
+  std::erase_if(taken, [&](int photo) { return !repeating.IsMostOf(photo); });
   TakePoses(taken, scene);
   for (const int photo : taken) parts.part_of_photo[photo] = -1;
 }
@@ -310,6 +308,7 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   mapper.refine_principal_point = options.refine_principal_point;
   mapper.threads = context.threads;
   mapper.adjust_threads = options.fast_adjustment ? context.threads : 1;
+  mapper.drop_hidden = repeating.period_m.empty();
   Scene scene;
   Reconstructed placed = PlacePhotos({options, mapper, photos, guidance, features, context},
                                      repeating, matched, scene);

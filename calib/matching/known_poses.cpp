@@ -95,6 +95,17 @@ int NumWitnessed(const Scene& scene, int photo, const std::vector<bool>& witness
   }));
 }
 
+// By photo: whether its pose is sure.
+std::vector<bool> SurelyPosed(const OnRepeatingWalls& repeating, const Scene& scene) {
+  const std::vector<bool> witnesses = FindWitnesses(repeating, scene);
+  std::vector<bool> surely = witnesses;
+  for (int i = 0; i < static_cast<int>(surely.size()); ++i) {
+    if (surely[i] || !scene.photos[i].pose) continue;
+    surely[i] = NumWitnessed(scene, i, witnesses) >= kEnoughObservations;
+  }
+  return surely;
+}
+
 // The place where photos of the same hover were taken that have sure poses.
 struct HoverPlace {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -167,16 +178,6 @@ Eigen::Vector2d ShiftOntoWalls(std::span<const Eigen::Vector3d> points,
   }
   if (NumOnWalls(near, best) < kLeastOnWalls) return Eigen::Vector2d::Zero();
   return Refined(near, best);
-}
-
-std::vector<bool> SurelyPosed(const OnRepeatingWalls& repeating, const Scene& scene) {
-  const std::vector<bool> witnesses = FindWitnesses(repeating, scene);
-  std::vector<bool> surely = witnesses;
-  for (int i = 0; i < static_cast<int>(surely.size()); ++i) {
-    if (surely[i] || !scene.photos[i].pose) continue;
-    surely[i] = NumWitnessed(scene, i, witnesses) >= kEnoughObservations;
-  }
-  return surely;
 }
 
 std::vector<std::optional<KnownPose>> KnowPoses(const KnowInput& input, const Scene& scene) {

@@ -30,15 +30,12 @@ struct KnowInput {
   const std::vector<PoseRecord>& records;
 };
 
-// By photo: whether a hundred points hold its pose. Photos of which most shows walls that repeat
-// themselves may hang together as they like: of theirs only points count that such as show
-// something else see too.
-std::vector<bool> SurelyPosed(const OnRepeatingWalls& repeating, const Scene& scene);
-
 // By photo: its pose where it is sure, else the place of others of its hover that have sure ones,
 // with the angles of its record, else its record, corrected by what records of its flight err by
-// and as sure as these turned out to be; nothing where it has none of these. Requires a scene in
-// the frame of the records, whose priors were corrected (ApplyRecords).
+// and as sure as these turned out to be; nothing where it has none of these. Sure are poses that a
+// hundred points hold; photos of which most shows walls that repeat themselves may hang together as
+// they like: of theirs only points count that such as show something else see too. Requires a scene
+// in the frame of the records, whose priors were corrected (ApplyRecords).
 std::vector<std::optional<KnownPose>> KnowPoses(const KnowInput& input, const Scene& scene);
 
 // The level shift, metres, that brings most points onto walls: receivers and maps are off against
