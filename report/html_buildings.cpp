@@ -46,6 +46,15 @@ std::string Row(const Building& building) {
       building.source == "map" ? "on the map" : "found in the photos", FormOf(building));
 }
 
+std::string MapFindings(const Proxy& proxy) {
+  if (proxy.findings.empty()) return "";
+  std::string items;
+  for (const std::string& finding : proxy.findings) {
+    items += fmt::format("<li>{}</li>", EscapeHtml(finding));
+  }
+  return "<h3>The map and the photos</h3><ul class=\"findings\">" + items + "</ul>";
+}
+
 }  // namespace
 
 std::string BuildingsSection(const PageContent& page) {
@@ -59,23 +68,16 @@ std::string BuildingsSection(const PageContent& page) {
     closed += building.watertight ? 1 : 0;
     rows += Row(building);
   }
-  std::string findings;
-  for (const std::string& finding : page.data.proxy->findings) {
-    findings += fmt::format("<li>{}</li>", EscapeHtml(finding));
-  }
-  if (!findings.empty()) {
-    findings = "<h3>The map and the photos</h3><ul class=\"findings\">" + findings + "</ul>";
-  }
   if (buildings == 0) return "";
   return fmt::format(
       "<section aria-labelledby=\"buildings\"><h2 id=\"buildings\">Buildings</h2>"
-      "<p>{} of {} closed.</p>{}<details{}><summary>All of them</summary><div class=\"scroll\">"
+      "<p>{} of {} closed.</p><details{}><summary>All of them</summary><div class=\"scroll\">"
       "<table class=\"plain\"><thead><tr><th scope=\"col\">Building</th>"
       "<th scope=\"col\" class=\"num\">Facets</th><th scope=\"col\" class=\"num\">Surface with "
       "points</th><th scope=\"col\"></th><th scope=\"col\">Model</th></tr></thead><tbody>{}"
-      "</tbody></table></div></details></section>",
-      closed, Count(buildings, "building", "buildings"), findings, buildings <= 12 ? " open" : "",
-      rows);
+      "</tbody></table></div></details>{}</section>",
+      closed, Count(buildings, "building", "buildings"), buildings <= 12 ? " open" : "", rows,
+      MapFindings(*page.data.proxy));
 }
 
 }  // namespace stucco::internal

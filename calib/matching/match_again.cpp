@@ -231,15 +231,10 @@ std::optional<VerifiedPair> VerifyAgain(const AgainInput& input, const ReadyPhot
 
 void DropOnRepeatingWalls(const OnRepeatingWalls& repeating, size_t least_matches,
                           std::vector<VerifiedPair>& pairs) {
-  const auto shows = [&](int photo, int keypoint) {
-    const std::vector<int>& walls = repeating.wall_of[photo];
-    // Keypoints of rectified walls are not matched where these repeat themselves.
-    return keypoint < static_cast<int>(walls.size()) && walls[keypoint] >= 0;
-  };
   for (VerifiedPair& each : pairs) {
     PhotoPair& pair = each.pair;
     std::erase_if(pair.matches, [&](const Match& match) {
-      return shows(pair.first, match.first) || shows(pair.second, match.second);
+      return repeating.Shows(pair.first, match.first) || repeating.Shows(pair.second, match.second);
     });
   }
   std::erase_if(pairs,

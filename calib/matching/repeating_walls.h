@@ -35,8 +35,10 @@ struct OnRepeatingWalls {
   std::map<int, double> period_m;         // by wall: as FindRepeatingWalls gives it
   std::vector<std::vector<int>> wall_of;  // by photo and keypoint found in the photo itself: -1 for
                                           // none; empty where the photo shows no such wall
+  // Not those of rectified walls, which come after the photo's own.
   bool Shows(int photo, int keypoint) const {
-    return !wall_of[photo].empty() && wall_of[photo][keypoint] >= 0;
+    const std::vector<int>& walls = wall_of[photo];
+    return keypoint < static_cast<int>(walls.size()) && walls[keypoint] >= 0;
   }
   // At least half of what is found in the photo lies on such walls.
   bool IsMostOf(int photo) const;

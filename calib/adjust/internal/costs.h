@@ -137,6 +137,14 @@ class ReprojectionCost final : public ceres::SizedCostFunction<2, kNumParams, kP
   double inverse_sigma_;
 };
 
+// The camera's centre of a pose's block.
+template <typename T>
+Eigen::Matrix<T, 3, 1> CenterOf(const T* pose) {
+  const Eigen::Map<const Eigen::Quaternion<T>> q(pose);
+  const Eigen::Map<const Eigen::Matrix<T, 3, 1>> t(pose + 4);
+  return -(q.conjugate() * t);
+}
+
 // (camera centre - measured position) / sigma per axis; sigma is (east, north, up).
 struct PositionCost {
   Eigen::Vector3d position;
@@ -144,9 +152,7 @@ struct PositionCost {
 
   template <typename T>
   bool operator()(const T* pose, T* residual) const {
-    const Eigen::Map<const Eigen::Quaternion<T>> q(pose);
-    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> t(pose + 4);
-    const Eigen::Matrix<T, 3, 1> center = -(q.conjugate() * t);
+    const Eigen::Matrix<T, 3, 1> center = CenterOf(pose);
     for (int i = 0; i < 3; ++i) residual[i] = (center[i] - T(position[i])) * T(inverse_sigma[i]);
     return true;
   }
@@ -164,12 +170,8 @@ struct SamePlaceCost {
 
   template <typename T>
   bool operator()(const T* first, const T* second, T* residual) const {
-    const auto center = [](const T* pose) -> Eigen::Matrix<T, 3, 1> {
-      const Eigen::Map<const Eigen::Quaternion<T>> q(pose);
-      return -(q.conjugate() * Eigen::Map<const Eigen::Matrix<T, 3, 1>>(pose + 4));
-    };
     Eigen::Map<Eigen::Matrix<T, 3, 1>> out(residual);
-    out = (center(first) - center(second)) * T(inverse_sigma);
+    out = (CenterOf(first) - CenterOf(second)) * T(inverse_sigma);
     return true;
   }
 
