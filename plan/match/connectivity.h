@@ -7,16 +7,25 @@
 
 namespace stucco::plan {
 
+using Edges = std::vector<std::pair<int, int>>;  // of nodes (a, b); each pair at most once
+
 // How an undirected graph hangs together.
 struct Connectivity {
   std::vector<int> part;  // by node, from 0
   int parts = 0;
-  std::vector<int> block;  // by node: nodes of one block stay together whichever edge is cut
-  int blocks = 0;
-  std::vector<std::pair<int, int>> bridges;  // edges (a, b), a < b, that hold two blocks together
+  Edges bridges;  // (a, b), a < b: without one of them there would be one part more
 };
 
-// Edges (a, b) of nodes below `nodes`; each pair at most once.
-Connectivity ConnectivityOf(int nodes, const std::vector<std::pair<int, int>>& edges);
+Connectivity ConnectivityOf(int nodes, const Edges& edges);
+
+// Nodes, ascending, that one other holds to the rest of the graph, or none.
+struct HangingGroup {
+  std::vector<int> nodes;
+  int on = -1;  // -1: a part of its own
+};
+
+// What hangs on the largest set of nodes of which any may go without the others falling apart (a
+// biconnected component).
+std::vector<HangingGroup> HangingGroups(int nodes, const Edges& edges);
 
 }  // namespace stucco::plan

@@ -40,8 +40,12 @@ MatchStats ExpectMatches(const PhotoGraph& photos, std::span<const Hover> hovers
   const Connectivity whole = ConnectivityOf(ties);
   MatchStats stats{.parts = whole.parts,
                    .bridges = static_cast<int>(whole.bridges.size()),
+                   .hanging = 0,
                    .loose = 0,
                    .weakest = {}};
+  for (const LooseGroup& group : LooseGroups(photos.places, ties)) {
+    stats.hanging += static_cast<int>(group.photos.size());
+  }
   for (size_t i = 0; i < ties.size(); ++i) {
     PlannedView& view = plan.views[i];
     std::ranges::stable_sort(ties[i].strong, std::ranges::greater{}, &Partner::strength);

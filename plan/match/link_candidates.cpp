@@ -21,11 +21,16 @@ constexpr double kSteps[] = {1.25, 1.6, 2.0, 2.35};
 // Up, and aside where something stands in the way.
 constexpr double kRises_deg[] = {8, 16, 24, 31};
 constexpr double kTurns_deg[] = {0, 22, -22};
+// Beside a photo above which nothing is free, as above one at the height of flight: at its height.
+constexpr double kAside_deg[] = {12, 22, 30};
+constexpr int kWaysAside = 8;
 // The middle of what a photo shows is no point that all of it is seen from under one angle.
 constexpr double kSpare = 0.95;
 constexpr double kSteepest = -89 * kRadians;
 // A place nearer to the photo shows what it shows from where it does.
 constexpr double kApart_m = 2;
+// Sights are in single precision.
+constexpr double kRounding_m = 1e-3;
 // Photos that a stop in passing costs, and one that the drone makes for it.
 constexpr double kColumnCost = 2.5;
 constexpr double kStopCost = 3;
@@ -52,9 +57,14 @@ class Finder {
   void Take(const Vector3d& position, LinkPlace place, int hover) {
     found_.push_back({position, LinkShot(gaze_.middle - position), place, hover});
   }
-  void TakeIfFree(const Vector3d& position, LinkPlace place, int hover) {
-    if (position.z() > obstacles_.site().CeilingAt(position.head<2>())) return;
-    if (IsClose(position) && obstacles_.IsFree(position)) Take(position, place, hover);
+  // Returns whether it is.
+  bool TakeIfFree(Vector3d position, LinkPlace place, int hover) {
+    const double ceiling = obstacles_.site().CeilingAt(position.head<2>());
+    if (std::abs(position.z() - ceiling) < kRounding_m) position.z() = ceiling;
+    if (position.z() > ceiling) return false;
+    if (!IsClose(position) || !obstacles_.IsFree(position)) return false;
+    Take(position, place, hover);
+    return true;
   }
   std::vector<LinkCandidate> TakeFound() { return std::move(found_); }
 
@@ -110,12 +120,22 @@ std::vector<LinkCandidate> LinkCandidates(const Gaze& gaze, const Obstacles& obs
   for (double rise = kApart_m + 0.5; rise < gaze.distance_m; rise *= 1.3) {
     finder.TakeIfFree(own + rise * Vector3d::UnitZ(), LinkPlace::kColumn, own_hover);
   }
+  bool any_above = false;
   for (const double step : kSteps) {
     for (const double rise : kRises_deg) {
       for (const double turn : kTurns_deg) {
         const Vector3d way = Risen(gaze.way, rise * kRadians, turn * kRadians);
-        finder.TakeIfFree(gaze.middle + step * gaze.distance_m * way, LinkPlace::kOwn, -1);
+        any_above |=
+            finder.TakeIfFree(gaze.middle + step * gaze.distance_m * way, LinkPlace::kOwn, -1);
       }
+    }
+  }
+  for (int i = 0; !any_above && i < kWaysAside; ++i) {
+    const double around = 2 * std::numbers::pi * i / kWaysAside;
+    const Vector3d aside(std::cos(around), std::sin(around), 0);
+    for (const double angle : kAside_deg) {
+      finder.TakeIfFree(own + gaze.distance_m * std::tan(angle * kRadians) * aside, LinkPlace::kOwn,
+                        -1);
     }
   }
   return finder.TakeFound();

@@ -46,7 +46,9 @@ class Linker {
   }
   int ServedLone(const Assessed& link) const;
   bool ServeLone(uint32_t photo);
-  bool Tie(const Connectivity& whole, int block);
+  int CountTies(const Assessed& link, const LooseGroup& group) const;
+  std::vector<uint32_t> PhotosToTie(const LooseGroup& group) const;
+  bool Tie(const LooseGroup& group);
   void ThrowIfCancelled() const {
     if (progress_.Cancelled()) throw Error(ErrorKind::kInterrupted, "interrupted");
   }
@@ -123,20 +125,33 @@ void Linker::ServeLonePhotos() {
   }
 }
 
-// Adds a photo that ties a block to the rest, if there is one.
-bool Linker::Tie(const Connectivity& whole, int block) {
-  for (uint32_t photo = 0; photo < whole.block.size(); ++photo) {
-    if (whole.block[photo] != block) continue;
-    const auto link = Best(photo, [&](const Assessed& candidate) {
-      int inside = 0, outside = 0;
-      for (const Partner& partner :
-           photos_.graph().PartnersOf(candidate.candidate.position, candidate.sights)) {
-        if (partner.strength < kEnoughStrength) continue;
-        const bool is_inside =
-            partner.photo < whole.block.size() && whole.block[partner.photo] == block;
-        ++(is_inside ? inside : outside);
-      }
-      return inside > 0 && outside > 0 ? std::min(2, outside) : 0.0;
+// How many photos of the group and of the rest, two of each at most, a photo there would match.
+int Linker::CountTies(const Assessed& link, const LooseGroup& group) const {
+  int inside = 0, outside = 0;
+  for (const Partner& partner : photos_.graph().PartnersOf(link.candidate.position, link.sights)) {
+    if (partner.strength < kEnoughStrength) continue;
+    const int hover = static_cast<int>(photos_.HoverOf(partner.photo));
+    if (hover != group.on) ++(group.Holds(partner.photo) ? inside : outside);
+  }
+  return inside > 0 && outside > 0 ? std::min(2, inside) + std::min(2, outside) : 0;
+}
+
+// The photos of a group, then those that it hangs on: what ties it may stand between.
+std::vector<uint32_t> Linker::PhotosToTie(const LooseGroup& group) const {
+  std::vector<uint32_t> out = group.photos;
+  for (uint32_t photo = 0; photo < photos_.size(); ++photo) {
+    if (static_cast<int>(photos_.HoverOf(photo)) == group.on) out.push_back(photo);
+  }
+  return out;
+}
+
+// Adds a photo that ties a group to the rest, if there is one.
+bool Linker::Tie(const LooseGroup& group) {
+  for (const uint32_t photo : PhotosToTie(group)) {
+    const auto link = Best(photo, [&](const Assessed& one) {
+      const LinkCandidate& candidate = one.candidate;
+      const bool is_there = candidate.place == LinkPlace::kHover && candidate.hover == group.on;
+      return is_there ? 0.0 : CountTies(one, group);
     });
     if (!link) continue;
     photos_.Add(*link);
@@ -146,18 +161,12 @@ bool Linker::Tie(const Connectivity& whole, int block) {
 }
 
 void Linker::TieParts() {
-  for (int tries = 0;; ++tries) {
+  for (int tries = 0; tries < kMostTries; ++tries) {
     ThrowIfCancelled();
-    const Connectivity whole = ConnectivityOf(photos_.ties());
-    if (whole.blocks <= 1) return;
-    std::vector<int> sizes(whole.blocks);
-    for (const int block : whole.block) ++sizes[block];
-    const int main = static_cast<int>(std::ranges::max_element(sizes) - sizes.begin());
     bool tied = false;
-    for (int block = 0; block < whole.blocks; ++block) {
-      if (block != main) tied |= Tie(whole, block);
-    }
-    if (!tied || tries == kMostTries) return;
+    for (const LooseGroup& group : LooseGroups(photos_.places(), photos_.ties()))
+      tied |= Tie(group);
+    if (!tied) return;
   }
 }
 

@@ -29,7 +29,8 @@ class LinkedPhotos {
   int threads() const { return threads_; }
   std::span<const Hover> hovers() const { return hovers_; }
   const MatchGraph& graph() const { return photos_.graph; }
-  const std::vector<Ties>& ties() const { return ties_; }  // by photo
+  const std::vector<Ties>& ties() const { return ties_; }                // by photo
+  std::span<const PhotoPlace> places() const { return photos_.places; }  // by photo
   const PhotoPlace& PlaceOf(uint32_t photo) const { return photos_.places[photo]; }
   uint32_t HoverOf(uint32_t photo) const { return PlaceOf(photo).hover; }
   const Shot& ShotOf(uint32_t photo) const {

@@ -14,18 +14,33 @@ constexpr float kLeastCosine = 0.02F;
 // (bench/match_graph.py, docs/benchmarks.md).
 constexpr double kHalfTilt = 3;
 constexpr double kHalfScale = 4;
+// Fitted likewise: what a surface has for each feature that is found again on ground, and the
+// cosine of a line of sight at which half of a surface's features are lost.
+constexpr float kWallFeatures = 0.65F;
+constexpr float kRoofFeatures = 0.2F;
+constexpr float kHalfCosine = 0.25F;
 
 float CosineOf(const Eigen::Vector3f& normal, const Sight& sight) {
   return std::max(kLeastCosine, sight.way.dot(normal));
 }
 
-// What a patch adds to the strength of a pair.
-float Common(const Sight& one, double cosine, const Sight& other, double other_cosine) {
-  return std::min(one.share, other.share) *
-         static_cast<float>(Likeness(WarpBetween(one, cosine, other, other_cosine)));
+float FeaturesOf(SurfaceKind kind) {
+  switch (kind) {
+    case SurfaceKind::kWall:
+      return kWallFeatures;
+    case SurfaceKind::kRoof:
+      return kRoofFeatures;
+    case SurfaceKind::kGround:
+      return 1;
+  }
+  return 0;
 }
 
 }  // namespace
+
+float Richness(SurfaceKind kind, float cosine) {
+  return FeaturesOf(kind) * cosine * cosine / (cosine * cosine + kHalfCosine * kHalfCosine);
+}
 
 // With the tangential parts t1 and t2 of the lines of sight, the pictures stretch the patch by
 // G = I - t t^T; the eigenvalues of G1^-1 G2 are the squares of the stretches from one to the
@@ -52,6 +67,14 @@ bool IsClose(const Sight& one, const Sight& other) {
   return one.way.dot(other.way) >= close_cosine &&
          one.distance_m <= kCloseRatio * other.distance_m &&
          other.distance_m <= kCloseRatio * one.distance_m;
+}
+
+// What a patch adds to the strength of a pair.
+float MatchGraph::Common(const Sight& one, float cosine, const Sight& other,
+                         float other_cosine) const {
+  const auto likeness = static_cast<float>(Likeness(WarpBetween(one, cosine, other, other_cosine)));
+  return std::min(one.share, other.share) * likeness *
+         Richness(view_.samples[one.sample].kind, std::min(cosine, other_cosine));
 }
 
 float MatchGraph::CosineAt(const Sight& sight) const {

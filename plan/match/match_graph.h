@@ -26,21 +26,24 @@ Warp WarpBetween(const Sight& one, double cosine, const Sight& other, double oth
 // How surely features of a patch match: 1 where they do, towards 0 where they do not.
 double Likeness(const Warp& warp);
 
+// How many features a surface offers that is seen at this cosine at the flattest, next to level
+// ground seen from straight above: roofs are plain or repeat their tiles, facades their windows.
+float Richness(SurfaceKind kind, float cosine);
+
 // What a pair of photos has in common.
 struct Partner {
   uint32_t photo = 0;
   // Of the two frames, what both show alike: the smaller share of each common patch, times how
-  // surely it matches; in [0, 1].
+  // surely it matches and how rich in features it is; in [0, 1].
   float strength = 0;
   // Of the walls in the photo that asks, the share that this one shows within kCloseAngle_rad and
   // kCloseRatio.
   float close_walls = 0;
 };
 
-// A pair with less is not counted on. Of those with up to half as much again, six to nine in ten
-// came to share 15 points or more, of stronger ones nearly all (bench/match_graph.py,
-// docs/benchmarks.md).
-inline constexpr float kEnoughStrength = 0.08F;
+// A pair with less is not counted on. Of those with up to twice as much, nine in ten came to share
+// 15 points or more, of stronger ones all (bench/match_graph.py, docs/benchmarks.md).
+inline constexpr float kEnoughStrength = 0.06F;
 // What a photo of a facade needs two partners within (SIFT on planes: Mikolajczyk et al., "A
 // Comparison of Affine Region Detectors", 2005), for this share of the walls that it shows.
 inline constexpr float kCloseAngle_rad = 0.611F;  // 35 degrees
@@ -98,6 +101,7 @@ class MatchGraph {
     Sight sight;
   };
   float CosineAt(const Sight& sight) const;
+  float Common(const Sight& one, float cosine, const Sight& other, float other_cosine) const;
   bool IsFrom(uint32_t photo, const Eigen::Vector3d& position) const {
     return (positions_[photo] - position).norm() < kSamePlace_m;
   }

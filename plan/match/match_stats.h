@@ -21,6 +21,7 @@ struct TiedView {
 struct MatchStats {
   int parts = 0;                  // that the photos fall into
   int bridges = 0;                // pairs that alone hold two parts together
+  int hanging = 0;                // photos that those of one hover alone hold to the rest, or none
   int loose = 0;                  // photos that lack partners
   std::vector<TiedView> weakest;  // the loose ones, then those with the least strength
 };

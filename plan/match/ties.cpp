@@ -3,6 +3,8 @@
 #include "plan/match/ties.h"
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "survey/parallel.h"
 
@@ -11,6 +13,39 @@ namespace {
 
 // Two close partners of a photo stand apart, or they are one.
 constexpr double kApart_m = 2;
+
+Edges EdgesOf(const std::vector<Ties>& ties) {
+  Edges edges;
+  for (size_t a = 0; a < ties.size(); ++a) {
+    for (const Partner& b : ties[a].strong) {
+      if (a < b.photo) edges.emplace_back(static_cast<int>(a), static_cast<int>(b.photo));
+    }
+  }
+  return edges;
+}
+
+// The graph of hovers whose photos match.
+std::vector<LooseGroup> HangingFromHovers(std::span<const PhotoPlace> places,
+                                          const std::vector<Ties>& ties) {
+  int hovers = 0;
+  for (const PhotoPlace& place : places)
+    hovers = std::max(hovers, static_cast<int>(place.hover) + 1);
+  std::set<std::pair<int, int>> pairs;
+  for (const auto& [a, b] : EdgesOf(ties)) {
+    pairs.insert(std::minmax(static_cast<int>(places[a].hover), static_cast<int>(places[b].hover)));
+  }
+  std::vector<LooseGroup> groups;
+  std::vector<int> group_of(hovers, -1);
+  for (const HangingGroup& hanging : HangingGroups(hovers, Edges(pairs.begin(), pairs.end()))) {
+    for (const int hover : hanging.nodes) group_of[hover] = static_cast<int>(groups.size());
+    groups.push_back({.photos = {}, .on = hanging.on});
+  }
+  for (uint32_t photo = 0; photo < places.size(); ++photo) {
+    const int group = group_of[places[photo].hover];
+    if (group >= 0) groups[group].photos.push_back(photo);
+  }
+  return groups;
+}
 
 }  // namespace
 
@@ -41,13 +76,22 @@ std::vector<Ties> TiesOf(const PhotoGraph& photos, std::span<const Hover> hovers
 }
 
 Connectivity ConnectivityOf(const std::vector<Ties>& ties) {
-  std::vector<std::pair<int, int>> edges;
-  for (size_t a = 0; a < ties.size(); ++a) {
-    for (const Partner& b : ties[a].strong) {
-      if (a < b.photo) edges.emplace_back(static_cast<int>(a), static_cast<int>(b.photo));
-    }
+  return ConnectivityOf(static_cast<int>(ties.size()), EdgesOf(ties));
+}
+
+std::vector<LooseGroup> LooseGroups(std::span<const PhotoPlace> places,
+                                    const std::vector<Ties>& ties) {
+  std::vector<LooseGroup> groups = HangingFromHovers(places, ties);
+  const auto held = [&](int photo) {
+    return std::ranges::any_of(groups, [&](const LooseGroup& group) { return group.Holds(photo); });
+  };
+  // Photos of one hover need not match others together.
+  for (const HangingGroup& hanging : HangingGroups(static_cast<int>(ties.size()), EdgesOf(ties))) {
+    if (std::ranges::any_of(hanging.nodes, held)) continue;
+    groups.push_back({.photos = {hanging.nodes.begin(), hanging.nodes.end()},
+                      .on = hanging.on < 0 ? -1 : static_cast<int>(places[hanging.on].hover)});
   }
-  return ConnectivityOf(static_cast<int>(ties.size()), edges);
+  return groups;
 }
 
 int LackingPartners(const Ties& ties) {

@@ -30,7 +30,7 @@ constexpr double kBelowMap = 60;
 constexpr double kKeyRow = 71;  // from the top of the page
 
 // How surely two photos match, by what flown surveys show (docs/benchmarks.md): of pairs below the
-// second limit six to nine in ten come to share 15 points, of those above the third all do.
+// second limit nine in ten come to share 15 points, of those above the third all do.
 struct Level {
   double from;  // strength
   const char* color;
@@ -39,9 +39,9 @@ struct Level {
 };
 constexpr Level kLevels[] = {
     {0, "#d7191c", "fewer than three partners", 0},
-    {kEnoughStrength, "#f08a24", "six to nine in ten such pairs match", 1.3},
-    {0.12, "#4a90c2", "nearly all do", 0.9},
-    {0.24, "#b4bac2", "all do", 0.6},
+    {kEnoughStrength, "#f08a24", "nine in ten such pairs match", 1.3},
+    {0.1, "#4a90c2", "nearly all do", 0.9},
+    {0.16, "#b4bac2", "all do", 0.6},
 };
 
 // Of a pair that counts: never that of too few partners.

@@ -102,6 +102,7 @@ Json MatchesJson(const MatchStats& matches) {
   }
   return {{"parts", matches.parts},
           {"bridges", matches.bridges},
+          {"hanging", matches.hanging},
           {"loose", matches.loose},
           {"weakest", std::move(weakest)}};
 }

@@ -41,8 +41,11 @@ std::string Energy(const PlanStats& stats) {
 std::string Matches(const MatchStats& matches) {
   const std::string loose =
       matches.loose == 0 ? "no photo is loose" : fmt::format("loose photos: {}", matches.loose);
-  if (matches.parts <= 1 && matches.bridges == 0) return loose + ", all hang together";
-  return loose + fmt::format(", parts: {}, bridges: {}", matches.parts, matches.bridges);
+  if (matches.parts <= 1 && matches.bridges == 0 && matches.hanging == 0) {
+    return loose + ", all hang together";
+  }
+  return loose + fmt::format(", parts: {}, bridges: {}, photos that hang on one hover: {}",
+                             matches.parts, matches.bridges, matches.hanging);
 }
 
 std::string Time(const PlanStats& stats) {

@@ -133,6 +133,17 @@ TEST(Likeness, FallsWithTiltAndScale) {
   }
 }
 
+TEST(Richness, IsThatOfGroundWhichIsSeenFromAbove) {
+  EXPECT_GT(Richness(SurfaceKind::kGround, 1), 0.9);
+  EXPECT_LE(Richness(SurfaceKind::kGround, 1), 1);
+  for (const float cosine : {0.2F, 0.5F, 1.0F}) {
+    EXPECT_GT(Richness(SurfaceKind::kGround, cosine), Richness(SurfaceKind::kWall, cosine));
+    EXPECT_GT(Richness(SurfaceKind::kWall, cosine), Richness(SurfaceKind::kRoof, cosine));
+    EXPECT_GT(Richness(SurfaceKind::kRoof, cosine), Richness(SurfaceKind::kRoof, cosine / 2));
+  }
+  EXPECT_LT(Richness(SurfaceKind::kGround, 0.05F), 0.05);  // pavement at 87 degrees
+}
+
 TEST(PhotoSights, AWallThatFillsThePhotoFillsItsFrame) {
   const Site site = MadeSite({Rectangle(-30, 0, 30, 20)}, {.heights_m = {40}});
   const CameraPreset camera = FindCamera("mavic-3e");

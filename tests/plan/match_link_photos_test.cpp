@@ -68,6 +68,7 @@ TEST_F(House, ItsFacadePhotosAreLooseWithoutLinksAndTiedWithThem) {
   const Connectivity whole = ConnectivityOf(TiesOf(photos, hovers_, 2));
   EXPECT_EQ(whole.parts, 1);
   EXPECT_TRUE(whole.bridges.empty());
+  EXPECT_TRUE(LooseGroups(photos.places, TiesOf(photos, hovers_, 2)).empty());
   int links = 0;
   for (size_t h = 0; h < hovers_.size(); ++h) {
     EXPECT_TRUE(obstacles_.IsFree(hovers_[h].position));
@@ -170,6 +171,39 @@ TEST_F(House, CandidatesAreFreeAndNearInDirectionAndScale) {
     EXPECT_LE(candidate.position.z(), site_.CeilingAt(candidate.position.head<2>()));
   }
   EXPECT_TRUE(LinkCandidates({}, obstacles_, hovers_, 0).empty());
+}
+
+// Above a photo that is taken at the height of flight nothing may be.
+TEST_F(House, BesideAPhotoAtTheCeilingAreCandidatesAtItsHeight) {
+  const Gaze gaze{{0, 0, 6}, Vector3d::UnitZ(), site_.safe_altitude_m - 6};
+  const auto candidates = LinkCandidates(gaze, obstacles_, {}, 0);
+  ASSERT_GT(candidates.size(), 5u);
+  for (const LinkCandidate& candidate : candidates) {
+    EXPECT_EQ(candidate.position.z(), site_.safe_altitude_m);
+    EXPECT_GT(candidate.position.head<2>().norm(), 2);
+  }
+}
+
+// Photos straight down, low over the ground beside the house, that one in between holds to others.
+TEST_F(House, TiesWhatHangsOnOneHover) {
+  constexpr double kDown = -1.5;
+  std::vector<Hover> hovers{
+      {{-14, -30, 14}, {{.pitch_rad = kDown, .kind = ViewKind::kNadir, .targets = {}}}}};
+  for (const double x : {-38.0, -33.0, -28.0, 0.0, 5.0}) {
+    for (const double y : {-36.0, -30.0, -24.0}) {
+      hovers.push_back(
+          {{x, y, 14}, {{.pitch_rad = kDown, .kind = ViewKind::kNadir, .targets = {}}}});
+    }
+  }
+  const auto loose = [&] {
+    const PhotoGraph photos(setting_, hovers);
+    return LooseGroups(photos.places, TiesOf(photos, hovers, 2));
+  };
+  const auto before = loose();
+  ASSERT_EQ(before.size(), 1u);
+  EXPECT_EQ(before.front().on, 0);
+  EXPECT_GT(AddLinkPhotos(setting_, obstacles_, hovers, progress_).photos, 0);
+  EXPECT_TRUE(loose().empty());
 }
 
 }  // namespace

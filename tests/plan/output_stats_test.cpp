@@ -112,16 +112,23 @@ TEST(Stats, SayHowThePhotosHangTogether) {
   const test::TemporaryFolder folder;
   PlanStats stats = StatsOf(test::MakePlan(), 0, 0);
   stats.matches = {
-      2, 1, 1, {{"h0001v1", 2, 1, 0.25, {"B0001/F00"}, true}, {"h0002v1", 5, 0, 1.5, {}, false}}};
+      2,
+      1,
+      7,
+      1,
+      {{"h0001v1", 2, 1, 0.25, {"B0001/F00"}, true}, {"h0002v1", 5, 0, 1.5, {}, false}}};
   WriteStats(stats, folder / "stats.json");
   const auto matches = nlohmann::json::parse(ReadFile(folder / "stats.json"))["matches"];
   EXPECT_EQ(matches["parts"], 2);
   EXPECT_EQ(matches["bridges"], 1);
+  EXPECT_EQ(matches["hanging"], 7);
   EXPECT_EQ(matches["loose"], 1);
   EXPECT_EQ(matches["weakest"][0]["close"], 1);
   EXPECT_EQ(matches["weakest"][0]["facades"][0], "B0001/F00");
   EXPECT_FALSE(matches["weakest"][1].contains("facades"));
-  EXPECT_NE(StatsTable(stats).find("loose photos: 1, parts: 2, bridges: 1"), std::string::npos);
+  EXPECT_NE(StatsTable(stats).find("loose photos: 1, parts: 2, bridges: 1, photos that hang "
+                                   "on one hover: 7"),
+            std::string::npos);
 }
 
 TEST(Stats, OfAnEmptyPlanAreZeros) {
