@@ -15,7 +15,7 @@ import json
 import pathlib
 import sys
 
-BINS = (0.08, 0.1, 0.12, 0.16, 0.24, 0.4, 1.01)
+BINS = (0.06, 0.08, 0.1, 0.12, 0.16, 0.24, 0.4, 1.01)
 KINDS = ("dipping", "dipping_foot", "link", "nadir", "oblique")
 
 

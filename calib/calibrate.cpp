@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -109,10 +110,11 @@ SceneSigmas SigmasOf(const MapperOptions& mapper, bool use_priors, const Scene& 
 }
 
 // Judges every pose by what the records turned out to be good to, and adjusts once more with those
-// that agree. Requires a scene in the frame of the records.
+// that agree. Requires a scene in the frame of the records, of which each photo has one.
 GeoreferenceResult RefineWithRecords(const MapperOptions& mapper,
                                      const std::vector<PoseRecord>& records,
                                      const StageContext& context, Scene& scene) {
+  assert(records.size() == scene.photos.size());
   GeoreferenceResult result;
   const auto apply = [&] {
     result.records = MeasureRecordErrors(records, scene);
@@ -209,6 +211,7 @@ GeoreferenceResult Georeference(const Reconstructed& from, const MapperOptions& 
                                 Scene& scene) {
   std::optional<GeoreferenceResult> without;
   if (!from.is_in_frame) without = BringIntoFrame(from, mapper, photos, context, scene);
+  assert(without || from.frame);
   GeoreferenceResult result =
       without ? std::move(*without) : RefineWithRecords(mapper, from.records, context, scene);
   if (without) {

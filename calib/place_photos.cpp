@@ -58,7 +58,7 @@ void AddTracks(const std::vector<VerifiedPair>& pairs, Scene& scene) {
   std::vector<const PhotoPair*> matches;
   matches.reserve(pairs.size());
   for (const VerifiedPair& pair : pairs) matches.push_back(&pair.pair);
-  scene.tracks = BuildTracksOf(num_keypoints, std::move(matches));
+  scene.tracks = BuildTracks(num_keypoints, std::move(matches));
   IndexTracks(scene);
 }
 

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -47,6 +48,7 @@ struct Layout {
 // The share's quantile of `values`, which it sorts in part. Requires one value or more.
 template <typename Value>
 Value Quantile(std::vector<Value>& values, double share) {
+  assert(!values.empty());
   const auto place =
       values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), place, values.end());

@@ -32,6 +32,10 @@ Eigen::Quaterniond AboutUp(double angle_rad) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()));
 }
 
+double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
 Eigen::Vector3d RotationVector(const Eigen::Quaterniond& rotation) {
   const Eigen::AngleAxisd turn(rotation);
   const double angle =

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <utility>
 
 #include "survey/internal/json.h"
@@ -18,6 +20,23 @@ constexpr std::array<std::pair<PhotoState, std::string_view>, 4> kStates = {{
     {PhotoState::kAmbiguous, "ambiguous"},
     {PhotoState::kRecordOnly, "record-only"},
 }};
+
+// Whether lists that belong together are of one length, and parts that photos name are there.
+[[maybe_unused]] bool FitsTogether(const Calibration& calibration) {
+  const auto parts = static_cast<int>(calibration.parts.size());  // none of an imported model
+  const auto has = [](const std::vector<double>& numbers, size_t count) {
+    return numbers.empty() || numbers.size() == count;
+  };
+  return std::ranges::all_of(calibration.photos,
+                             [&](const CalibratedPhoto& photo) {
+                               return photo.part >= -1 && (parts == 0 || photo.part < parts) &&
+                                      has(photo.center, 3) && has(photo.rotation, 4);
+                             }) &&
+         std::ranges::all_of(calibration.cameras, [&](const CalibratedCamera& camera) {
+           return camera.params.size() == camera.names.size() &&
+                  has(camera.sigma, camera.names.size());
+         });
+}
 
 }  // namespace
 
@@ -162,6 +181,7 @@ Calibration ReadCalibration(const std::filesystem::path& path) {
 }
 
 void WriteCalibration(const Calibration& calibration, const std::filesystem::path& path) {
+  assert(FitsTogether(calibration));
   internal::WriteJsonFile(calibration, path);
 }
 

@@ -144,7 +144,8 @@ struct Calibration {
   std::vector<std::string> findings;  // "6 photos were taken from one point (rotation only) ..."
 };
 
-// Throws Error (kBadInput).
+// Throws Error (kBadInput). Writing requires lists that fit each other: parts that photos name,
+// numbers for each name of a camera's parameters, three for a place and four for a rotation.
 Calibration ReadCalibration(const std::filesystem::path& path);
 void WriteCalibration(const Calibration& calibration, const std::filesystem::path& path);
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <set>
 
@@ -69,6 +70,25 @@ std::optional<std::string> FindFacetProblem(const Facet& facet) {
   return std::nullopt;
 }
 
+// Other files know buildings and facets by their ids.
+std::optional<std::string> FindIdProblem(const Proxy& proxy) {
+  std::set<std::string> building_ids;
+  std::set<std::string> facet_ids;
+  for (const Building& building : proxy.buildings) {
+    if (building.id.empty()) return "a building has no id";
+    if (!building_ids.insert(building.id).second) {
+      return fmt::format("building {} is there twice", building.id);
+    }
+    for (const Facet& facet : building.facets) {
+      if (facet.id.empty()) return fmt::format("a facet of building {} has no id", building.id);
+      if (!facet_ids.insert(facet.id).second) {
+        return fmt::format("facet {} is there twice", facet.id);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string CityGmlName(FacetClass facet_class) {
@@ -91,18 +111,9 @@ const std::string& FacadeName(const Facet& facet) {
 
 std::optional<std::string> FindProblem(const Proxy& proxy) {
   if (!(std::abs(proxy.up.norm() - 1) <= kUnitTolerance)) return "up is not of unit length";
-  std::set<std::string> building_ids;
-  std::set<std::string> facet_ids;
+  if (auto problem = FindIdProblem(proxy)) return problem;
   for (const Building& building : proxy.buildings) {
-    if (building.id.empty()) return "a building has no id";
-    if (!building_ids.insert(building.id).second) {
-      return fmt::format("building {} is there twice", building.id);
-    }
     for (const Facet& facet : building.facets) {
-      if (facet.id.empty()) return fmt::format("a facet of building {} has no id", building.id);
-      if (!facet_ids.insert(facet.id).second) {
-        return fmt::format("facet {} is there twice", facet.id);
-      }
       if (const auto problem = FindFacetProblem(facet)) {
         return fmt::format("facet {}: {}", facet.id, *problem);
       }
@@ -179,6 +190,7 @@ Proxy ReadProxy(const std::filesystem::path& path) {
 }
 
 void WriteProxy(const Proxy& proxy, const std::filesystem::path& path) {
+  assert(!FindIdProblem(proxy));
   internal::WriteJsonFile(proxy, path);
 }
 

@@ -61,7 +61,8 @@ struct Proxy {
 // The first ring with under 3 vertices, vertex off its plane, wrong orientation ..., or nothing.
 std::optional<std::string> FindProblem(const Proxy& proxy);
 
-// proxy/facets.json; the names in it are fixed (docs/formats.md). Throws Error (kBadInput).
+// proxy/facets.json; the names in it are fixed (docs/formats.md). Throws Error (kBadInput), reading
+// also where FindProblem finds one. Writing requires buildings and facets with ids, each once.
 Proxy ReadProxy(const std::filesystem::path& path);
 void WriteProxy(const Proxy& proxy, const std::filesystem::path& path);
 

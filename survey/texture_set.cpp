@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cassert>
+
 #include "survey/error.h"
 #include "survey/internal/json.h"
 
@@ -55,6 +58,9 @@ TextureSet ReadTextureSet(const std::filesystem::path& path) {
 }
 
 void WriteTextureSet(const TextureSet& textures, const std::filesystem::path& path) {
+  assert(std::ranges::all_of(textures.facets, [](const TexturedFacet& facet) {
+    return !facet.id.empty() && facet.metres_per_texel >= 0;
+  }));
   internal::WriteJsonFile(textures, path);
 }
 

@@ -49,6 +49,7 @@ struct TextureSet {
 };
 
 // texture/textures.json; the names in it are fixed (docs/formats.md). Throws Error (kBadInput).
+// Writing requires facets with ids, and texels of no negative size.
 TextureSet ReadTextureSet(const std::filesystem::path& path);
 void WriteTextureSet(const TextureSet& textures, const std::filesystem::path& path);
 

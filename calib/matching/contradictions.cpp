@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "calib/matching/corrections.h"
+#include "survey/attitude.h"
 #include "survey/disjoint_sets.h"
 
 namespace stucco {
@@ -35,10 +36,6 @@ constexpr size_t kTyingMatches = 30;   // of a pair that ties two photos togethe
 // Pairs that must say the same of a record before it is corrected: what repeats itself is matched
 // now with one place, now with another.
 constexpr int kLeastAgreeingPairs = 3;
-
-double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 struct Ray {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();  // frame of the plan
@@ -68,7 +65,7 @@ Verdict LookUp(const Occluders& site, const Ray& first, const Ray& second) {
   if (!distance || *distance < kTooNear_m) return Verdict::kUnknown;
   for (const double depth : kDepths) {
     const Eigen::Vector3d way = first.from + depth * *distance * first.way - second.from;
-    if (Angle(way, second.way) < kAngle + std::atan(kPosition_m / way.norm())) {
+    if (AngleBetween(way, second.way) < kAngle + std::atan(kPosition_m / way.norm())) {
       return Verdict::kFits;
     }
   }

@@ -99,8 +99,8 @@ class TrackForest {
 
 }  // namespace
 
-std::vector<SceneTrack> BuildTracksOf(const std::vector<size_t>& num_keypoints,
-                                      std::vector<const PhotoPair*> pairs) {
+std::vector<SceneTrack> BuildTracks(const std::vector<size_t>& num_keypoints,
+                                    std::vector<const PhotoPair*> pairs) {
   assert(std::accumulate(num_keypoints.begin(), num_keypoints.end(), size_t{0}) <=
          static_cast<size_t>(std::numeric_limits<int>::max()));
   std::stable_sort(pairs.begin(), pairs.end(), [](const PhotoPair* a, const PhotoPair* b) {
@@ -125,14 +125,6 @@ std::vector<SceneTrack> BuildTracksOf(const std::vector<size_t>& num_keypoints,
   }
   for (SceneTrack& track : tracks) track.elements.shrink_to_fit();
   return tracks;
-}
-
-std::vector<SceneTrack> BuildTracks(const std::vector<size_t>& num_keypoints,
-                                    const std::vector<PhotoPair>& pairs) {
-  std::vector<const PhotoPair*> pointers;
-  pointers.reserve(pairs.size());
-  for (const PhotoPair& pair : pairs) pointers.push_back(&pair);
-  return BuildTracksOf(num_keypoints, std::move(pointers));
 }
 
 void IndexTracks(Scene& scene) {

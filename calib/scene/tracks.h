@@ -19,13 +19,10 @@ struct PhotoPair {
 // Joins matches to tracks (union-find). Pairs with many matches go first, and a match that would
 // put two keypoints of one photo into the same track is refused, so that one wrong match cannot
 // glue two tracks together. Tracks and their elements come in ascending order of (photo, keypoint).
-// Requires matches of keypoints that there are, and no more keypoints than an int can number.
+// Pairs come by pointer, as their owners keep them within something larger. Requires matches of
+// keypoints that there are, and no more keypoints than an int can number.
 std::vector<SceneTrack> BuildTracks(const std::vector<size_t>& num_keypoints,
-                                    const std::vector<PhotoPair>& pairs);
-
-// The same of pairs that are part of something larger.
-std::vector<SceneTrack> BuildTracksOf(const std::vector<size_t>& num_keypoints,
-                                      std::vector<const PhotoPair*> pairs);
+                                    std::vector<const PhotoPair*> pairs);
 
 // Fills Scene::tracks_of_photo from Scene::tracks.
 void IndexTracks(Scene& scene);

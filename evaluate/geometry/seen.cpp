@@ -19,21 +19,17 @@ const double kLeastCosine = std::cos(kMaxShownIncidence_rad);
 constexpr double kLiftM = 0.01;  // off the surface, so that it does not hide itself
 constexpr size_t kPointsOfTask = 256;
 
-struct Station {
-  const simulate::FlownPhoto* photo;
-  Vector3d centre;
-};
-
-bool Sees(const Station& station, const SurfacePoint& point, const SurfaceIndex& scene) {
-  const Vector3d towards = station.centre - point.position;
+bool Sees(const simulate::FlownPhoto& photo, const SurfacePoint& point, const SurfaceIndex& scene) {
+  const Vector3d centre = photo.cam_from_world.Center();
+  const Vector3d towards = centre - point.position;
   if (!(point.normal.dot(towards) >= kLeastCosine * towards.norm())) return false;
-  const Camera& camera = station.photo->camera;
-  const Vector3d in_camera = station.photo->cam_from_world * point.position;
+  const Camera& camera = photo.camera;
+  const Vector3d in_camera = photo.cam_from_world * point.position;
   const std::optional<Eigen::Vector2d> pixel = camera.Project(in_camera);
   if (!pixel || !camera.Contains(*pixel)) return false;
   // Far outside the picture a distortion polynomial can turn back into it.
   if (!camera.IsInvertibleAt(in_camera.hnormalized())) return false;
-  return !scene.Blocked(point.position + kLiftM * point.normal, station.centre);
+  return !scene.Blocked(point.position + kLiftM * point.normal, centre);
 }
 
 }  // namespace
@@ -49,20 +45,16 @@ std::vector<const simulate::FlownPhoto*> DeliveredPhotos(const simulate::Flight&
 std::vector<char> SeenByAny(std::span<const SurfacePoint> points,
                             std::span<const simulate::FlownPhoto* const> photos,
                             const SurfaceIndex& scene, int threads) {
-  std::vector<Station> stations;
-  for (const simulate::FlownPhoto* photo : photos) {
-    stations.push_back({photo, photo->cam_from_world.Center()});
-  }
   std::vector<char> seen(points.size(), 0);
   ParallelFor((points.size() + kPointsOfTask - 1) / kPointsOfTask, threads, [&](size_t block) {
     size_t last = 0;  // the photo that saw the point before mostly sees this one, too
     const size_t end = std::min(points.size(), (block + 1) * kPointsOfTask);
     for (size_t i = block * kPointsOfTask; i < end; ++i) {
-      for (size_t k = 0; k < stations.size() && !seen[i]; ++k) {
-        const size_t station = (last + k) % stations.size();
-        if (!Sees(stations[station], points[i], scene)) continue;
+      for (size_t k = 0; k < photos.size() && !seen[i]; ++k) {
+        const size_t photo = (last + k) % photos.size();
+        if (!Sees(*photos[photo], points[i], scene)) continue;
         seen[i] = 1;
-        last = station;
+        last = photo;
       }
     }
   });

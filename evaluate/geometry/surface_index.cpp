@@ -67,6 +67,8 @@ bool VisitTriangle(RTCPointQueryFunctionArguments* arguments) {
 
 }  // namespace
 
+// A tree of its own: that of survey/occluders.h answers rays alone, not which triangle is nearest,
+// and rounds coordinates after taking their middle off, so that lines of sight would change.
 struct SurfaceIndex::State {
   Surface surface;
   RTCDevice device = nullptr;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <string>
 #include <system_error>
 
@@ -55,6 +56,7 @@ TexturedCity CityOf(const fs::path& survey, const fs::path& out) {
 
 ExportReport ExportCity(const fs::path& survey, const ExportRequest& request) {
   std::error_code error;
+  assert(fs::exists(survey / kCityJsonFile, error));
   if (fs::is_directory(request.out, error)) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: is a folder", request.out.string()),
                 "name a file, such as castle.city.json");

@@ -9,7 +9,8 @@
 namespace stucco::plan {
 
 // Points in space by nearness: a balanced k-d tree (Bentley, "Multidimensional binary search trees
-// used for associative searching", 1975).
+// used for associative searching", 1975). Boost's r-tree leaves open which of equally near points a
+// query returns, and hovers of a grid have many of those.
 class NearestPoints {
  public:
   explicit NearestPoints(std::vector<Eigen::Vector3d> points);

@@ -35,7 +35,9 @@ void Prisms::Index() {
   tree_ = BoxTree(boxes);
 }
 
-// Crossings of a ray to the east, by even and odd over all rings.
+// Crossings of a ray to the east, by even and odd over all rings: as Contains of
+// survey/geometry2d.h, which goes through every edge. Outlines of towns have thousands, and the
+// tree finds those few that the ray can meet.
 bool Prisms::Prism::Contains(const Vector2d& position) const {
   if (!tree.box().Contains(position)) return false;
   bool inside = false;

@@ -49,7 +49,7 @@ double ToOutline(const MapBuilding& building, const Eigen::Vector2d& p);
 Eigen::Matrix3d UprightFromWorld(const Eigen::Vector3d& up);
 
 // Requires georef.frame "enu". Positions are as the plan has them: the survey may show them some
-// metres elsewhere (map_registration.h).
+// metres elsewhere (registration.h).
 OutlineMap OutlinesOf(const Plan& plan, const Georef& georef, const Eigen::Vector3d& up);
 
 }  // namespace stucco

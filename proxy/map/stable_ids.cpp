@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <map>
 #include <string>
 #include <tuple>
@@ -54,9 +56,18 @@ Place PlaceOf(const Facet& facet) {
           along.dot(middle), middle.z()};
 }
 
+// Walls of a map's building are upright: where they do not look so, z is not up.
+[[maybe_unused]] bool StandsUpright(const Building& building) {
+  constexpr double kLevel = 0.5;  // sine of 30 degrees, far more than any survey is tilted by
+  return std::ranges::all_of(building.facets, [](const Facet& facet) {
+    return facet.facet_class != FacetClass::kWall || std::abs(facet.normal.z()) < kLevel;
+  });
+}
+
 }  // namespace
 
 void AssignIdsByPlace(Building& building) {
+  assert(StandsUpright(building));
   std::vector<std::pair<Place, Facet>> placed;
   for (Facet& facet : building.facets) {
     Place place = PlaceOf(facet);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "survey/attitude.h"
 #include "survey/degree.h"
 
 namespace stucco {
@@ -60,10 +61,6 @@ bool MayTurn(const Surroundings& around, const Plane& plane, const Eigen::Vector
   const double move = Reach(around.samples, plane, axis) * std::abs(std::sin(angle));
   if (std::abs(angle) <= tolerance) return move <= detail;
   return tolerance > 0 && std::abs(angle) <= kMost && move <= detail / 2;
-}
-
-double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 // How far a plane looks above the horizon, in radians.

@@ -166,6 +166,16 @@ void AddBuried(const std::vector<GroundTriangle>& ground, const Eigen::Vector3d&
   wall.party = std::min(1.0, wall.party + area / wall.area);
 }
 
+// The floor that closes a solid, as opposed to the underside of a part that stands on others.
+bool IsFloor(const Facet& facet, const Building& building, const Eigen::AlignedBox3d& bounds,
+             const Eigen::Vector3d& up) {
+  constexpr double kStep_m = 0.5;
+  if (facet.facet_class != FacetClass::kGround || building.id == "G0") return false;
+  const double lowest = up.dot(bounds.center()) - up.cwiseAbs().dot(bounds.sizes()) / 2;
+  return std::ranges::all_of(facet.outer,
+                             [&](const auto& corner) { return up.dot(corner) < lowest + kStep_m; });
+}
+
 }  // namespace
 
 void MeasureParty(const Eigen::Vector3d& up, std::vector<Building>& buildings) {
@@ -177,7 +187,9 @@ void MeasureParty(const Eigen::Vector3d& up, std::vector<Building>& buildings) {
     Eigen::AlignedBox3d reach = boxes[a];
     reach.min().array() -= kGap_m;
     reach.max().array() += kGap_m;
-    for (Facet& facet : buildings[a].facets) facet.party = 0;
+    for (Facet& facet : buildings[a].facets) {
+      facet.party = IsFloor(facet, buildings[a], boxes[a], up) ? 1 : 0;
+    }
     for (size_t b = 0; b < buildings.size(); ++b) {
       if (a == b || !reach.intersects(boxes[b])) continue;
       for (Facet& facet : buildings[a].facets) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "calib/two_view/verify.h"
 
@@ -176,12 +177,19 @@ std::vector<VerifiedPair> Verified(const Scene& scene, const std::vector<PhotoPa
   return verified;
 }
 
+std::vector<SceneTrack> TracksFrom(const std::vector<size_t>& num_keypoints,
+                                   const std::vector<PhotoPair>& pairs) {
+  std::vector<const PhotoPair*> pointers;
+  for (const PhotoPair& pair : pairs) pointers.push_back(&pair);
+  return BuildTracks(num_keypoints, std::move(pointers));
+}
+
 void SetTracks(const std::vector<VerifiedPair>& pairs, Scene& scene) {
   std::vector<size_t> num_keypoints;
   for (const ScenePhoto& photo : scene.photos) num_keypoints.push_back(photo.keypoints.size());
   std::vector<PhotoPair> matches;
   for (const VerifiedPair& pair : pairs) matches.push_back(pair.pair);
-  scene.tracks = BuildTracks(num_keypoints, matches);
+  scene.tracks = TracksFrom(num_keypoints, matches);
   IndexTracks(scene);
 }
 

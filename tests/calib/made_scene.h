@@ -65,6 +65,10 @@ std::vector<PhotoPair> MatchesOf(const Scene& truth, double wrong, uint32_t seed
 // Verified and classified with the cameras of `scene`; refused pairs left out.
 std::vector<VerifiedPair> Verified(const Scene& scene, const std::vector<PhotoPair>& pairs);
 
+// BuildTracks of pairs that are at hand by themselves.
+std::vector<SceneTrack> TracksFrom(const std::vector<size_t>& num_keypoints,
+                                   const std::vector<PhotoPair>& pairs);
+
 // Replaces the tracks by those that the pairs give.
 void SetTracks(const std::vector<VerifiedPair>& pairs, Scene& scene);
 

@@ -176,7 +176,7 @@ std::vector<SceneTrack> Tracks(const DetectedFeatures& features,
   }
   std::vector<PhotoPair> matches;
   for (const VerifiedPair& pair : pairs) matches.push_back(pair.pair);
-  return BuildTracks(num_keypoints, matches);
+  return TracksFrom(num_keypoints, matches);
 }
 
 std::ptrdiff_t NumOfThree(const std::vector<SceneTrack>& tracks) {

@@ -24,7 +24,7 @@ std::vector<std::vector<Node>> Nodes(const std::vector<SceneTrack>& tracks) {
 }
 
 TEST(BuildTracks, JoinsMatchesAcrossPhotos) {
-  const auto tracks = BuildTracks({3, 3, 3}, {{0, 1, {{0, 2}, {1, 1}}}, {1, 2, {{2, 0}}}});
+  const auto tracks = TracksFrom({3, 3, 3}, {{0, 1, {{0, 2}, {1, 1}}}, {1, 2, {{2, 0}}}});
   const std::vector<std::vector<Node>> expected = {{{0, 0}, {1, 2}, {2, 0}}, {{0, 1}, {1, 1}}};
   EXPECT_EQ(Nodes(tracks), expected);
   for (const SceneTrack& track : tracks) EXPECT_FALSE(track.position);
@@ -32,8 +32,8 @@ TEST(BuildTracks, JoinsMatchesAcrossPhotos) {
 
 TEST(BuildTracks, RefusesTwoKeypointsOfOnePhoto) {
   // 0.0 - 1.0 - 2.0, and a wrong match 2.0 - 0.1 of a weaker pair would close the ring.
-  const auto tracks = BuildTracks(
-      {2, 2, 2}, {{0, 2, {{1, 0}}}, {0, 1, {{0, 0}, {1, 1}}}, {1, 2, {{0, 0}, {1, 1}}}});
+  const auto tracks =
+      TracksFrom({2, 2, 2}, {{0, 2, {{1, 0}}}, {0, 1, {{0, 0}, {1, 1}}}, {1, 2, {{0, 0}, {1, 1}}}});
   const std::vector<std::vector<Node>> expected = {{{0, 0}, {1, 0}, {2, 0}},
                                                    {{0, 1}, {1, 1}, {2, 1}}};
   EXPECT_EQ(Nodes(tracks), expected);
@@ -41,7 +41,7 @@ TEST(BuildTracks, RefusesTwoKeypointsOfOnePhoto) {
 
 TEST(BuildTracks, StrongPairsDecideConflicts) {
   // Photo 2's keypoint 0 is claimed by 0.0 (one match) and, through 1.0, by 0.1 (many matches).
-  const auto tracks = BuildTracks(
+  const auto tracks = TracksFrom(
       {4, 4, 4}, {{0, 2, {{0, 0}}}, {0, 1, {{1, 0}, {2, 2}, {3, 3}}}, {1, 2, {{0, 0}, {2, 2}}}});
   const std::vector<std::vector<Node>> expected = {
       {{0, 1}, {1, 0}, {2, 0}}, {{0, 2}, {1, 2}, {2, 2}}, {{0, 3}, {1, 3}}};
@@ -51,9 +51,9 @@ TEST(BuildTracks, StrongPairsDecideConflicts) {
 TEST(BuildTracks, DoesNotDependOnTheOrderOfPairsOfDifferentSize) {
   const Scene truth = MakeScene({.num_points = 80});
   std::vector<PhotoPair> pairs = MatchesOf(truth, 0, 1);
-  const auto forward = Nodes(BuildTracks(std::vector<size_t>(8, 200), pairs));
+  const auto forward = Nodes(TracksFrom(std::vector<size_t>(8, 200), pairs));
   std::reverse(pairs.begin(), pairs.end());
-  EXPECT_EQ(Nodes(BuildTracks(std::vector<size_t>(8, 200), pairs)), forward);
+  EXPECT_EQ(Nodes(TracksFrom(std::vector<size_t>(8, 200), pairs)), forward);
 }
 
 TEST(BuildTracks, FindsTheTracksOfCleanMatches) {
@@ -62,7 +62,7 @@ TEST(BuildTracks, FindsTheTracksOfCleanMatches) {
   for (const ScenePhoto& photo : truth.photos) counts.push_back(photo.keypoints.size());
   auto expected = Nodes(truth.tracks);
   std::sort(expected.begin(), expected.end());
-  EXPECT_EQ(Nodes(BuildTracks(counts, MatchesOf(truth, 0, 1))), expected);
+  EXPECT_EQ(Nodes(TracksFrom(counts, MatchesOf(truth, 0, 1))), expected);
 }
 
 TEST(BuildTracks, NeverHoldsAPhotoTwiceWhateverTheMatches) {
@@ -70,7 +70,7 @@ TEST(BuildTracks, NeverHoldsAPhotoTwiceWhateverTheMatches) {
   std::vector<size_t> counts;
   for (const ScenePhoto& photo : truth.photos) counts.push_back(photo.keypoints.size());
   std::set<Node> taken;
-  for (const auto& track : Nodes(BuildTracks(counts, MatchesOf(truth, 0.3, 3)))) {
+  for (const auto& track : Nodes(TracksFrom(counts, MatchesOf(truth, 0.3, 3)))) {
     EXPECT_GE(track.size(), 2u);
     EXPECT_TRUE(std::is_sorted(track.begin(), track.end()));
     std::set<int> photos;
@@ -82,9 +82,9 @@ TEST(BuildTracks, NeverHoldsAPhotoTwiceWhateverTheMatches) {
 }
 
 TEST(BuildTracks, NothingFromNothing) {
-  EXPECT_TRUE(BuildTracks({}, {}).empty());
-  EXPECT_TRUE(BuildTracks({5, 5}, {}).empty());
-  EXPECT_TRUE(BuildTracks({5, 5}, {{0, 1, {}}}).empty());
+  EXPECT_TRUE(TracksFrom({}, {}).empty());
+  EXPECT_TRUE(TracksFrom({5, 5}, {}).empty());
+  EXPECT_TRUE(TracksFrom({5, 5}, {{0, 1, {}}}).empty());
 }
 
 TEST(IndexTracks, FindsTheTrackOfEveryKeypoint) {
@@ -111,7 +111,7 @@ TEST(IndexTracks, FindsTheTrackOfEveryKeypoint) {
 }
 
 TEST(BuildTracksDeathTest, RequiresKeypointsThatThereAre) {
-  EXPECT_DEATH(BuildTracks({2, 2}, {{0, 1, {{2, 0}}}}), "keypoint");
+  EXPECT_DEATH(TracksFrom({2, 2}, {{0, 1, {{2, 0}}}}), "keypoint");
 }
 
 }  // namespace

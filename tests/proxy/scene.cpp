@@ -8,6 +8,8 @@
 #include <numbers>
 #include <random>
 
+#include "survey/geometry2d.h"
+
 namespace stucco::test {
 namespace {
 
@@ -32,7 +34,7 @@ class Dice {
 
 struct Frame {
   Vector3d origin, u, v, normal;
-  std::vector<Eigen::Vector2d> ring;
+  Ring ring;
 };
 
 Frame FrameOfPolygon(const TruePolygon& polygon) {
@@ -51,25 +53,12 @@ Frame FrameOfPolygon(const TruePolygon& polygon) {
   return frame;
 }
 
-bool Inside(const std::vector<Eigen::Vector2d>& ring, const Eigen::Vector2d& p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const auto& a = ring[i];
-    const auto& b = ring[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) {
-      inside = !inside;
-    }
-  }
-  return inside;
-}
-
 bool Blocks(const Frame& frame, const Vector3d& eye, const Vector3d& point) {
   const double de = frame.normal.dot(eye - frame.origin);
   const double dp = frame.normal.dot(point - frame.origin);
   if (de * dp >= 0 || std::abs(dp) < 1e-6) return false;
   const Vector3d hit = eye + de / (de - dp) * (point - eye);
-  return Inside(frame.ring, {frame.u.dot(hit - frame.origin), frame.v.dot(hit - frame.origin)});
+  return Contains(frame.ring, {frame.u.dot(hit - frame.origin), frame.v.dot(hit - frame.origin)});
 }
 
 Pose LookAt(const Vector3d& center, const Vector3d& target) {
@@ -124,7 +113,7 @@ void SamplePolygon(const std::vector<Frame>& blockers, const Frame& frame,
                                y + dice.Uniform(-0.5, 0.5) * options.spacing);
       const double push = options.noise * dice.Normal();
       const Vector3d tilt = kNormalNoise * dice.Normal() * dice.Direction();
-      if (!Inside(frame.ring, at)) continue;
+      if (!Contains(frame.ring, at)) continue;
       const Vector3d exact = frame.origin + at.x() * frame.u + at.y() * frame.v;
       std::vector<uint32_t> views;
       for (const SurveyPhoto& photo : captured.photos) {

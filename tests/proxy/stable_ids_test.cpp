@@ -83,6 +83,13 @@ TEST(AssignIdsByPlace, RoofsKeepTheirsWhateverTheirSize) {
   EXPECT_NEAR(small_first.facets[0].outer[0].y(), -7, 1e-12);  // south before north
 }
 
+TEST(AssignIdsByPlaceDeathTest, RequiresWallsThatStand) {
+  Building building{.id = "B0012", .source = "map", .detail = {}, .facets = {}};
+  building.facets = {Wall({0, 0}, {10, 0}, 0, "B0012/F00")};
+  building.facets[0].normal = Vector3d::UnitZ();
+  EXPECT_DEATH(AssignIdsByPlace(building), "StandsUpright");
+}
+
 // The middle of what carries each id.
 std::map<std::string, Vector3d> Places(uint64_t seed) {
   test::House tall = FlatHouse(Rectangle(-8, -5, 0, 5), 8);

@@ -199,5 +199,22 @@ TEST(PartyWalls, WhatLiesBelowTheGroundIsHidden) {
   EXPECT_NEAR(buildings[0].facets[2].party, 1, 1e-9);
 }
 
+TEST(PartyWalls, TheFloorOfASolidIsHiddenAndNoUnderside) {
+  Building gate{.id = "B0001", .watertight = true, .source = "map", .detail = "full", .facets = {}};
+  gate.facets.push_back(
+      FacetOf(FacetClass::kGround, {{0, 0, 0}, {0, 8, 0}, {4, 8, 0.2}, {4, 0, 0.2}}));
+  gate.facets.push_back(FacetOf(FacetClass::kGround, {{4, 0, 4}, {4, 8, 4}, {8, 8, 4}, {8, 0, 4}}));
+  gate.facets.push_back(FacetOf(FacetClass::kRoof, {{0, 0, 9}, {8, 0, 9}, {8, 8, 9}, {0, 8, 9}}));
+  Building ground{.id = "G0", .watertight = false, .source = "cloud", .detail = {}, .facets = {}};
+  ground.facets.push_back(
+      FacetOf(FacetClass::kGround, {{-9, -9, 0}, {19, -9, 0}, {19, 19, 0}, {-9, 19, 0}}));
+  std::vector<Building> buildings = {gate, ground};
+  MeasureParty(Vector3d::UnitZ(), buildings);
+  EXPECT_EQ(buildings[0].facets[0].party, 1);
+  EXPECT_EQ(buildings[0].facets[1].party, 0);
+  EXPECT_EQ(buildings[0].facets[2].party, 0);
+  EXPECT_EQ(buildings[1].facets[0].party, 0);
+}
+
 }  // namespace
 }  // namespace stucco

@@ -47,5 +47,12 @@ TEST(WrappedDegrees, EndsAtHalfATurn) {
   EXPECT_EQ(WrappedDegrees(-370), -10);
 }
 
+TEST(AngleBetween, IsExactWhereCosinesAreNot) {
+  EXPECT_DOUBLE_EQ(AngleBetween({3, 0, 0}, {0, 0, 2}), std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(AngleBetween({1, 0, 0}, {-2, 0, 0}), std::numbers::pi);
+  EXPECT_NEAR(AngleBetween({1, 0, 0}, {1, 1e-9, 0}), 1e-9, 1e-15);
+  EXPECT_EQ(AngleBetween({1, 2, 3}, {0, 0, 0}), 0);
+}
+
 }  // namespace
 }  // namespace stucco

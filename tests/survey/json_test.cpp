@@ -290,6 +290,13 @@ TEST(Calibration, UsesTheFixedNames) {
                  "\"prior_rms_m.horizontal\" is missing");
 }
 
+TEST(CalibrationDeathTest, RequiresListsThatFitEachOther) {
+  const TemporaryFolder folder;
+  Calibration calibration;
+  calibration.cameras.push_back({1, "DJI", "PINHOLE", {"fx", "fy"}, {1000.5}, {}, {}});
+  EXPECT_DEATH(WriteCalibration(calibration, folder / "calibration.json"), "FitsTogether");
+}
+
 TexturedFacet MakeTexturedFacet() {
   TexturedFacet facet;
   facet.id = "B0001/W03";
@@ -362,6 +369,11 @@ TEST(TextureSet, UsesTheFixedNamesAndRefusesNonsense) {
   WriteTextureSet({{facet}, "", ""}, folder / "textures.json");
   ExpectBadInput([&] { ReadTextureSet(folder / "textures.json"); },
                  "B0001/W03 has a negative size");
+}
+
+TEST(TextureSetDeathTest, RequiresFacetsWithIds) {
+  const TemporaryFolder folder;
+  EXPECT_DEATH(WriteTextureSet({{TexturedFacet()}, "", ""}, folder / "textures.json"), "id.empty");
 }
 
 }  // namespace

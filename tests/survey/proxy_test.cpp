@@ -137,6 +137,13 @@ TEST(Proxy, FindsEachProblem) {
               Optional(HasSubstr("up is not of unit length")));
 }
 
+TEST(ProxyDeathTest, RequiresIdsThatOccurOnce) {
+  const TemporaryFolder folder;
+  Proxy proxy = MakeProxy();
+  proxy.buildings[1].facets[0].id = "B0001/W00";
+  EXPECT_DEATH(WriteProxy(proxy, folder / "facets.json"), "FindIdProblem");
+}
+
 TEST(Proxy, ReadingRefusesABrokenOne) {
   const TemporaryFolder folder;
   Proxy proxy = MakeProxy();
