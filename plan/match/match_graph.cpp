@@ -17,7 +17,7 @@ constexpr double kHalfScale = 4;
 // Fitted likewise: what a surface has for each feature that is found again on ground, and the
 // cosine of a line of sight at which half of a surface's features are lost.
 constexpr float kWallFeatures = 0.65F;
-constexpr float kRoofFeatures = 0.2F;
+constexpr float kRoofFeatures = 0.35F;
 constexpr float kHalfCosine = 0.25F;
 
 float CosineOf(const Eigen::Vector3f& normal, const Sight& sight) {
