@@ -64,8 +64,8 @@ Connectivity ConnectivityOf(int nodes, const Edges& edges) {
   std::vector<size_t> count(components.count);
   for (const size_t c : components.of_edge) ++count[c];
   for (size_t i = 0; i < edges.size(); ++i) {
-    if (count[components.of_edge[i]] == 1)
-      out.bridges.push_back(std::minmax(edges[i].first, edges[i].second));
+    if (count[components.of_edge[i]] > 1) continue;
+    out.bridges.push_back(std::minmax(edges[i].first, edges[i].second));
   }
   std::ranges::sort(out.bridges);
   return out;

@@ -164,8 +164,8 @@ void Linker::TieParts() {
   for (int tries = 0; tries < kMostTries; ++tries) {
     ThrowIfCancelled();
     bool tied = false;
-    for (const LooseGroup& group : LooseGroups(photos_.places(), photos_.ties()))
-      tied |= Tie(group);
+    const std::vector<LooseGroup> groups = LooseGroups(photos_.places(), photos_.ties());
+    for (const LooseGroup& group : groups) tied |= Tie(group);
     if (!tied) return;
   }
 }

@@ -25,9 +25,9 @@ struct LinkReport {
 };
 
 // The same for all hovers of a plan, with links or without; besides, links for whatever lacks
-// partners (plan/match/ties.h), and between parts of the graph that hang together by one pair or
-// not at all, one by one, each time the one that serves most for what it costs. Same result at any
-// number of threads. Throws Error (kInterrupted).
+// partners, and for groups that one hover alone holds to the rest, or none (plan/match/ties.h), one
+// by one, each time the one that serves most for what it costs. Same result at any number of
+// threads. Throws Error (kInterrupted).
 LinkReport AddLinkPhotos(const MatchSetting& setting, const Obstacles& obstacles,
                          std::vector<Hover>& hovers, Progress& progress);
 
