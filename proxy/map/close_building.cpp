@@ -83,22 +83,35 @@ Standing StandingOf(const BuildingEvidence& evidence) {
   return AbsenceOf(evidence);
 }
 
-// Whether the cloud shows what was made of it. Crowns of trees hold edges of a map by leaves that
-// stand upright, and roofs by leaves that lie flat, but fill neither walls nor roofs.
-bool ShowsWhatStands(const std::vector<Facet>& facets) {
-  constexpr double kWalled = 0.2;   // of the walls, without party walls where facades are known
-  constexpr double kCovered = 0.4;  // of the roofs
+constexpr double kWalled = 0.2;  // of the walls of what stands, the least that the cloud shows
+
+// Of walls and roofs, the share that the cloud shows; 0 where there are none.
+struct SeenShares {
+  double walls = 0;  // without party walls where facades are known
+  double roofs = 0;
+};
+
+SeenShares SharesOf(const std::vector<Facet>& facets) {
   const bool has_facades = std::ranges::any_of(
       facets, [](const Facet& facet) { return !facet.planned_facades.empty(); });
-  double walls = 0, walls_seen = 0, roofs = 0, roofs_seen = 0;
+  SeenShares all, seen;
   for (const Facet& facet : facets) {
     const bool wall = facet.facet_class == FacetClass::kWall;
     if (wall && has_facades && facet.planned_facades.empty()) continue;
     if (!wall && facet.facet_class != FacetClass::kRoof) continue;
-    (wall ? walls : roofs) += facet.area;
-    (wall ? walls_seen : roofs_seen) += facet.area * facet.seen;
+    (wall ? all.walls : all.roofs) += facet.area;
+    (wall ? seen.walls : seen.roofs) += facet.area * facet.seen;
   }
-  return walls_seen > kWalled * walls || roofs_seen > kCovered * roofs;
+  return {.walls = all.walls > 0 ? seen.walls / all.walls : 0,
+          .roofs = all.roofs > 0 ? seen.roofs / all.roofs : 0};
+}
+
+// Whether the cloud shows what was made of it. Crowns of trees hold edges of a map by leaves that
+// stand upright, and roofs by leaves that lie flat, but fill neither walls nor roofs.
+bool ShowsWhatStands(const std::vector<Facet>& facets) {
+  constexpr double kCovered = 0.4;  // of the roofs
+  const SeenShares seen = SharesOf(facets);
+  return seen.walls > kWalled || seen.roofs > kCovered;
 }
 
 // One way to close a building.
@@ -275,17 +288,13 @@ ClosedBuilding BuildingCloser::Close(const MapBuilding& mapped, const FittedBuil
   return closed;
 }
 
-bool IsNewBuilding(const ClosedBuilding& closed) {
+bool IsNewBuilding(const ClosedBuilding& closed, bool shows_walls) {
   constexpr double kSeen = 0.6;  // of its roofs
   const bool modelled =
       closed.detail == SolidDetail::kFull || closed.detail == SolidDetail::kCoarse;
-  double roofs = 0, seen = 0;
-  for (const Facet& facet : closed.facets) {
-    if (facet.facet_class != FacetClass::kRoof) continue;
-    roofs += facet.area;
-    seen += facet.area * facet.seen;
-  }
-  return closed.standing == Standing::kStands && modelled && roofs > 0 && seen > kSeen * roofs;
+  if (closed.standing != Standing::kStands || !modelled) return false;
+  const SeenShares seen = SharesOf(closed.facets);
+  return seen.roofs > kSeen && (seen.walls > kWalled || !shows_walls);
 }
 
 }  // namespace stucco

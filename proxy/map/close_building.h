@@ -56,8 +56,9 @@ class BuildingCloser {
   Eigen::Matrix3d world_from_upright_;
 };
 
-// What stands on no footprint is a building only where its roof is smooth and seen; crowns are
-// rough.
-bool IsNewBuilding(const ClosedBuilding& closed);
+// What stands on no footprint is a building only where its roof is smooth and seen, as crowns are
+// rough, and its walls are seen, where the survey shows walls: below a dense crown only leaves
+// stand upright.
+bool IsNewBuilding(const ClosedBuilding& closed, bool shows_walls);
 
 }  // namespace stucco

@@ -160,7 +160,10 @@ std::vector<ClosedBuilding> CloseNew(const UprightSurvey& survey,
   as_mapped.reserve(footprints.size());
   for (const FittedBuilding& footprint : footprints) as_mapped.push_back(footprint.building);
   auto closed = CloseAsFitted(survey, as_mapped, footprints, 0, with);
-  std::erase_if(closed, [](const ClosedBuilding& building) { return !IsNewBuilding(building); });
+  const bool shows_walls = !survey.samples.camera_centers.empty();  // a scan from above does not
+  std::erase_if(closed, [&](const ClosedBuilding& building) {
+    return !IsNewBuilding(building, shows_walls);
+  });
   return closed;
 }
 

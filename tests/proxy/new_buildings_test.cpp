@@ -39,7 +39,10 @@ TEST(NewBuildings, AWingThatTheMapLacksBecomesAPartOfItsHouse) {
   EXPECT_NEAR(VolumeOf(house), (14 * 6 + 7 * 6) * 7, 15);
   // No wall between them, and one roof; the wall that goes on along both ends where the map does.
   EXPECT_EQ(house.facets.size(), 9u);
-  for (const Facet& facet : house.facets) EXPECT_LT(facet.party, 0.05) << facet.id;
+  for (const Facet& facet : house.facets) {
+    const bool is_floor = facet.facet_class == FacetClass::kGround;
+    EXPECT_NEAR(facet.party, is_floor ? 1 : 0, 0.05) << facet.id;
+  }
   // Only walls of the map have its facades.
   const auto named = std::ranges::count_if(
       house.facets, [](const Facet& facet) { return !facet.planned_facades.empty(); });
@@ -81,8 +84,9 @@ TEST(NewBuildings, ALargerNeighbourIsAHouseOfItsOwn) {
   EXPECT_EQ(other->source, "cloud");
   EXPECT_NEAR(VolumeOf(*other), 11 * 8 * 9, 15);
   // Each hides the other's wall.
-  const auto hidden =
-      std::ranges::count_if(other->facets, [](const Facet& facet) { return facet.party > 0.6; });
+  const auto hidden = std::ranges::count_if(other->facets, [](const Facet& facet) {
+    return facet.facet_class == FacetClass::kWall && facet.party > 0.6;
+  });
   EXPECT_EQ(hidden, 1);
 }
 
@@ -112,6 +116,28 @@ TEST(NewBuildings, TreesAndEavesAreNone) {
   const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 6}});
   EXPECT_NEAR(AreaOf(ClosedIn(made, "B0001"), FacetClass::kRoof), 96, 3);
   EXPECT_EQ(test::Find(made.proxy, "C0001"), nullptr);
+}
+
+// A crown that is dense above and has only stray leaves below is seen as well as any roof.
+TEST(NewBuildings, ARoofWithoutWallsIsACrown) {
+  test::House crown = test::GableHouse(6, 5, 7, 9);
+  for (auto& polygon : crown.polygons) {
+    for (auto& p : polygon.ring) p.x() += 14;
+  }
+  const auto is_new = [&](bool with_walls) {
+    test::House shown = crown;
+    if (!with_walls) {
+      std::erase_if(shown.polygons, [](const auto& polygon) {
+        return std::ranges::any_of(polygon.ring, [](const auto& p) { return p.z() < 1; });
+      });
+    }
+    const auto captured = test::Capture({FlatHouse(Rectangle(-6, -4, 6, 4), 6), shown},
+                                        {test::GroundSquare(25)}, kDenseCapture);
+    const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 6}});
+    return test::Find(made.proxy, "C0001") != nullptr;
+  };
+  EXPECT_TRUE(is_new(true));
+  EXPECT_FALSE(is_new(false));
 }
 
 }  // namespace
