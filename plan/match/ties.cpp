@@ -28,8 +28,9 @@ Edges EdgesOf(const std::vector<Ties>& ties) {
 std::vector<LooseGroup> HangingFromHovers(std::span<const PhotoPlace> places,
                                           const std::vector<Ties>& ties) {
   int hovers = 0;
-  for (const PhotoPlace& place : places)
+  for (const PhotoPlace& place : places) {
     hovers = std::max(hovers, static_cast<int>(place.hover) + 1);
+  }
   std::set<std::pair<int, int>> pairs;
   for (const auto& [a, b] : EdgesOf(ties)) {
     pairs.insert(std::minmax(static_cast<int>(places[a].hover), static_cast<int>(places[b].hover)));

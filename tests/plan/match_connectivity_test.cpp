@@ -10,6 +10,16 @@
 namespace stucco::plan {
 namespace {
 
+// About as many edges as nodes, so that some hang by one and others do not.
+Edges MadeEdges(int nodes, std::mt19937& random) {
+  std::set<std::pair<int, int>> edges;
+  for (int i = 0; i < nodes + 2; ++i) {
+    const int a = static_cast<int>(random() % nodes), b = static_cast<int>(random() % nodes);
+    if (a != b) edges.emplace(std::min(a, b), std::max(a, b));
+  }
+  return {edges.begin(), edges.end()};
+}
+
 TEST(Connectivity, ARingHasNoBridge) {
   const Connectivity ring = ConnectivityOf(4, {{0, 1}, {1, 2}, {2, 3}, {0, 3}});
   EXPECT_EQ(ring.parts, 1);
@@ -35,12 +45,7 @@ TEST(Connectivity, AgreesWithCuttingEveryEdge) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 200; ++trial) {
     const int nodes = 2 + static_cast<int>(random() % 12);
-    std::set<std::pair<int, int>> set;
-    for (int i = 0; i < nodes + 2; ++i) {
-      const int a = static_cast<int>(random() % nodes), b = static_cast<int>(random() % nodes);
-      if (a != b) set.emplace(std::min(a, b), std::max(a, b));
-    }
-    const Edges edges(set.begin(), set.end());
+    const Edges edges = MadeEdges(nodes, random);
     const Connectivity whole = ConnectivityOf(nodes, edges);
     Edges bridges;
     for (const auto& edge : edges) {
@@ -90,12 +95,7 @@ TEST(HangingGroups, AgreesWithCuttingEveryNode) {
   std::mt19937 random(2);
   for (int trial = 0; trial < 200; ++trial) {
     const int nodes = 3 + static_cast<int>(random() % 12);
-    std::set<std::pair<int, int>> set;
-    for (int i = 0; i < nodes + 2; ++i) {
-      const int a = static_cast<int>(random() % nodes), b = static_cast<int>(random() % nodes);
-      if (a != b) set.emplace(std::min(a, b), std::max(a, b));
-    }
-    const Edges edges(set.begin(), set.end());
+    const Edges edges = MadeEdges(nodes, random);
     std::vector<int> group_of(nodes, -1);
     const auto groups = HangingGroups(nodes, edges);
     for (size_t g = 0; g < groups.size(); ++g) {
