@@ -65,9 +65,12 @@ void JoinPlan(const Plan& plan, std::span<SurveyPhoto> photos) {
 
 double SafeRadiusSquared(const Camera& camera) {
   double farthest = 0;
-  for (int corner = 0; corner < 4; ++corner) {
-    const auto ray = camera.Unproject(
-        {(corner % 2) * camera.width_px * 1.0, (corner / 2) * camera.height_px * 1.0});
+  const double width = camera.width_px;
+  const double height = camera.height_px;
+  for (const Eigen::Vector2d& corner :
+       {Eigen::Vector2d(0, 0), Eigen::Vector2d(width, 0), Eigen::Vector2d(0, height),
+        Eigen::Vector2d(width, height)}) {
+    const auto ray = camera.Unproject(corner);
     if (!ray) return 0;
     farthest = std::max(farthest, ray->squaredNorm());
   }

@@ -76,7 +76,7 @@ void WriteZip(const std::filesystem::path& path, const std::vector<ZipEntry>& en
     throw Error(ErrorKind::kOutOfResource, fmt::format("{}: cannot be written: {}", path.string(),
                                                        zip_strerror(archive.get())));
   }
-  archive.release();  // zip_close freed it
+  static_cast<void>(archive.release());  // zip_close freed it
 }
 
 std::vector<ZipEntry> ReadZip(const std::filesystem::path& path) {

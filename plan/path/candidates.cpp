@@ -65,6 +65,7 @@ std::vector<TourCandidate> CandidatesOf(const HoverCosts& costs, const NearestPo
 
 std::vector<std::vector<TourCandidate>> FindCandidates(const HoverCosts& costs, int threads) {
   std::vector<Vector3d> positions;
+  positions.reserve(costs.size());
   for (int k = 0; k < costs.size(); ++k) positions.push_back(costs.Position(k));
   const NearestPoints points(positions);
   std::vector<std::vector<TourCandidate>> candidates(positions.size());

@@ -18,37 +18,48 @@ double Angle(const Shot& a, const Shot& b) {
   return std::acos(std::clamp(a.Direction().dot(b.Direction()), -1.0, 1.0));
 }
 
+// By set of shots, a bit each, and the last of them: the shortest path through the set, and the
+// shot before the last on it.
+struct Paths {
+  std::vector<double> cost;
+  std::vector<int> before;
+};
+
+void ExtendPaths(const Angles& angles, int set, int last, Paths& paths) {
+  const int n = static_cast<int>(angles.size());
+  const double cost = paths.cost[set * n + last];
+  if (!(cost < std::numeric_limits<double>::infinity())) return;
+  for (int next = 0; next < n; ++next) {
+    if ((set >> next) & 1) continue;
+    const int to = (set | (1 << next)) * n + next;
+    const double through = cost + angles[last][next];
+    if (!(through < paths.cost[to])) continue;
+    paths.cost[to] = through;
+    paths.before[to] = last;
+  }
+}
+
 // Shortest path through all by subsets (Held and Karp, "A dynamic programming approach to
 // sequencing problems", 1962).
 std::vector<int> BestOrder(const Angles& angles) {
   const int n = static_cast<int>(angles.size());
   const int sets = 1 << n;
-  std::vector<double> cost(static_cast<size_t>(sets) * n, std::numeric_limits<double>::infinity());
-  std::vector<int> before(cost.size(), -1);
-  for (int k = 0; k < n; ++k) cost[(1 << k) * n + k] = 0;
+  const size_t states = static_cast<size_t>(sets) * n;
+  Paths paths{std::vector<double>(states, std::numeric_limits<double>::infinity()),
+              std::vector<int>(states, -1)};
+  for (int k = 0; k < n; ++k) paths.cost[(1 << k) * n + k] = 0;
   for (int set = 1; set < sets; ++set) {
-    for (int last = 0; last < n; ++last) {
-      if (!(cost[set * n + last] < std::numeric_limits<double>::infinity())) continue;
-      for (int next = 0; next < n; ++next) {
-        if ((set >> next) & 1) continue;
-        const int to = (set | (1 << next)) * n + next;
-        const double through = cost[set * n + last] + angles[last][next];
-        if (through < cost[to]) {
-          cost[to] = through;
-          before[to] = last;
-        }
-      }
-    }
+    for (int last = 0; last < n; ++last) ExtendPaths(angles, set, last, paths);
   }
   int set = sets - 1;
   int last = 0;
   for (int k = 1; k < n; ++k) {
-    if (cost[set * n + k] < cost[set * n + last]) last = k;
+    if (paths.cost[set * n + k] < paths.cost[set * n + last]) last = k;
   }
   std::vector<int> order;
   while (last >= 0) {
     order.push_back(last);
-    const int previous = before[set * n + last];
+    const int previous = paths.before[set * n + last];
     set &= ~(1 << last);
     last = previous;
   }
@@ -97,6 +108,7 @@ void OrderShots(std::vector<Shot>& shots) {
   }
   const auto order = n <= kMostExact ? BestOrder(angles) : GoodOrder(angles);
   std::vector<Shot> ordered;
+  ordered.reserve(n);
   for (const int k : order) ordered.push_back(std::move(shots[k]));
   shots = std::move(ordered);
 }

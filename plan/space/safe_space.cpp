@@ -40,6 +40,40 @@ struct Step {
   }
 };
 
+// The state of a search over the corners of obstacles; the two last are the way's end and start.
+struct Search {
+  std::vector<Corner> corners;  // side by side in memory: every step looks at all of them
+  std::vector<int> from;        // by corner, -1: not reached
+  std::vector<double> length;
+  std::priority_queue<Step> open;
+
+  int End() const { return static_cast<int>(corners.size()) - 2; }
+  int Start() const { return static_cast<int>(corners.size()) - 1; }
+  const Vector2d& At(int k) const { return corners[k].position; }
+
+  // Edges from a corner to those not reached yet; nothing longer than `bound_m` in all.
+  void PushSteps(int k, double bound_m) {
+    for (int to = 0; to <= End(); ++to) {
+      const Vector2d d = At(to) - At(k);
+      if (k != Start() && !corners[k].IsTangent(d)) continue;
+      if (to != End() && !corners[to].IsTangent(d)) continue;
+      if (from[to] >= 0 || to == k) continue;
+      const double whole = length[k] + d.norm();
+      const double estimate = whole + (At(End()) - At(to)).norm();
+      if (estimate < bound_m) open.push({estimate, whole, k, to});
+    }
+  }
+
+  // From the start to the end, which was reached.
+  std::vector<Vector2d> Track() const {
+    std::vector<Vector2d> track;
+    for (int k = End(); k != Start(); k = from[k]) track.push_back(At(k));
+    track.push_back(At(Start()));
+    std::reverse(track.begin(), track.end());
+    return track;
+  }
+};
+
 }  // namespace
 
 struct SafeSpace::Query {
@@ -117,44 +151,28 @@ std::optional<std::vector<Vector2d>> SafeSpace::FindTrack(const Query& query) co
   if (!IsClear(query.end, query.end, query.level_m)) return std::nullopt;
   const std::vector<int> nodes = NodesWithin(query);
   if (nodes.empty() || IsTooMuch(nodes.size(), query)) return std::nullopt;
-  const int end = static_cast<int>(nodes.size());
-  const int start = end + 1;
-  std::vector<Corner> corners;  // side by side in memory: every step looks at all of them
-  for (const int k : nodes) corners.push_back(nodes_[k].corner);
-  corners.push_back({query.end, {}, {}});
-  corners.push_back({query.start, {}, {}});
-  const auto at = [&](int k) -> const Vector2d& { return corners[k].position; };
-  std::vector<int> from(corners.size(), -1);
-  std::vector<double> length(corners.size(), kInfinity);
-  std::priority_queue<Step> open;
-  const auto push_steps = [&](int k) {
-    for (int to = 0; to <= end; ++to) {
-      const Vector2d d = at(to) - at(k);
-      if (k != start && !corners[k].IsTangent(d)) continue;
-      if (to != end && !corners[to].IsTangent(d)) continue;
-      if (from[to] >= 0 || to == k) continue;
-      const double whole = length[k] + d.norm();
-      const double estimate = whole + (query.end - at(to)).norm();
-      if (estimate < query.bound_m) open.push({estimate, whole, k, to});
-    }
-  };
-  length[start] = 0;
-  from[start] = start;
-  push_steps(start);
-  while (!open.empty() && from[end] < 0) {
-    const Step step = open.top();
-    open.pop();
-    if (from[step.to] >= 0 || !IsClear(at(step.from), at(step.to), query.level_m)) continue;
-    from[step.to] = step.from;
-    length[step.to] = step.length_m;
-    if (step.to != end) push_steps(step.to);
+  Search search;
+  search.corners.reserve(nodes.size() + 2);
+  for (const int k : nodes) search.corners.push_back(nodes_[k].corner);
+  search.corners.push_back({query.end, {}, {}});
+  search.corners.push_back({query.start, {}, {}});
+  search.from.assign(search.corners.size(), -1);
+  search.length.assign(search.corners.size(), kInfinity);
+  const int end = search.End();
+  search.length[search.Start()] = 0;
+  search.from[search.Start()] = search.Start();
+  search.PushSteps(search.Start(), query.bound_m);
+  while (!search.open.empty() && search.from[end] < 0) {
+    const Step step = search.open.top();
+    search.open.pop();
+    if (search.from[step.to] >= 0) continue;
+    if (!IsClear(search.At(step.from), search.At(step.to), query.level_m)) continue;
+    search.from[step.to] = step.from;
+    search.length[step.to] = step.length_m;
+    if (step.to != end) search.PushSteps(step.to, query.bound_m);
   }
-  if (from[end] < 0) return std::nullopt;
-  std::vector<Vector2d> track;
-  for (int k = end; k != start; k = from[k]) track.push_back(at(k));
-  track.push_back(query.start);
-  std::reverse(track.begin(), track.end());
-  return track;
+  if (search.from[end] < 0) return std::nullopt;
+  return search.Track();
 }
 
 std::optional<Route> SafeSpace::ShortestRoute(const Vector3d& p, const Vector3d& q) const {

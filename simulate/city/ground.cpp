@@ -254,16 +254,19 @@ Image Seamless(const Image& large, int width_px, int height_px) {
     return share == 1 ? value(at) : gain * (share * value(at) + (1 - share) * value(at + size));
   };
   Image image{width_px, height_px, 3, {}};
+  const auto mixed_at = [&](int x, int y, int c) {
+    const auto in_row = [&](int row) {
+      const auto value = [&](int column) { return large.Pixel(column, row)[c] - mean[c]; };
+      return mixed(value, x, width_px, large.width_px);
+    };
+    return mean[c] + mixed(in_row, y, height_px, large.height_px);
+  };
+  image.data.reserve(size_t{3} * width_px * height_px);
   for (int y = 0; y < height_px; ++y) {
     for (int x = 0; x < width_px; ++x) {
       for (int c = 0; c < 3; ++c) {
-        const double value = mixed(
-            [&](int row) {
-              return mixed([&](int column) { return large.Pixel(column, row)[c] - mean[c]; }, x,
-                           width_px, large.width_px);
-            },
-            y, height_px, large.height_px);
-        image.data.push_back(static_cast<uint8_t>(std::clamp(mean[c] + value, 0.0, 255.0) + 0.5));
+        const double value = std::clamp(mixed_at(x, y, c), 0.0, 255.0);
+        image.data.push_back(static_cast<uint8_t>(std::lround(value)));
       }
     }
   }
@@ -337,6 +340,13 @@ std::vector<Sheet> MakeSheets(const Town& town, const std::vector<GroundPatch>& 
   return sheets;
 }
 
+bool IsUnderAHouse(const Town& town, const Loop& loop) {
+  return std::ranges::any_of(town.houses, [&](const House& house) {
+    return std::ranges::all_of(
+        loop, [&](const Vector3d& corner) { return Contains(house.outline, corner.head<2>()); });
+  });
+}
+
 std::vector<Facet> SlopeFacets(const Town& town, const GroundGrid& grid) {
   const GroundBuilder builder(town, grid);
   std::vector<Facet> facets;
@@ -345,13 +355,8 @@ std::vector<Facet> SlopeFacets(const Town& town, const GroundGrid& grid) {
       if (!IsTown(town, builder.PatchOf(column, row))) continue;
       const Loop cell = builder.Cell(column, row);
       for (const Loop& half : {Loop{cell[0], cell[1], cell[2]}, Loop{cell[0], cell[2], cell[3]}}) {
-        const bool hidden =
-            std::any_of(town.houses.begin(), town.houses.end(), [&](const House& house) {
-              return std::all_of(half.begin(), half.end(), [&](const Vector3d& corner) {
-                return Contains(house.outline, corner.head<2>());
-              });
-            });
-        if (!hidden) facets.push_back(ExactFacet(FacetClass::kGround, half, {}));
+        if (IsUnderAHouse(town, half)) continue;
+        facets.push_back(ExactFacet(FacetClass::kGround, half, {}));
       }
     }
   }
@@ -382,7 +387,7 @@ std::vector<Ring> LevelLoops(const Town& town, const GroundGrid& grid, double ra
   return internal::JoinLoops(cells);
 }
 
-Loop AtHeight(Ring ring, double z) {
+Loop AtHeight(const Ring& ring, double z) {
   Loop loop;
   for (const Vector2d& corner : ring) loop.emplace_back(corner.x(), corner.y(), z);
   return loop;
