@@ -38,7 +38,7 @@ class FusedPointsFile {
  public:
   explicit FusedPointsFile(const std::filesystem::path& folder) : file_(folder) {}
 
-  void Add(const FusedPoint& point);
+  void Add(const FusedPoint& added);
   size_t size() const { return size_; }
   // In the order in which they were added.
   void ForEach(const std::function<void(const FusedPoint&)>& visit);

@@ -22,6 +22,7 @@ struct HeightRange {
 HeightRange RangeOf(const Samples& samples, const Eigen::Vector3d& up,
                     const std::vector<int>& points) {
   std::vector<double> heights;
+  heights.reserve(points.size());
   for (const int i : points) heights.push_back(up.dot(samples.positions[i]));
   if (heights.empty()) return {};
   std::sort(heights.begin(), heights.end());
@@ -64,6 +65,25 @@ int MainGround(const Samples& samples, const Tolerances& tolerances, const Eigen
     main = static_cast<int>(p);
   }
   return main;
+}
+
+using HeightAndSample = std::pair<double, int>;
+
+// The samples of the window of one level of detail with most of them. `low` is sorted.
+std::vector<int> FullestWindow(const std::vector<HeightAndSample>& low, double level_of_detail) {
+  size_t best_first = 0;
+  size_t best_count = 0;
+  size_t last = 0;
+  for (size_t first = 0; first < low.size(); ++first) {
+    while (last < low.size() && low[last].first < low[first].first + level_of_detail) ++last;
+    if (last - first <= best_count) continue;
+    best_count = last - first;
+    best_first = first;
+  }
+  std::vector<int> out;
+  out.reserve(best_count);
+  for (size_t i = best_first; i < best_first + best_count; ++i) out.push_back(low[i].second);
+  return out;
 }
 
 }  // namespace
@@ -149,29 +169,17 @@ std::optional<Plane> FitFloor(const Samples& samples, const Tolerances& toleranc
   const HeightRange range = RangeOf(samples, up, all);
   const double limit =
       range.low + std::max(kLowPart * (range.high - range.low), 4 * tolerances.level_of_detail);
-  std::vector<std::pair<double, int>> low;  // height, sample
+  std::vector<HeightAndSample> low;
   for (const int i : all) {
     const double height = up.dot(samples.positions[i]);
     if (samples.normals[i].dot(up) > kCosOfUp && height < limit) low.emplace_back(height, i);
   }
   std::sort(low.begin(), low.end());
-  // The window of one level of detail with most samples.
-  size_t best_first = 0, best_count = 0, last = 0;
-  for (size_t first = 0; first < low.size(); ++first) {
-    while (last < low.size() && low[last].first < low[first].first + tolerances.level_of_detail) {
-      ++last;
-    }
-    if (last - first <= best_count) continue;
-    best_count = last - first;
-    best_first = first;
-  }
-  if (best_count < 3) return std::nullopt;
   Plane floor;
   floor.normal = up;
   floor.role = PlaneRole::kHorizontal;
-  for (size_t i = best_first; i < best_first + best_count; ++i) {
-    floor.points.push_back(low[i].second);
-  }
+  floor.points = FullestWindow(low, tolerances.level_of_detail);
+  if (floor.points.size() < 3) return std::nullopt;
   for (int round = 0; round < kRounds; ++round) {
     Refit(samples, floor);
     floor.points.clear();

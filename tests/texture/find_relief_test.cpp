@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "tests/texture/wall_survey.h"
 #include "texture/grid/relief_file.h"
@@ -15,8 +17,8 @@ namespace {
 const Balcony kBalcony = {{1.3, 1.2}, {2.7, 2.0}, 0.6};
 
 // Five photos, none of them straight before the balcony.
-void AddPhotosOfBalcony(WallSurvey& survey) {
-  const auto scene = BalconyScene(kBalcony, WallScene(4, 3));
+void AddPhotosOfBalcony(WallSurvey& survey,
+                        const Scene& scene = BalconyScene(kBalcony, WallScene(4, 3))) {
   survey.Add("a.jpg", {4.6, -4.0, 1.7}, {2, 0, 1.5}, 1, scene);
   survey.Add("b.jpg", {-0.6, -4.0, 1.6}, {2, 0, 1.5}, 1, scene);
   survey.Add("c.jpg", {2.8, -4.0, 3.9}, {2, 0, 1.5}, 1, scene);
@@ -74,6 +76,79 @@ TEST(RunTexture, KeepsAWallBelowABalconyStraight) {
   for (double u = 0.1; u < 4; u += 0.1) {
     for (double v = 3 - 1.1; v < 3; v += 0.1) EXPECT_NEAR(relief->HeightAt(u, v), 0, 0.03);
   }
+}
+
+// A plain front looks alike on any plane, and noise on some more: its rim says where it is.
+TEST(RunTexture, ABalconyWithAPlainFrontHasNoHole) {
+  const Balcony panel = {{0.7, 0.8}, {3.3, 2.2}, 0.6};
+  const auto plain = [&, scene = BalconyScene(panel, WallScene(4, 3))](const Eigen::Vector3d& from,
+                                                                       const Eigen::Vector3d& way) {
+    const Eigen::Vector3d front = from + (-panel.depth - from.y()) / way.y() * way;
+    const bool hit = front.x() > panel.low.x() && front.x() < panel.high.x() &&
+                     front.z() > panel.low.y() && front.z() < panel.high.y();
+    if (!hit) return scene(from, way);
+    const double noise = 7 * std::sin(1e5 * way.x()) * std::sin(1e5 * way.z());
+    return std::optional(Colour(Colour::Constant(25 + noise)));
+  };
+  WallSurvey survey;
+  AddPhotosOfBalcony(survey, plain);
+  TextureOptions options;
+  options.texel_size = 0.01;
+  survey.Run(options);
+  const auto relief = ReadRelief(survey.Out(), "B0001_W01");
+  ASSERT_NE(relief, nullptr);
+  for (double x = 0.85; x < 3.2; x += 0.1) {
+    for (double z = 0.95; z < 2.1; z += 0.1) {
+      EXPECT_NEAR(relief->HeightAt(x, 3 - z), panel.depth, 0.08) << x << " " << z;
+    }
+  }
+}
+
+// Most photos look from above, where the upper balcony hides the wall between from them.
+TEST(RunTexture, TheWallBetweenTwoBalconiesStaysBack) {
+  const Balcony lower = {{1.0, 0.8}, {3.0, 2.0}, 0.6};
+  const Balcony upper = {{1.0, 2.8}, {3.0, 4.0}, 0.6};
+  const Scene scene = BalconyScene(lower, BalconyScene(upper, WallScene(4, 5)));
+  WallSurvey survey;
+  survey.SetProxy(MakeProxy({MakeWall(4, 5)}));
+  const Eigen::Vector3d middle(2, 0, 2.5);
+  survey.Add("a.jpg", {4.0, -5.5, 2.5}, middle, 1, scene);
+  survey.Add("b.jpg", {0.5, -5.5, 2.3}, middle, 1, scene);
+  for (int i = 0; i < 4; ++i) {
+    survey.Add(std::to_string(i) + ".jpg", {-1.0 + 2 * i, -4.5, 7.5}, middle, 1, scene);
+  }
+  TextureOptions options;
+  options.texel_size = 0.01;
+  survey.Run(options);
+  const auto relief = ReadRelief(survey.Out(), "B0001_W01");
+  ASSERT_NE(relief, nullptr);
+  for (double x = 1.2; x < 2.9; x += 0.2) {
+    EXPECT_NEAR(relief->HeightAt(x, 5 - 1.4), 0.6, 0.08) << x;
+    EXPECT_NEAR(relief->HeightAt(x, 5 - 3.4), 0.6, 0.08) << x;
+    EXPECT_NEAR(relief->HeightAt(x, 5 - 2.4), 0, 0.05) << x;
+  }
+}
+
+// No photo shows a quarter of this wall.
+TEST(RunTexture, FindsTheBalconiesOfALongWallAtBothEnds) {
+  constexpr double kLength = 18;
+  const Balcony first = {{1.3, 1.2}, {2.7, 2.0}, 0.6};
+  const Balcony last = {{15.3, 1.2}, {16.7, 2.0}, 0.6};
+  const Scene scene = BalconyScene(first, BalconyScene(last, WallScene(kLength, 3)));
+  WallSurvey survey;
+  survey.SetProxy(MakeProxy({MakeWall(kLength, 3)}));
+  for (int i = 0; i < 10; ++i) {
+    const double x = 0.9 + 1.8 * i;
+    survey.Add(std::to_string(i) + "a.jpg", {x, -4, 1.7}, {x, 0, 1.5}, 1, scene);
+    survey.Add(std::to_string(i) + "b.jpg", {x + 0.4, -4, 3.6}, {x, 0, 1.5}, 1, scene);
+  }
+  TextureOptions options;
+  options.texel_size = 0.02;
+  survey.Run(options);
+  const auto relief = ReadRelief(survey.Out(), "B0001_W01");
+  ASSERT_NE(relief, nullptr);
+  for (const double x : {2.0, 16.0}) EXPECT_NEAR(relief->HeightAt(x, 3 - 1.6), 0.6, 0.08) << x;
+  for (const double x : {5.0, 9.0, 13.0}) EXPECT_NEAR(relief->HeightAt(x, 3 - 1.6), 0, 0.05) << x;
 }
 
 TEST(RunTexture, FindsNoReliefOnAFlatWall) {

@@ -39,10 +39,12 @@ void LimitHues(const std::vector<size_t>& compared, std::vector<Eigen::Vector3d>
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (int k = 0; k < 3; ++k) {
     std::vector<double> values;
+    values.reserve(compared.size());
     for (const size_t i : compared) values.push_back(HueOf(logs[i])[k]);
     middle[k] = Median(std::move(values)).value_or(0);
   }
   std::vector<double> apart;
+  apart.reserve(compared.size());
   for (const size_t i : compared) apart.push_back((HueOf(logs[i]) - middle).norm());
   const double most = std::max(kAlwaysLikely, kFarFromUsual * Median(apart).value_or(0));
   for (size_t n = 0; n < compared.size(); ++n) {

@@ -339,7 +339,7 @@ PaintedFacet PaintFacet(const PaintJob& job, PaintRecord* record) {
 
   // 1. What stands out of it, or lies back in it.
   if (options.relief && !look.grid && scene.metric && facet.facet_class == FacetClass::kWall) {
-    painted.grid.relief = FindRelief(facet, painted.grid, look.candidates, look.limits, scene);
+    painted.grid.relief = FindRelief(facet, painted.grid, look.limits, scene);
   }
 
   // 2. Which photo paints what.

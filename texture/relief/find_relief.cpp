@@ -11,16 +11,15 @@
 
 #include "texture/relief/best_rectangle.h"
 #include "texture/relief/plane_sweep.h"
+#include "texture/relief/sweep_tiles.h"
 
 namespace stucco {
 namespace {
 
-constexpr double kCell_m = 0.04;
-constexpr double kMostCells = 150'000;
+constexpr double kCell_m = 0.045;
+constexpr double kMostCells = 300'000;
 constexpr int kLeastTexels = 2;  // of a cell, a side
-constexpr size_t kMostPhotos = 8;
-constexpr int kSightStep = 4;  // cells of a cell that sights are asked for
-constexpr int kBlock = 4;      // cells of a block, a side, that rectangles are first looked for in
+constexpr int kBlock = 4;  // cells of a block, a side, that rectangles are first looked for in
 // Plain surfaces look alike on any plane: they cost little and count for nothing.
 constexpr float kTelling = 0.12f;  // mean correlation on either plane
 constexpr float kPlainCost = 0.01f;
@@ -30,9 +29,10 @@ constexpr float kLeastGain = 0.06f;     // of the mean correlation of pairs, in 
 // better ones for what lies back, as its own reveal does.
 constexpr double kLeastCorrelationOut = 0.25;
 constexpr double kLeastCorrelationIn = 0.35;
-constexpr double kLeastSquarely = 0.1;  // of the pairs with the squarest photo
+constexpr float kLeastOfCellOut = 0.2f;  // where less, a cell counts against standing out
+constexpr double kLeastSquarely = 0.1;   // of the pairs with the squarest photo
 constexpr double kLeastArea_m2 = 0.15;
-constexpr int kLeastSide = 5;           // cells: a window of the sweep
+constexpr int kLeastSide = 5;           // cells
 constexpr double kLeastSum_m2 = 0.015;  // of area times gain beyond the least
 // What stands before the plane belongs to the facet when three photos show it and none the facet
 // behind it; else it is a lamp, a car, a branch.
@@ -47,45 +47,35 @@ TexelGrid SweepRaster(const TexelGrid& grid) {
   return Coarsened(grid, std::max(kLeastTexels, static_cast<int>(std::ceil(needed))));
 }
 
-// Where a photo sees the facet's plane freely, by cell of the raster.
-std::vector<uint8_t> SeenCells(const Facet& facet, const TexelGrid& raster, int photo,
-                               const ViewLimits& limits, const PaintScene& scene) {
-  FacetRaster coarse{Coarsened(raster, kSightStep), {}, 1};
-  coarse.inside.assign(coarse.grid.size(), 1);
-  const RasterView view = MeasureView(scene.sights, photo, facet, coarse, limits);
-  std::vector<uint8_t> out(raster.size());
-  for (size_t i = 0; i < out.size(); ++i) {
-    const size_t column = i % raster.width / kSightStep;
-    const size_t row = i / raster.width / kSightStep;
-    out[i] = view.texels[row * coarse.grid.width + column].sight != Sight::kNot;
+// Nothing where no two photos look at the same part from different enough sides.
+std::optional<PlaneSweep> SweepAll(const TexelGrid& raster, const std::vector<SweepTile>& tiles,
+                                   const PaintScene& scene) {
+  double parallax = 0;
+  for (const SweepTile& tile : tiles) parallax = std::max(parallax, LargestParallax(tile.slants));
+  if (parallax == 0) return {};
+  PlaneSweep sweep = StartSweep(raster, parallax);
+  for (const SweepTile& tile : tiles) {
+    const TexelGrid part = PartOf(raster, WithRim(tile.cells, raster));
+    std::vector<SweepPhoto> photos;
+    photos.reserve(tile.photos.size());
+    for (const auto& [photo, sees] : tile.photos) {
+      photos.push_back(OpenForSweep(scene.sights.photos[photo], part, *scene.cache));
+      photos.back().sees = sees;
+    }
+    SweepPart(tile.cells, photos, sweep);
   }
-  return out;
-}
-
-// The best photos, one from each side.
-std::vector<int> PhotosFromAllSides(const TexelGrid& raster, std::span<const Candidate> candidates,
-                                    const PaintScene& scene) {
-  std::vector<int> out;
-  std::vector<Eigen::Vector2d> slants;
-  for (const Candidate& candidate : candidates) {
-    if (out.size() == kMostPhotos) break;
-    const Eigen::Vector2d slant = SlantOf(scene.sights.photos[candidate.photo], raster);
-    const auto is_near = [&](const Eigen::Vector2d& other) {
-      return (slant - other).norm() < kLeastParallax;
-    };
-    if (std::ranges::any_of(slants, is_near)) continue;
-    out.push_back(candidate.photo);
-    slants.push_back(slant);
-  }
-  return out;
+  return sweep;
 }
 
 // Puts rectangles onto other planes, those that gain most first; later ones may lie on earlier
 // ones.
 class RectangleFinder {
  public:
-  explicit RectangleFinder(const PlaneSweep& sweep)
-      : sweep_(sweep), labels_(sweep.raster.size(), sweep.plane), best_(sweep.planes) {
+  RectangleFinder(const PlaneSweep& sweep, const std::vector<SweepTile>& tiles)
+      : sweep_(sweep),
+        tiles_(tiles),
+        labels_(sweep.raster.size(), sweep.plane),
+        best_(sweep.planes) {
     refused_.fill(std::vector<uint8_t>(sweep.raster.size(), 0));
   }
 
@@ -94,11 +84,12 @@ class RectangleFinder {
     for (int i = 0; i < kMostRectangles; ++i) {
       const int label = BestLabel();
       if (best_[label]->sum < kLeastSum_m2 / CellArea()) break;
-      const CellRectangle cells = Refined(best_[label]->cells, label);
+      const CellRectangle whole = Refined(best_[label]->cells, label);
+      const CellRectangle cells = WithoutRim(whole, label);
       if (IsSure(cells, label)) {
         Take(cells, label);
       } else {
-        Refuse(cells, label);
+        Refuse(whole, label);
       }
     }
     return std::move(labels_);
@@ -132,12 +123,22 @@ class RectangleFinder {
   bool Tells(size_t cell, int label) const {
     return std::max(Best(cell, label), Best(cell, labels_[cell])) >= kTelling;
   }
-  float Gain(size_t cell, int label) const { return All(cell, label) - All(cell, labels_[cell]); }
+  Plain PlainAt(size_t cell, int label) const {
+    return sweep_.plain[label * sweep_.raster.size() + cell];
+  }
+  bool IsPlain(size_t cell, int label) const { return PlainAt(cell, label) == Plain::kAround; }
 
   // What a cell is worth to a rectangle.
   float Worth(size_t cell, int label) const {
     if (!IsFree(cell, label)) return 0;
-    return Tells(cell, label) ? Gain(cell, label) - kLeastGain : -kPlainCost;
+    const int now = labels_[cell];
+    const int front = std::max(label, now);
+    if (!Tells(cell, label) || (front > sweep_.plane && IsPlain(cell, front))) return -kPlainCost;
+    // Back between two things that stand out, which hide the wall there from some photos.
+    if (now > sweep_.plane && label <= sweep_.plane) return Best(cell, label) - Best(cell, now);
+    const float gain = All(cell, label) - All(cell, now) - kLeastGain;
+    // Nothing hides what stands out: where photos do not agree, it is not there.
+    return label > sweep_.plane ? std::min(gain, All(cell, label) - kLeastOfCellOut) : gain;
   }
 
   int BestLabel() {
@@ -182,6 +183,33 @@ class RectangleFinder {
     out.top += around.top;
     out.bottom += around.top;
     return out;
+  }
+
+  // Windows reach over the edges of what stands out: plain surfaces next to it seem to be as high.
+  CellRectangle WithoutRim(CellRectangle cells, int label) const {
+    if (label <= sweep_.plane) return cells;
+    const CellRectangle whole = cells;
+    const auto row = [&](int y) { return CellRectangle{cells.left, y, cells.right, y + 1}; };
+    const auto column = [&](int x) { return CellRectangle{x, cells.top, x + 1, cells.bottom}; };
+    while (cells.top < whole.top + kReach && IsPlainHere(row(cells.top), label)) ++cells.top;
+    while (cells.bottom > whole.bottom - kReach && IsPlainHere(row(cells.bottom - 1), label)) {
+      --cells.bottom;
+    }
+    while (cells.left < whole.left + kReach && IsPlainHere(column(cells.left), label)) ++cells.left;
+    while (cells.right > whole.right - kReach && IsPlainHere(column(cells.right - 1), label)) {
+      --cells.right;
+    }
+    return cells;
+  }
+
+  bool IsPlainHere(const CellRectangle& cells, int label) const {
+    int plain = 0;
+    for (int y = cells.top; y < cells.bottom; ++y) {
+      for (int x = cells.left; x < cells.right; ++x) {
+        plain += PlainAt(CellAt(x, y), label) != Plain::kNot;
+      }
+    }
+    return 2 * plain > std::max(0, cells.Cells());
   }
 
   template <typename Do>
@@ -234,29 +262,36 @@ class RectangleFinder {
     ForgetOver(cells);
   }
 
+  // Whether the way from a place on the plane to a camera goes through a rectangle or below it.
+  static bool Hides(const CellRectangle& cells, double height, const Eigen::Vector2d& place,
+                    const Eigen::Vector2d& slant) {
+    // Where it is over [low, high], of its height.
+    const auto over = [](double from, double slope, double low, double high) {
+      return std::minmax({(low - from) / slope, (high - from) / slope});
+    };
+    const auto [u0, u1] = over(place.x(), slant.x(), cells.left, cells.right);
+    const auto [v0, v1] = over(place.y(), slant.y(), cells.top, cells.bottom);
+    return std::max({u0, v0, 0.0}) < std::min({u1, v1, height});
+  }
+
   // Nothing is looked for at cells of the plane that a rectangle, `height` cells before it,
   // hides from half of the photos: they show its edges there, which look alike on many planes.
   void RefuseHidden(const CellRectangle& cells, double height) {
-    const auto from_cells = [](int cell, double slant, double low, double high) {
-      // Where the way to the camera is over [low, high], of its height.
-      const double a = (low - cell - 0.5) / slant;
-      const double b = (high - cell - 0.5) / slant;
-      return std::pair(std::min(a, b), std::max(a, b));
-    };
-    for (int y = 0; y < sweep_.raster.height; ++y) {
-      for (int x = 0; x < sweep_.raster.width; ++x) {
-        size_t hidden = 0;
-        for (const Eigen::Vector2d& slant : sweep_.slants) {
-          const auto [u0, u1] = from_cells(x, slant.x(), cells.left, cells.right);
-          const auto [v0, v1] = from_cells(y, slant.y(), cells.top, cells.bottom);
-          hidden += std::max({u0, v0, 0.0}) < std::min({u1, v1, height});
-        }
-        if (2 * hidden < sweep_.slants.size()) continue;
+    for (const SweepTile& tile : tiles_) RefuseHiddenIn(tile, cells, height);
+    for (auto& best : best_) best.reset();
+  }
+
+  void RefuseHiddenIn(const SweepTile& tile, const CellRectangle& cells, double height) {
+    for (int y = tile.cells.top; y < tile.cells.bottom; ++y) {
+      for (int x = tile.cells.left; x < tile.cells.right; ++x) {
+        const auto hidden = std::ranges::count_if(tile.slants, [&](const auto& slant) {
+          return Hides(cells, height, {x + 0.5, y + 0.5}, slant);
+        });
+        if (2 * hidden < std::ssize(tile.slants)) continue;
         refused_[kBefore][CellAt(x, y)] = 1;
         refused_[kBehindIt][CellAt(x, y)] = 1;
       }
     }
-    for (auto& best : best_) best.reset();
   }
 
   void ForgetOver(const CellRectangle& cells) {
@@ -270,6 +305,7 @@ class RectangleFinder {
   }
 
   const PlaneSweep& sweep_;
+  const std::vector<SweepTile>& tiles_;
   std::vector<int> labels_;
   // By cell: that it lies on this side of the facet's plane is refused.
   std::array<std::vector<uint8_t>, 3> refused_;
@@ -279,17 +315,12 @@ class RectangleFinder {
 }  // namespace
 
 std::shared_ptr<const Relief> FindRelief(const Facet& facet, const TexelGrid& grid,
-                                         std::span<const Candidate> candidates,
                                          const ViewLimits& limits, const PaintScene& scene) {
   const TexelGrid raster = SweepRaster(grid);
-  std::vector<SweepPhoto> photos;
-  for (const int chosen : PhotosFromAllSides(raster, candidates, scene)) {
-    photos.push_back(OpenForSweep(scene.sights.photos[chosen], raster, *scene.cache));
-    photos.back().sees = SeenCells(facet, raster, chosen, limits, scene);
-  }
-  const std::optional<PlaneSweep> sweep = SweepPlanes(raster, photos);
+  const std::vector<SweepTile> tiles = CutForSweep(facet, raster, grid.texel, limits, scene);
+  const std::optional<PlaneSweep> sweep = SweepAll(raster, tiles, scene);
   if (!sweep) return nullptr;
-  const std::vector<int> labels = RectangleFinder(*sweep).Find();
+  const std::vector<int> labels = RectangleFinder(*sweep, tiles).Find();
   const int highest = *std::ranges::max_element(labels);
   if (std::ranges::all_of(labels, [&](int label) { return label == sweep->plane; })) return nullptr;
   auto relief = std::make_shared<Relief>();
@@ -305,7 +336,7 @@ std::shared_ptr<const Relief> FindRelief(const Facet& facet, const TexelGrid& gr
 }
 
 uint64_t ReliefBytes(const TexelGrid& grid) {
-  return PlaneSweepBytes(SweepRaster(grid), kMostPhotos);
+  return PlaneSweepBytes(SweepRaster(grid));
 }
 
 }  // namespace stucco

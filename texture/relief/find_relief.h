@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
 
 #include "survey/proxy.h"
 #include "texture/grid/grid.h"
@@ -15,13 +14,11 @@ namespace stucco {
 
 // What stands out of a facet (up to 1.6 m) or lies back in it (up to 0.5 m), as rectangles parallel
 // to it, from the photos alone: all are brought onto planes parallel to the facet's (see
-// SweepPlanes), and the rectangle on one of them where photos agree most better than on the facet's
+// SweepPart), and the rectangle on one of them where photos agree most better than on the facet's
 // own plane, or on that of an earlier rectangle, is put there, again and again. What no pair of
 // photos can tell stays on the plane, and so does what rectangles hide from half of the photos.
-// `candidates` are the photos, best first. Nothing where all is on the plane. Lengths are metres:
-// for surveys that are.
+// Nothing where all is on the plane. Lengths are metres: for surveys that are.
 std::shared_ptr<const Relief> FindRelief(const Facet& facet, const TexelGrid& grid,
-                                         std::span<const Candidate> candidates,
                                          const ViewLimits& limits, const PaintScene& scene);
 
 // About what FindRelief holds at once, bytes.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <opencv2/imgproc.hpp>
@@ -17,7 +18,7 @@ constexpr double kHighest_m = 1.6;
 constexpr double kMostPlanes = 48;
 constexpr int kPhotoSide = 1600;      // photos are read this small
 constexpr int kLattice = 4;           // cells between exact projections
-constexpr int kWindow = 5;            // cells a side
+constexpr int kCore = 3;              // cells a side, next to one
 constexpr float kNoise = 16;          // grey levels squared: plain surfaces look alike anywhere
 constexpr double kBestShare = 0.5;    // of the pairs at a place; something may hide it from others
 constexpr float kLonePairs = 0.5f;    // pairs that agree by chance
@@ -27,18 +28,19 @@ constexpr float kAlong = 0.1f;        // share of slopes along the way of a pair
 // Means over the windows of a raster, cut off at its rim.
 class WindowMeans {
  public:
-  WindowMeans(int width, int height)
-      : cells_per_window_(Sums(cv::Mat::ones(height, width, CV_32F))) {}
+  WindowMeans(int side, int width, int height)
+      : side_(side), cells_per_window_(Sums(cv::Mat::ones(height, width, CV_32F))) {}
 
   cv::Mat Of(const cv::Mat& values) const { return Sums(values) / cells_per_window_; }
 
  private:
-  static cv::Mat Sums(const cv::Mat& values) {
+  cv::Mat Sums(const cv::Mat& values) const {
     cv::Mat sums;
-    cv::boxFilter(values, sums, CV_32F, {kWindow, kWindow}, {-1, -1}, false, cv::BORDER_CONSTANT);
+    cv::boxFilter(values, sums, CV_32F, {side_, side_}, {-1, -1}, false, cv::BORDER_CONSTANT);
     return sums;
   }
 
+  int side_;
   cv::Mat cells_per_window_;
 };
 
@@ -48,6 +50,7 @@ struct Shown {
   cv::Mat valid;  // bytes: whether it shows the whole window
   cv::Mat mean;
   cv::Mat variance;
+  cv::Mat plain;  // bytes: Plain
   // Of the slopes of grey, products: along u, across, along v.
   std::array<cv::Mat, 3> slopes;
 
@@ -93,6 +96,7 @@ struct Vote {
   float value = 0;  // correlation times weight
   float weight = 0;
   float slant = 0;  // of the squarer photo
+  Plain plain = Plain::kNot;
 };
 
 float MeanVote(std::span<const Vote> votes) {
@@ -145,48 +149,48 @@ void Bring(const SweepPhoto& photo, const TexelGrid& plane, Shown& out) {
 
 class Sweep {
  public:
-  Sweep(const TexelGrid& raster, const std::vector<SweepPhoto>& photos)
-      : raster_(raster), photos_(photos), means_(raster.width, raster.height) {}
+  Sweep(const CellRectangle& cells, const std::vector<SweepPhoto>& photos, PlaneSweep& out)
+      : cells_(cells),
+        around_(WithRim(cells, out.raster)),
+        part_(PartOf(out.raster, around_)),
+        photos_(photos),
+        means_(kSweepWindow, part_.width, part_.height),
+        core_means_(kCore, part_.width, part_.height),
+        out_(out) {
+    PairPhotos();
+  }
 
-  std::optional<PlaneSweep> Run() {
-    PlaneSweep out;
-    for (const SweepPhoto& photo : photos_) out.slants.push_back(SlantOf(*photo.photo, raster_));
-    const double most = PairPhotos(out.slants);
-    if (pairs_.empty()) return {};
-    out.raster = raster_;
-    out.step = std::max(raster_.texel / most, (kHighest_m + kDeepest_m) / kMostPlanes);
-    out.plane = static_cast<int>(kDeepest_m / out.step);
-    out.planes = out.plane + static_cast<int>(kHighest_m / out.step) + 1;
-    out.best.resize(raster_.size() * out.planes);
-    out.all.resize(out.best.size());
-    out.squarest.resize(out.best.size());
-    out.closest.resize(out.best.size());
-    out.pairs.resize(raster_.size());
-    for (int label = 0; label < out.planes; ++label) Measure(label, out);
-    return out;
+  void Run() {
+    if (pairs_.empty()) return;
+    for (int label = 0; label < out_.planes; ++label) Measure(label);
   }
 
  private:
-  // The pairs that look from different sides; the largest parallax among them.
-  double PairPhotos(std::span<const Eigen::Vector2d> slant) {
-    double most = 0;
-    for (size_t a = 0; a < slant.size(); ++a) {
-      for (size_t b = a + 1; b < slant.size(); ++b) {
-        const double parallax = (slant[a] - slant[b]).norm();
+  // The pairs that look from different sides.
+  void PairPhotos() {
+    std::vector<Eigen::Vector2d> slants;
+    slants.reserve(photos_.size());
+    for (const SweepPhoto& photo : photos_) slants.push_back(SlantOf(*photo.photo, part_));
+    for (size_t a = 0; a < slants.size(); ++a) {
+      for (size_t b = a + 1; b < slants.size(); ++b) {
+        const double parallax = (slants[a] - slants[b]).norm();
         if (parallax < kLeastParallax) continue;
-        pairs_.push_back({a, b, ((slant[a] - slant[b]) / parallax).cast<float>(),
-                          static_cast<float>(std::min(slant[a].norm(), slant[b].norm()))});
-        most = std::max(most, parallax);
+        pairs_.push_back({a, b, ((slants[a] - slants[b]) / parallax).cast<float>(),
+                          static_cast<float>(std::min(slants[a].norm(), slants[b].norm()))});
       }
     }
-    return most;
   }
 
   Shown Show(const SweepPhoto& photo, const TexelGrid& plane) const {
     Shown out;
     Bring(photo, plane, out);
     out.mean = means_.Of(out.grey);
-    out.variance = means_.Of(out.grey.mul(out.grey)) - out.mean.mul(out.mean);
+    const cv::Mat squares = out.grey.mul(out.grey);
+    out.variance = means_.Of(squares) - out.mean.mul(out.mean);
+    const cv::Mat core_mean = core_means_.Of(out.grey);
+    const cv::Mat core_variance = core_means_.Of(squares) - core_mean.mul(core_mean);
+    out.plain = (core_variance < kNoise) & static_cast<uint8_t>(Plain::kHere);
+    out.plain.setTo(static_cast<uint8_t>(Plain::kAround), out.variance < kNoise);
     const cv::Mat difference = (cv::Mat_<float>(1, 3) << -0.5f, 0, 0.5f);
     cv::Mat along_u;
     cv::Mat along_v;
@@ -194,14 +198,15 @@ class Sweep {
     cv::filter2D(out.grey, along_v, CV_32F, difference.t());
     out.slopes = {means_.Of(along_u.mul(along_u)), means_.Of(along_u.mul(along_v)),
                   means_.Of(along_v.mul(along_v))};
-    cv::erode(out.valid, out.valid, cv::Mat::ones(kWindow, kWindow, CV_8U));
+    cv::erode(out.valid, out.valid, cv::Mat::ones(kSweepWindow, kSweepWindow, CV_8U));
     return out;
   }
 
-  void Measure(int label, PlaneSweep& out) const {
-    TexelGrid plane = raster_;
-    plane.origin += out.HeightOf(label) * raster_.normal;
+  void Measure(int label) {
+    TexelGrid plane = part_;
+    plane.origin += out_.HeightOf(label) * part_.normal;
     std::vector<Shown> shown;
+    shown.reserve(photos_.size());
     for (const SweepPhoto& photo : photos_) shown.push_back(Show(photo, plane));
     std::vector<cv::Mat> covariances;
     for (const Pair& pair : pairs_) {
@@ -210,15 +215,19 @@ class Sweep {
       covariances.emplace_back(means_.Of(a.grey.mul(b.grey)) - a.mean.mul(b.mean));
     }
     std::vector<Vote> votes;
-    for (int cell = 0; cell < static_cast<int>(raster_.size()); ++cell) {
-      votes.clear();
-      for (size_t i = 0; i < pairs_.size(); ++i) {
-        const Shown& a = shown[pairs_[i].a];
-        const Shown& b = shown[pairs_[i].b];
-        if (!a.valid.at<uint8_t>(cell) || !b.valid.at<uint8_t>(cell)) continue;
-        votes.push_back(VoteOf(pairs_[i], a, b, covariances[i].at<float>(cell), cell));
+    for (int y = cells_.top; y < cells_.bottom; ++y) {
+      for (int x = cells_.left; x < cells_.right; ++x) {
+        const int cell = (y - around_.top) * part_.width + x - around_.left;
+        votes.clear();
+        for (size_t i = 0; i < pairs_.size(); ++i) {
+          const Shown& a = shown[pairs_[i].a];
+          const Shown& b = shown[pairs_[i].b];
+          if (!a.valid.at<uint8_t>(cell) || !b.valid.at<uint8_t>(cell)) continue;
+          votes.push_back(VoteOf(pairs_[i], a, b, covariances[i].at<float>(cell), cell));
+        }
+        if (votes.empty()) continue;
+        Summarise(label, static_cast<size_t>(y) * out_.raster.width + x, votes);
       }
-      if (!votes.empty()) Summarise(label, cell, votes, out);
     }
   }
 
@@ -227,30 +236,36 @@ class Sweep {
         (a.variance.at<float>(cell) + kNoise) * (b.variance.at<float>(cell) + kNoise);
     const float along = std::min(a.Along(pair.way, cell), b.Along(pair.way, cell));
     const float weight = along / (along + kAlong);
-    return {weight * covariance / std::sqrt(variances), weight, pair.slant};
+    const auto plain = Plain{std::max(a.plain.at<uint8_t>(cell), b.plain.at<uint8_t>(cell))};
+    return {weight * covariance / std::sqrt(variances), weight, pair.slant, plain};
   }
 
   // What the pairs that show a cell say of a plane; orders them.
-  static void Summarise(int label, int cell, std::span<Vote> votes, PlaneSweep& out) {
-    const size_t i = label * out.raster.size() + cell;
-    out.all[i] = MeanVote(votes);
+  void Summarise(int label, size_t cell, std::span<Vote> votes) {
+    const size_t i = label * out_.raster.size() + cell;
+    out_.all[i] = MeanVote(votes);
+    out_.plain[i] = std::ranges::min(votes, {}, &Vote::plain).plain;
     const float squarest = std::ranges::min(votes, {}, &Vote::slant).slant;
     const auto others = std::partition(votes.begin(), votes.end(),
                                        [&](const Vote& vote) { return vote.slant == squarest; });
-    out.squarest[i] = MeanVote(votes.first(static_cast<size_t>(others - votes.begin())));
+    out_.squarest[i] = MeanVote(votes.first(static_cast<size_t>(others - votes.begin())));
     const auto half = std::max(1L, std::lround(kBestShare * static_cast<double>(votes.size())));
     std::ranges::nth_element(votes, votes.begin() + half - 1, std::greater<>(), &Vote::value);
-    out.best[i] = MeanVote(votes.first(half));
-    out.closest[i] = std::ranges::max(votes.first(half), {}, &Vote::value).value;
-    if (label == out.plane) {
-      out.pairs[cell] = static_cast<uint8_t>(std::min<size_t>(votes.size(), 255));
+    out_.best[i] = MeanVote(votes.first(half));
+    out_.closest[i] = std::ranges::max(votes.first(half), {}, &Vote::value).value;
+    if (label == out_.plane) {
+      out_.pairs[cell] = static_cast<uint8_t>(std::min<size_t>(votes.size(), 255));
     }
   }
 
-  const TexelGrid& raster_;
+  CellRectangle cells_;
+  CellRectangle around_;
+  TexelGrid part_;
   const std::vector<SweepPhoto>& photos_;
   std::vector<Pair> pairs_;
   WindowMeans means_;
+  WindowMeans core_means_;
+  PlaneSweep& out_;
 };
 
 }  // namespace
@@ -261,14 +276,39 @@ Eigen::Vector2d SlantOf(const SurveyPhoto& photo, const TexelGrid& raster) {
   return Eigen::Vector2d(way.dot(raster.u_axis), way.dot(raster.v_axis)) / way.dot(raster.normal);
 }
 
-SweepPhoto OpenForSweep(const SurveyPhoto& photo, const TexelGrid& raster, PhotoCache& cache) {
+double LargestParallax(std::span<const Eigen::Vector2d> slants) {
+  double largest = 0;
+  for (size_t a = 0; a < slants.size(); ++a) {
+    for (size_t b = a + 1; b < slants.size(); ++b) {
+      const double parallax = (slants[a] - slants[b]).norm();
+      if (parallax >= kLeastParallax) largest = std::max(largest, parallax);
+    }
+  }
+  return largest;
+}
+
+CellRectangle WithRim(const CellRectangle& cells, const TexelGrid& raster) {
+  // As far as half a window for the values, and as far again for where all of a window is shown.
+  return {std::max(0, cells.left - kSweepWindow), std::max(0, cells.top - kSweepWindow),
+          std::min(raster.width, cells.right + kSweepWindow),
+          std::min(raster.height, cells.bottom + kSweepWindow)};
+}
+
+TexelGrid PartOf(const TexelGrid& raster, const CellRectangle& cells) {
+  TexelGrid part = raster;
+  part.origin = raster.At(cells.left, cells.top);
+  part.width = cells.right - cells.left;
+  part.height = cells.bottom - cells.top;
+  return part;
+}
+
+SweepPhoto OpenForSweep(const SurveyPhoto& photo, const TexelGrid& part, PhotoCache& cache) {
   const std::shared_ptr<const PhotoPyramid> pyramid = cache.Get(photo.path(), kPhotoSide);
   const Image& finest = pyramid->levels.front();
   const double loaded = static_cast<double>(finest.width_px) / pyramid->full_width_px;
-  const Eigen::Vector2d middle(raster.width / 2.0, raster.height / 2.0);
-  const double distance =
-      (photo.cam_from_world.Center() - raster.At(middle.x(), middle.y())).norm();
-  const double pixels = loaded * photo.camera.FocalX() * raster.texel / distance;
+  const Eigen::Vector2d middle(part.width / 2.0, part.height / 2.0);
+  const double distance = (photo.cam_from_world.Center() - part.At(middle.x(), middle.y())).norm();
+  const double pixels = loaded * photo.camera.FocalX() * part.texel / distance;
   const int last = static_cast<int>(pyramid->levels.size()) - 1;
   const int level = std::clamp(static_cast<int>(std::log2(std::max(1.0, pixels))), 0, last);
   const Image& image = pyramid->levels[level];
@@ -283,17 +323,29 @@ SweepPhoto OpenForSweep(const SurveyPhoto& photo, const TexelGrid& raster, Photo
   return side;
 }
 
-std::optional<PlaneSweep> SweepPlanes(const TexelGrid& raster,
-                                      const std::vector<SweepPhoto>& photos) {
-  return Sweep(raster, photos).Run();
+PlaneSweep StartSweep(const TexelGrid& raster, double parallax) {
+  assert(parallax > 0);
+  PlaneSweep out;
+  out.raster = raster;
+  out.step = std::max(raster.texel / parallax, (kHighest_m + kDeepest_m) / kMostPlanes);
+  out.plane = static_cast<int>(kDeepest_m / out.step);
+  out.planes = out.plane + static_cast<int>(kHighest_m / out.step) + 1;
+  for (auto* values : {&out.best, &out.all, &out.squarest, &out.closest}) {
+    values->resize(raster.size() * out.planes);
+  }
+  out.plain.resize(out.all.size());
+  out.pairs.resize(raster.size());
+  return out;
 }
 
-uint64_t PlaneSweepBytes(const TexelGrid& raster, size_t photos) {
-  constexpr double kBytesPerPlane = 4 * sizeof(float);
-  constexpr double kBytesPerPhoto = 40;
-  return static_cast<uint64_t>(
-      static_cast<double>(raster.size()) *
-      (kBytesPerPlane * kMostPlanes + kBytesPerPhoto * static_cast<double>(photos)));
+void SweepPart(const CellRectangle& cells, const std::vector<SweepPhoto>& photos,
+               PlaneSweep& sweep) {
+  Sweep(cells, photos, sweep).Run();
+}
+
+uint64_t PlaneSweepBytes(const TexelGrid& raster) {
+  constexpr double kBytesPerPlane = 4 * sizeof(float) + 1;
+  return static_cast<uint64_t>(static_cast<double>(raster.size()) * kBytesPerPlane * kMostPlanes);
 }
 
 }  // namespace stucco
