@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -24,6 +25,13 @@ void AddPhotosOfBalcony(WallSurvey& survey,
   survey.Add("c.jpg", {2.8, -4.0, 3.9}, {2, 0, 1.5}, 1, scene);
   survey.Add("d.jpg", {1.2, -4.0, 3.2}, {2, 0, 1.5}, 1, scene);
   survey.Add("e.jpg", {3.4, -4.2, 0.4}, {2, 0, 1.5}, 1, scene);
+}
+
+std::shared_ptr<const Relief> ReliefOf(const WallSurvey& survey, double texel_size) {
+  TextureOptions options;
+  options.texel_size = texel_size;
+  survey.Run(options);
+  return ReadRelief(survey.Out(), "B0001_W01");
 }
 
 TEST(RunTexture, PaintsABalconyWhereItIs) {
@@ -67,10 +75,7 @@ TEST(RunTexture, KeepsAWallBelowABalconyStraight) {
   survey.Add("d.jpg", {0.8, -2.2, 5.6}, {2, 0, 1.5}, 1, scene);
   survey.Add("e.jpg", {-0.4, -2.2, 5.6}, {2, 0, 1.5}, 1, scene);
   survey.Add("f.jpg", {2.0, -4.5, 1.8}, {2, 0, 1.5}, 1, scene);
-  TextureOptions options;
-  options.texel_size = 0.01;
-  survey.Run(options);
-  const auto relief = ReadRelief(survey.Out(), "B0001_W01");
+  const auto relief = ReliefOf(survey, 0.01);
   ASSERT_NE(relief, nullptr);
   EXPECT_NEAR(relief->HeightAt(2.0, 3 - 1.6), kBalcony.depth, 0.08);
   for (double u = 0.1; u < 4; u += 0.1) {
@@ -92,10 +97,7 @@ TEST(RunTexture, ABalconyWithAPlainFrontHasNoHole) {
   };
   WallSurvey survey;
   AddPhotosOfBalcony(survey, plain);
-  TextureOptions options;
-  options.texel_size = 0.01;
-  survey.Run(options);
-  const auto relief = ReadRelief(survey.Out(), "B0001_W01");
+  const auto relief = ReliefOf(survey, 0.01);
   ASSERT_NE(relief, nullptr);
   for (double x = 0.85; x < 3.2; x += 0.1) {
     for (double z = 0.95; z < 2.1; z += 0.1) {
@@ -117,10 +119,7 @@ TEST(RunTexture, TheWallBetweenTwoBalconiesStaysBack) {
   for (int i = 0; i < 4; ++i) {
     survey.Add(std::to_string(i) + ".jpg", {-1.0 + 2 * i, -4.5, 7.5}, middle, 1, scene);
   }
-  TextureOptions options;
-  options.texel_size = 0.01;
-  survey.Run(options);
-  const auto relief = ReadRelief(survey.Out(), "B0001_W01");
+  const auto relief = ReliefOf(survey, 0.01);
   ASSERT_NE(relief, nullptr);
   for (double x = 1.2; x < 2.9; x += 0.2) {
     EXPECT_NEAR(relief->HeightAt(x, 5 - 1.4), 0.6, 0.08) << x;
@@ -142,10 +141,7 @@ TEST(RunTexture, FindsTheBalconiesOfALongWallAtBothEnds) {
     survey.Add(std::to_string(i) + "a.jpg", {x, -4, 1.7}, {x, 0, 1.5}, 1, scene);
     survey.Add(std::to_string(i) + "b.jpg", {x + 0.4, -4, 3.6}, {x, 0, 1.5}, 1, scene);
   }
-  TextureOptions options;
-  options.texel_size = 0.02;
-  survey.Run(options);
-  const auto relief = ReadRelief(survey.Out(), "B0001_W01");
+  const auto relief = ReliefOf(survey, 0.02);
   ASSERT_NE(relief, nullptr);
   for (const double x : {2.0, 16.0}) EXPECT_NEAR(relief->HeightAt(x, 3 - 1.6), 0.6, 0.08) << x;
   for (const double x : {5.0, 9.0, 13.0}) EXPECT_NEAR(relief->HeightAt(x, 3 - 1.6), 0, 0.05) << x;

@@ -336,7 +336,8 @@ std::shared_ptr<const Relief> FindRelief(const Facet& facet, const TexelGrid& gr
 }
 
 uint64_t ReliefBytes(const TexelGrid& grid) {
-  return PlaneSweepBytes(SweepRaster(grid));
+  const TexelGrid raster = SweepRaster(grid);
+  return PlaneSweepBytes(raster) + kMostTilePhotos * raster.size();  // which photo sees which cell
 }
 
 }  // namespace stucco

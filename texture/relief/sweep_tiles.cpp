@@ -16,15 +16,14 @@ constexpr double kTile_m = 6;
 constexpr int kSightStep = 4;        // cells of a cell that sights are asked for
 constexpr double kLeastMerit = 0.1;  // of a photo, mean over a tile
 
-// Where the photos see a facet's plane, in coarse cells.
+// How well photos see a facet's plane, in coarse cells.
 struct Sights {
   TexelGrid grid;
-  std::vector<RasterView> views;
-  std::vector<std::vector<float>> costs;  // by view
+  std::vector<int> photos;
+  std::vector<std::vector<float>> costs;  // by photo and cell, below 0 where not seen
 
-  bool Sees(size_t view, int column, int row) const {
-    const size_t i = static_cast<size_t>(row / kSightStep) * grid.width + column / kSightStep;
-    return views[view].texels[i].sight != Sight::kNot;
+  float CostAt(size_t view, int column, int row) const {
+    return costs[view][static_cast<size_t>(row / kSightStep) * grid.width + column / kSightStep];
   }
 };
 
@@ -32,12 +31,15 @@ Sights MeasureSights(const Facet& facet, const TexelGrid& raster, double texel,
                      const ViewLimits& limits, const PaintScene& scene) {
   FacetRaster coarse{Coarsened(raster, kSightStep), {}, 1};
   coarse.inside.assign(coarse.grid.size(), 1);
-  Sights out{coarse.grid, {}, {}};
-  for (const int photo : PhotosThatMaySee(facet, scene.sights.photos, limits.max_angle_deg)) {
-    RasterView view = MeasureView(scene.sights, photo, facet, coarse, limits);
+  Sights out{coarse.grid, PhotosThatMaySee(facet, scene.sights.photos, limits.max_angle_deg), {}};
+  out.costs.reserve(out.photos.size());
+  for (const int photo : out.photos) {
+    const RasterView view = MeasureView(scene.sights, photo, facet, coarse, limits);
     const double sharpness = scene.sights.photos[photo].relative_sharpness;
     out.costs.push_back(ViewCosts(view, coarse.grid.texel, texel, sharpness));
-    out.views.push_back(std::move(view));
+    for (size_t i = 0; i < view.texels.size(); ++i) {
+      if (view.texels[i].sight == Sight::kNot) out.costs.back()[i] = -1;
+    }
   }
   return out;
 }
@@ -49,10 +51,8 @@ double MeritOf(size_t view, const CellRectangle& cells, const Sights& sights) {
   for (int row = cells.top; row < cells.bottom; row += kSightStep) {
     for (int column = cells.left; column < cells.right; column += kSightStep) {
       ++count;
-      if (!sights.Sees(view, column, row)) continue;
-      const size_t i =
-          static_cast<size_t>(row / kSightStep) * sights.grid.width + column / kSightStep;
-      merit += std::max(0.0f, 1 - sights.costs[view][i]);
+      const float cost = sights.CostAt(view, column, row);
+      if (cost >= 0) merit += std::max(0.0f, 1 - cost);
     }
   }
   return merit / count;
@@ -60,7 +60,7 @@ double MeritOf(size_t view, const CellRectangle& cells, const Sights& sights) {
 
 std::vector<size_t> ByMerit(const CellRectangle& cells, const Sights& sights) {
   std::vector<std::pair<double, size_t>> merits;
-  for (size_t v = 0; v < sights.views.size(); ++v) {
+  for (size_t v = 0; v < sights.photos.size(); ++v) {
     const double merit = MeritOf(v, cells, sights);
     if (merit >= kLeastMerit) merits.emplace_back(-merit, v);
   }
@@ -78,7 +78,7 @@ SweepTile MakeTile(const CellRectangle& cells, const TexelGrid& raster, const Si
   const TexelGrid part = PartOf(raster, around);
   for (const size_t view : ByMerit(cells, sights)) {
     if (tile.photos.size() == kMostTilePhotos) break;
-    const int photo = sights.views[view].photo;
+    const int photo = sights.photos[view];
     const Eigen::Vector2d slant = SlantOf(photos[photo], part);
     const auto is_near = [&](const Eigen::Vector2d& other) {
       return (slant - other).norm() < kLeastParallax;
@@ -88,7 +88,7 @@ SweepTile MakeTile(const CellRectangle& cells, const TexelGrid& raster, const Si
     shown.sees.reserve(part.size());
     for (int row = around.top; row < around.bottom; ++row) {
       for (int column = around.left; column < around.right; ++column) {
-        shown.sees.push_back(sights.Sees(view, column, row));
+        shown.sees.push_back(sights.CostAt(view, column, row) >= 0);
       }
     }
     tile.photos.push_back(std::move(shown));
