@@ -51,8 +51,8 @@ SceneShape ShapeOf(const simulate::Scene& scene, const Truth& truth, int threads
                    {}};
   const Surface surveyed = PartNear(shape.relief, shape.index.buildings, kGroundReachM);
   shape.wanted.points = SamplePoints(surveyed, kTruthSamples, kSeed);
-  shape.wanted.seen = SeenByAny(shape.wanted.points, DeliveredPhotos(truth.flight),
-                                shape.index.everything, threads);
+  shape.wanted.showing = PhotosThatShow(shape.wanted.points, DeliveredPhotos(truth.flight),
+                                        shape.index.everything, kPhotosToConfirm, threads);
   return shape;
 }
 

@@ -28,8 +28,10 @@ struct PoseFigures {
 
 struct SurfaceFigures {
   double error95_m = kNotMeasured;  // 95 % of the result lies nearer to the truth
-  // Share of the truth's area with the result nearby: of what the photos show, and of everything.
+  // Share of the truth's area with the result nearby: of what the photos show, of what at least
+  // three do, and of everything.
   double completeness = kNotMeasured;
+  double completeness_of_three = kNotMeasured;
   double completeness_all = kNotMeasured;
 
   bool IsMeasured() const { return std::isfinite(error95_m) || std::isfinite(completeness); }

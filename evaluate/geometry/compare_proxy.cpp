@@ -51,7 +51,8 @@ PartFigures MeasureSurfaces(const Proxy& result, const ProxyTruth& truth, double
   Surface planes = VisibleSurface(truth.facets);
   TruthPoints wanted;
   wanted.points = SamplePoints(Surveyed(planes, buildings), kSamples, kSampleSeed);
-  wanted.seen = SeenByAny(wanted.points, truth.photos, truth.scene.everything, threads);
+  wanted.showing = PhotosThatShow(wanted.points, truth.photos, truth.scene.everything,
+                                  kPhotosToConfirm, threads);
   const SurfaceIndex of_result(VisibleSurface(result));
   const std::vector<char> found = FoundOn(of_result, wanted, tolerance_m, threads);
   Append(truth.relief, planes);

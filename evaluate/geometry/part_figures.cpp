@@ -5,6 +5,7 @@
 #include <cassert>
 #include <functional>
 
+#include "evaluate/geometry/seen.h"
 #include "survey/median.h"
 
 namespace stucco::evaluate {
@@ -20,17 +21,19 @@ SurfaceFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
     if (is_part(result.groups[i])) distances.push_back(result.distances[i]);
   }
   figures.error95_m = Quantile(std::move(distances), 0.95).value_or(kNotMeasured);
-  double seen = 0, seen_found = 0, all = 0, all_found = 0;
-  for (size_t i = 0; i < truth.points.size(); ++i) {
-    if (!is_part(truth.points[i].group)) continue;
-    all += 1;
-    all_found += found[i];
-    if (!truth.seen[i]) continue;
-    seen += 1;
-    seen_found += found[i];
-  }
-  if (seen > 0) figures.completeness = seen_found / seen;
-  if (all > 0) figures.completeness_all = all_found / all;
+  const auto complete = [&](char photos) {
+    double wanted = 0;
+    double there = 0;
+    for (size_t i = 0; i < truth.points.size(); ++i) {
+      if (!is_part(truth.points[i].group) || truth.showing[i] < photos) continue;
+      wanted += 1;
+      there += found[i];
+    }
+    return wanted > 0 ? there / wanted : kNotMeasured;
+  };
+  figures.completeness = complete(1);
+  figures.completeness_of_three = complete(kPhotosToConfirm);
+  figures.completeness_all = complete(0);
   return figures;
 }
 
@@ -38,7 +41,7 @@ SurfaceFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
 
 PartFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
                       std::span<const char> found) {
-  assert(truth.seen.size() == truth.points.size() && found.size() == truth.points.size());
+  assert(truth.showing.size() == truth.points.size() && found.size() == truth.points.size());
   const auto of = [&](const IsPart& is_part) { return FiguresOf(result, truth, found, is_part); };
   const auto of_class = [&](FacetClass facet_class) {
     return of([=](int group) { return group == static_cast<int>(facet_class); });

@@ -10,10 +10,10 @@
 
 namespace stucco::evaluate {
 
-// Points of the truth that a result should have: `seen` says which of them photos show (seen.h).
+// Points of the truth that a result should have, and how many photos show each (seen.h).
 struct TruthPoints {
   std::vector<SurfacePoint> points;
-  std::vector<char> seen;
+  std::vector<char> showing;  // counted up to kPhotosToConfirm
 };
 
 // Points of a result: how far each is from the truth, and the group that it counts for.
@@ -28,7 +28,7 @@ struct ResultPoints {
 };
 
 // Figures of everything and of its parts; `found` says which of the truth's points have the result
-// nearby. Requires `seen` and `found` by point of the truth.
+// nearby. Requires `showing` and `found` by point of the truth.
 PartFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
                       std::span<const char> found);
 

@@ -42,23 +42,23 @@ std::vector<const simulate::FlownPhoto*> DeliveredPhotos(const simulate::Flight&
   return delivered;
 }
 
-std::vector<char> SeenByAny(std::span<const SurfacePoint> points,
-                            std::span<const simulate::FlownPhoto* const> photos,
-                            const SurfaceIndex& scene, int threads) {
-  std::vector<char> seen(points.size(), 0);
+std::vector<char> PhotosThatShow(std::span<const SurfacePoint> points,
+                                 std::span<const simulate::FlownPhoto* const> photos,
+                                 const SurfaceIndex& scene, char enough, int threads) {
+  std::vector<char> showing(points.size(), 0);
   ParallelFor((points.size() + kPointsOfTask - 1) / kPointsOfTask, threads, [&](size_t block) {
-    size_t last = 0;  // the photo that saw the point before mostly sees this one, too
+    size_t first = 0;  // that saw the point before: it mostly sees this one, too
     const size_t end = std::min(points.size(), (block + 1) * kPointsOfTask);
     for (size_t i = block * kPointsOfTask; i < end; ++i) {
-      for (size_t k = 0; k < photos.size() && !seen[i]; ++k) {
-        const size_t photo = (last + k) % photos.size();
+      const size_t start = first;
+      for (size_t k = 0; k < photos.size() && showing[i] < enough; ++k) {
+        const size_t photo = (start + k) % photos.size();
         if (!Sees(*photos[photo], points[i], scene)) continue;
-        seen[i] = 1;
-        last = photo;
+        if (showing[i]++ == 0) first = photo;
       }
     }
   });
-  return seen;
+  return showing;
 }
 
 }  // namespace stucco::evaluate

@@ -13,10 +13,13 @@ namespace stucco::evaluate {
 // The photos that the survey was given: neither lost nor held out.
 std::vector<const simulate::FlownPhoto*> DeliveredPhotos(const simulate::Flight& flight);
 
-// Which points at least one photo shows, from in front at less than 80 degrees from the normal and
-// with nothing of the scene in between: 1 or 0 by point.
-std::vector<char> SeenByAny(std::span<const SurfacePoint> points,
-                            std::span<const simulate::FlownPhoto* const> photos,
-                            const SurfaceIndex& scene, int threads);
+// Dense matching needs so many photos of a place: two that agree, and one that confirms it.
+constexpr char kPhotosToConfirm = 3;
+
+// How many photos show each point, from in front at less than 80 degrees from the normal and with
+// nothing of the scene in between; counted no further than `enough`.
+std::vector<char> PhotosThatShow(std::span<const SurfacePoint> points,
+                                 std::span<const simulate::FlownPhoto* const> photos,
+                                 const SurfaceIndex& scene, char enough, int threads);
 
 }  // namespace stucco::evaluate

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "evaluate/geometry/compare_proxy.h"
+#include "evaluate/geometry/seen.h"
 #include "survey/error.h"
 #include "survey/point_cloud.h"
 #include "tests/evaluate/made_truth.h"
@@ -23,7 +24,7 @@ class Clouds : public ::testing::Test {
  protected:
   void SetUp() override {
     truth_.points = SamplePoints(houses_.surface(), 20000, 5);
-    truth_.seen.assign(truth_.points.size(), 1);
+    truth_.showing.assign(truth_.points.size(), kPhotosToConfirm);
   }
 
   // Points of the houses, `away` metres along the normal of the surface.
@@ -99,11 +100,23 @@ TEST_F(Clouds, WhatIsMissingIsMissingFromCompleteness) {
   std::erase_if(cloud.positions, [](const Vector3d& position) { return position.x() > 15; });
   EXPECT_NEAR(Compare(cloud, 0.2).completeness, 296.0 / 648, 1e-3);
   for (size_t i = 0; i < truth_.points.size(); ++i) {
-    truth_.seen[i] = truth_.points[i].position.x() < 15;
+    truth_.showing[i] = truth_.points[i].position.x() < 15 ? 1 : 0;
   }
   const SurfaceFigures figures = Compare(cloud, 0.2);
   EXPECT_EQ(figures.completeness, 1);
+  EXPECT_TRUE(std::isnan(figures.completeness_of_three));
   EXPECT_NEAR(figures.completeness_all, 296.0 / 648, 1e-3);
+}
+
+TEST_F(Clouds, WhatThreePhotosShowIsAskedApart) {
+  PointCloud cloud = CloudOf(0);
+  std::erase_if(cloud.positions, [](const Vector3d& position) { return position.x() > 15; });
+  for (size_t i = 0; i < truth_.points.size(); ++i) {
+    truth_.showing[i] = truth_.points[i].position.x() < 15 ? kPhotosToConfirm : 2;
+  }
+  const SurfaceFigures figures = Compare(cloud, 0.2);
+  EXPECT_NEAR(figures.completeness, 296.0 / 648, 1e-3);
+  EXPECT_EQ(figures.completeness_of_three, 1);
 }
 
 TEST_F(Clouds, EveryPartHasFiguresOfItsOwn) {

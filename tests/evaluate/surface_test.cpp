@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "evaluate/geometry/part_near.h"
 #include "evaluate/geometry/seen.h"
@@ -151,7 +152,7 @@ TEST(SurfaceIndex, KnowsWhatIsInTheWay) {
   EXPECT_FALSE(SurfaceIndex(Surface()).Blocked({-5, 4, 3}, {15, 4, 3}));
 }
 
-TEST(SeenByAny, WhatPhotosShow) {
+TEST(PhotosThatShow, WhatPhotosShow) {
   const Proxy truth = MadeTruth();
   const simulate::Flight flight = MadeFlight();
   const SurfaceIndex scene(SurfaceOf(MadeScene(truth)));
@@ -163,11 +164,28 @@ TEST(SeenByAny, WhatPhotosShow) {
       {{5, -4, 0}, Vector3d::UnitZ(), 0},      // below the tree
       {{300, 300, 0}, Vector3d::UnitZ(), 0}};  // in no picture
   const auto photos = DeliveredPhotos(flight);
-  EXPECT_EQ(SeenByAny(points, photos, scene, 1), (std::vector<char>{1, 0, 0, 1, 0, 0}));
-  EXPECT_EQ(SeenByAny(points, {}, scene, 1), std::vector<char>(6, 0));
+  EXPECT_EQ(PhotosThatShow(points, photos, scene, 1, 1), (std::vector<char>{1, 0, 0, 1, 0, 0}));
+  EXPECT_EQ(PhotosThatShow(points, {}, scene, 1, 1), std::vector<char>(6, 0));
 }
 
-TEST(SeenByAny, LostAndHeldOutPhotosShowNothing) {
+TEST(PhotosThatShow, EachPhotoCountsOnceUpToEnough) {
+  const SurfaceIndex scene(SurfaceOf(MadeScene(MadeTruth())));
+  const simulate::Flight flight = MadeFlight();
+  const simulate::FlownPhoto* photo = DeliveredPhotos(flight).front();
+  std::vector<SurfacePoint> points;
+  for (int x = 1; x < 10; ++x) points.push_back({{1.0 * x, 4, 6}, Vector3d::UnitZ(), 0});
+  const std::vector<char> by_one = PhotosThatShow(points, std::vector{photo}, scene, 9, 1);
+  EXPECT_GT(std::ranges::count(by_one, 1), 0);
+  for (const auto& [photos, enough, expected] :
+       {std::tuple(2, 9, 2), std::tuple(4, 3, 3), std::tuple(3, 3, 3)}) {
+    const std::vector<const simulate::FlownPhoto*> copies(photos, photo);
+    const std::vector<char> showing =
+        PhotosThatShow(points, copies, scene, static_cast<char>(enough), 1);
+    for (size_t i = 0; i < points.size(); ++i) EXPECT_EQ(showing[i], by_one[i] * expected);
+  }
+}
+
+TEST(PhotosThatShow, LostAndHeldOutPhotosShowNothing) {
   simulate::Flight flight = MadeFlight();
   for (simulate::FlownPhoto& photo : flight.photos) photo.lost = true;
   flight.photos[0].lost = false;
