@@ -9,11 +9,9 @@
 
 #include "proxy/abstract.h"
 #include "proxy/map/facade_ids.h"
-#include "proxy/output/cityjson.h"
-#include "proxy/output/obj.h"
+#include "proxy/output/proxy_files.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
-#include "survey/files.h"
 #include "survey/plan_of_survey.h"
 #include "survey/survey_folder.h"
 
@@ -85,9 +83,7 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
                 "Please report this with the survey; proxy.solids = false may avoid it.");
   }
   NameAfterPlan(input.plan, input.georef, progress, proxy);
-  WriteProxy(proxy, context.out / "facets.json");
-  WriteFile(context.out / "proxy.obj", ObjText(proxy));
-  WriteFile(context.out / "proxy.city.json", CityJsonText(proxy));
+  WriteProxyFiles(proxy, context.out);
   progress.Advance();
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 // What a building's model holds, in words.
 std::string FormOf(const Building& building) {
+  if (building.source == "file") return building.watertight ? "as imported, closed" : "as imported";
   if (!building.watertight) return "open: only facets that photos showed; the rest was not seen";
   if (building.detail == "full") return "every roof plane that was found";
   if (building.detail == "coarse") return "only its large roof planes: all of them did not close";
@@ -43,7 +44,10 @@ std::string Row(const Building& building) {
       "<td>{}</td><td>{}</td></tr>",
       IsolatedHtml(building.id), surface.facets,
       surface.area > 0 ? Percent(surface.seen / surface.area) : "-",
-      building.source == "map" ? "on the map" : "found in the photos", FormOf(building));
+      building.source == "map"    ? "on the map"
+      : building.source == "file" ? "of another program"
+                                  : "found in the photos",
+      FormOf(building));
 }
 
 std::string MapFindings(const Proxy& proxy) {

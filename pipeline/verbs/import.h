@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "exchange/read_surfaces.h"
 #include "pipeline/engine/console.h"
 #include "pipeline/engine/platform.h"
 #include "pipeline/engine/stages.h"
@@ -50,5 +53,31 @@ bool IsCloud(const std::filesystem::path& path);
 CloudImportReport ImportCloud(const std::filesystem::path& survey,
                               const std::filesystem::path& source, const StageTable& table,
                               const Platform& platform);
+
+struct SurfaceImportRequest {
+  std::filesystem::path file;
+  std::string crs;  // "EPSG:7415"; empty: the file's own, else the world of the survey
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // that was taken off the file's coordinates
+  UpAxis up = UpAxis::kOfFormat;                     // of a mesh
+  // Whether the model is moved onto the survey's points; nothing: where a coordinate system says
+  // where it lies.
+  std::optional<bool> fits;
+};
+
+struct SurfaceImportReport {
+  std::string format;
+  size_t buildings = 0;
+  size_t closed = 0;  // of them
+  size_t facets = 0;
+  std::vector<std::string> notes;
+};
+
+// Takes a model of surfaces (OBJ, GLB, glTF or CityJSON) as the survey's planar model: writes the
+// `proxy` folder and a manifest that says where it came from, so that `run` goes on to paint it.
+// Throws Error (kBadInput): no calibration yet, a damaged file, a coordinate system for a survey
+// that does not lie on the earth, and what ProxyOfSurfaces refuses.
+SurfaceImportReport ImportSurfaces(const std::filesystem::path& survey,
+                                   const SurfaceImportRequest& request, const StageTable& table,
+                                   const Platform& platform);
 
 }  // namespace stucco

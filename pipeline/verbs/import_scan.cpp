@@ -13,6 +13,7 @@
 #include "pipeline/engine/outputs.h"
 #include "pipeline/engine/settings.h"
 #include "pipeline/verbs/init.h"
+#include "pipeline/verbs/internal/map_frame.h"
 #include "pipeline/verbs/internal/publish_import.h"
 #include "plan/map/read_site.h"
 #include "plan/options/plan_options.h"
@@ -80,30 +81,6 @@ Georef FrameOf(const Plan& plan, const PointCloud& cloud, double metres_per_unit
   georef.origin_longitude_deg = plan.origin.longitude_deg;
   georef.origin_height_m = std::round(Median(heights).value_or(0) * metres_per_unit);
   return georef;
-}
-
-void MoveCloud(const ScanRequest& request, const std::string& crs, double metres_per_unit,
-               const Georef& georef, PointCloud& cloud) {
-  std::vector<Eigen::Vector2d> in_map;
-  in_map.reserve(cloud.size());
-  for (const Eigen::Vector3d& p : cloud.positions) in_map.emplace_back(p.head<2>());
-  const std::vector<Geodetic> places = GeodeticFromCrs(crs, in_map, request.cloud.string());
-  const bool degrees = IsCrsGeographic(crs);
-  for (size_t i = 0; i < cloud.size(); ++i) {
-    Eigen::Vector3d& p = cloud.positions[i];
-    const Eigen::Vector3d in_file = p;
-    p = EnuFromGeodetic(georef, places[i].latitude_deg, places[i].longitude_deg,
-                        in_file.z() * metres_per_unit);
-    // Metres that were taken for degrees become some place, too.
-    if (p.allFinite() && std::abs(places[i].latitude_deg) <= 90 &&
-        (!degrees || std::abs(in_file.y()) <= 90)) {
-      continue;
-    }
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: point {} at ({:.0f}, {:.0f}) has no place in {}",
-                            request.cloud.string(), i, in_file.x(), in_file.y(), crs),
-                "check --crs");
-  }
 }
 
 // How many buildings of the map the box of the cloud reaches.
@@ -195,7 +172,7 @@ ScanImportReport ImportScan(const fs::path& survey, const ScanRequest& request,
   const CrsUnits units = UnitsOfCrs(crs);
   const double metres_per_unit = units.vertical_m.value_or(units.horizontal_m);
   scan.georef = FrameOf(plan, scan.cloud, metres_per_unit);
-  MoveCloud(request, crs, metres_per_unit, scan.georef, scan.cloud);
+  MovePointsFromMap(crs, request.cloud.string(), scan.georef, scan.cloud.positions);
   ScanImportReport report;
   report.points = scan.cloud.size();
   report.buildings = plan.footprints.size();

@@ -119,4 +119,28 @@ Georef MoveFromMap(const std::string& crs, const std::string& file, Reconstructi
   return georef;
 }
 
+void MovePointsFromMap(const std::string& crs, const std::string& file, const Georef& georef,
+                       std::span<Eigen::Vector3d> points) {
+  const CrsUnits units = UnitsOfCrs(crs);
+  const double metres_per_unit = units.vertical_m.value_or(units.horizontal_m);
+  std::vector<Eigen::Vector2d> in_map;
+  in_map.reserve(points.size());
+  for (const Eigen::Vector3d& p : points) in_map.emplace_back(p.head<2>());
+  const std::vector<Geodetic> places = GeodeticFromCrs(crs, in_map, file);
+  const bool degrees = IsCrsGeographic(crs);
+  for (size_t i = 0; i < points.size(); ++i) {
+    Eigen::Vector3d& p = points[i];
+    p = EnuOf(georef, places[i], p.z() * metres_per_unit);
+    // Metres that were taken for degrees become some place, too.
+    if (p.allFinite() && std::abs(places[i].latitude_deg) <= 90 &&
+        (!degrees || std::abs(in_map[i].y()) <= 90)) {
+      continue;
+    }
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: point {} at ({:.0f}, {:.0f}) has no place in {}", file, i,
+                            in_map[i].x(), in_map[i].y(), crs),
+                "check --crs");
+  }
+}
+
 }  // namespace stucco

@@ -14,6 +14,7 @@
 
 #include "plan/map/internal/attributes.h"
 #include "plan/map/internal/ogr.h"
+#include "survey/city_model.h"
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/geometry2d.h"
@@ -27,13 +28,8 @@ using Json = nlohmann::ordered_json;  // buildings without ids keep the order of
 // slope; higher ones are overhangs.
 constexpr double kLeastOverhang_m = 3;
 
-struct Face {
-  std::vector<std::vector<int>> rings;  // indices of vertices
-  bool is_ground = false;
-};
-
 struct Solid {
-  std::vector<Face> faces;
+  std::vector<CitySurface> faces;
   double lod = 0;
 };
 
@@ -42,98 +38,16 @@ struct Solid {
               "check the file with a CityJSON validator (cjval)");
 }
 
-std::vector<Eigen::Vector3d> ReadVertices(const Json& json) {
-  Eigen::Array3d scale(1, 1, 1);
-  Eigen::Array3d translate(0, 0, 0);
-  if (json.contains("transform")) {
-    const Json& transform = json.at("transform");
-    for (int i = 0; i < 3; ++i) {
-      scale[i] = transform.at("scale").at(i).get<double>();
-      translate[i] = transform.at("translate").at(i).get<double>();
-    }
-  }
-  std::vector<Eigen::Vector3d> vertices;
-  vertices.reserve(json.at("vertices").size());
-  for (const Json& vertex : json.at("vertices")) {
-    const Eigen::Array3d stored(vertex.at(0).get<double>(), vertex.at(1).get<double>(),
-                                vertex.at(2).get<double>());
-    vertices.emplace_back(stored * scale + translate);
-  }
-  return vertices;
-}
-
-// "https://www.opengis.net/def/crs/EPSG/0/7415" and "urn:ogc:def:crs:EPSG::7415" to "EPSG:7415".
-std::string ReadCrs(const Json& json) {
-  if (!json.contains("metadata")) return "";
-  const Json& metadata = json.at("metadata");
-  if (!metadata.contains("referenceSystem")) return "";
-  std::string name = metadata.at("referenceSystem").get<std::string>();
-  const size_t end = name.find_last_of("/:");
-  if (end == std::string::npos || name.find("EPSG") == std::string::npos) return name;
-  return "EPSG:" + name.substr(end + 1);
-}
-
-// Nested lists of surfaces (shells of solids, solids of multi-solids) with the list of the same
-// shape that says which semantic surface each is.
-void ReadFaces(const Json& boundaries, const Json& semantics, const std::vector<bool>& is_ground,
-               std::vector<Face>& faces) {
-  for (size_t i = 0; i < boundaries.size(); ++i) {
-    const Json& item = boundaries.at(i);
-    static const Json kNone;
-    const Json& meaning = semantics.is_array() && i < semantics.size() ? semantics.at(i) : kNone;
-    const bool is_surface = item.is_array() && !item.empty() && item.at(0).is_array() &&
-                            (item.at(0).empty() || item.at(0).at(0).is_number_integer());
-    if (!is_surface) {
-      if (item.is_array()) ReadFaces(item, meaning, is_ground, faces);
-      continue;
-    }
-    Face& face = faces.emplace_back();
-    face.rings = item.get<std::vector<std::vector<int>>>();
-    face.is_ground = meaning.is_number_unsigned() && meaning.get<size_t>() < is_ground.size() &&
-                     is_ground[meaning.get<size_t>()];
-  }
-}
-
-Solid ReadGeometry(const Json& geometry) {
-  Solid solid;
-  std::vector<bool> is_ground;
-  Json values;
-  if (geometry.contains("semantics") && geometry.at("semantics").is_object()) {
-    for (const Json& surface : geometry.at("semantics").at("surfaces")) {
-      is_ground.push_back(surface.at("type") == "GroundSurface");
-    }
-    values = geometry.at("semantics").at("values");
-  }
-  ReadFaces(geometry.at("boundaries"), values, is_ground, solid.faces);
-  if (geometry.contains("lod")) {
-    const Json& lod = geometry.at("lod");  // a number in CityJSON 1.0
-    solid.lod =
-        lod.is_string() ? ParseLength(lod.get<std::string>()).value_or(0) : lod.get<double>();
-  }
-  return solid;
-}
-
-// The most detailed geometry that has surfaces.
-std::optional<Solid> BestGeometry(const Json& object) {
-  std::optional<Solid> best;
-  if (!object.contains("geometry")) return best;
-  for (const Json& geometry : object.at("geometry")) {
-    if (!geometry.contains("boundaries")) continue;  // an instance of a template
-    Solid solid = ReadGeometry(geometry);
-    if (!solid.faces.empty() && (!best || solid.lod > best->lod)) best = std::move(solid);
-  }
-  return best;
-}
-
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, const PlanOptions& options) : options_(options) {
+  Reader(const std::filesystem::path& path, const PlanOptions& options)
+      : options_(options), city_(ReadCityModel(path)) {
     map_.path = path;
+    map_.crs = city_.crs;
+    for (const CityObject& object : city_.objects) object_of_.emplace(object.id, &object);
   }
 
   RawMap Read(const Json& json) {
-    vertices_ = ReadVertices(json);
-    map_.crs = ReadCrs(json);
     const Json& objects = json.at("CityObjects");
     for (const auto& [id, object] : objects.items()) {
       if (object.at("type") == "Building") ReadBuilding(id, object, objects);
@@ -151,13 +65,13 @@ class Reader {
     const std::string name = ids_.Next(OwnId(id, building), place_);
     if (ids_.renamed()) map_.repairs.Add(name, internal::kRenamed);
     std::vector<Solid> solids;
-    if (auto own = BestGeometry(building)) solids.push_back(std::move(*own));
+    AddSolid(id, solids);
     std::vector<Solid> parts;
     if (building.contains("children")) {
       for (const Json& child : building.at("children")) {
         const auto part = objects.find(child.get<std::string>());
         if (part == objects.end() || part->at("type") != "BuildingPart") continue;
-        if (auto solid = BestGeometry(*part)) parts.push_back(std::move(*solid));
+        AddSolid(part.key(), parts);
       }
     }
     // A flat outline beside parts says nothing that they do not.
@@ -238,23 +152,24 @@ class Reader {
     }
   }
 
-  const Eigen::Vector3d& Vertex(int index) const {
-    if (index < 0 || static_cast<size_t>(index) >= vertices_.size()) {
-      Fail(map_.path, fmt::format("names vertex {} of {}", index, vertices_.size()));
-    }
-    return vertices_[index];
+  // What the object has of surfaces.
+  void AddSolid(const std::string& id, std::vector<Solid>& solids) const {
+    const CityObject& object = *object_of_.at(id);
+    if (!object.surfaces.empty()) solids.push_back({object.surfaces, object.lod});
   }
+
+  const Eigen::Vector3d& Vertex(int index) const { return city_.vertices[index]; }
 
   Interval HeightsOf(const Solid& solid) const {
     Interval z{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-    for (const Face& face : solid.faces) {
+    for (const CitySurface& face : solid.faces) {
       const Interval range = HeightsOf(face);
       z = {std::min(z.from_m, range.from_m), std::max(z.to_m, range.to_m)};
     }
     return z;
   }
 
-  Interval HeightsOf(const Face& face) const {
+  Interval HeightsOf(const CitySurface& face) const {
     Interval z{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     for (const std::vector<int>& ring : face.rings) {
       for (const int index : ring) {
@@ -265,7 +180,7 @@ class Reader {
   }
 
   // Share of the face's area that is left when it is seen from above.
-  double Flatness(const Face& face) const {
+  double Flatness(const CitySurface& face) const {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     const std::vector<int>& ring = face.rings.front();
     for (size_t i = 2; i < ring.size(); ++i) {
@@ -278,7 +193,7 @@ class Reader {
   template <class Keep>
   std::vector<Polygon> Projected(const Solid& solid, const Keep& keep) const {
     std::vector<Polygon> polygons;
-    for (const Face& face : solid.faces) {
+    for (const CitySurface& face : solid.faces) {
       if (face.rings.empty() || face.rings.front().size() < 3 || !keep(face)) continue;
       Polygon polygon;
       for (const std::vector<int>& indices : face.rings) {
@@ -294,7 +209,8 @@ class Reader {
 
   std::vector<Polygon> Footprint(const Solid& solid) const {
     constexpr double kSteep = 0.1;  // walls, leaning ones too
-    std::vector<Polygon> ground = Projected(solid, [](const Face& face) { return face.is_ground; });
+    std::vector<Polygon> ground =
+        Projected(solid, [](const CitySurface& face) { return face.type == "GroundSurface"; });
     if (!ground.empty()) return ground;
     const auto area = [](const std::vector<Polygon>& polygons) {
       double sum = 0;
@@ -305,11 +221,11 @@ class Reader {
     constexpr double kLevel = 0.95;
     constexpr double kMostRoofOverhang = 0.8;  // of the whole that a bottom must cover
     const double bottom = HeightsOf(solid).from_m;
-    ground = Projected(solid, [&](const Face& face) {
+    ground = Projected(solid, [&](const CitySurface& face) {
       return Flatness(face) > kLevel && HeightsOf(face).to_m < bottom + kBottom_m;
     });
     std::vector<Polygon> all =
-        Projected(solid, [&](const Face& face) { return Flatness(face) > kSteep; });
+        Projected(solid, [&](const CitySurface& face) { return Flatness(face) > kSteep; });
     return area(ground) >= kMostRoofOverhang * area(all) ? ground : all;
   }
 
@@ -330,18 +246,13 @@ class Reader {
 
   const PlanOptions& options_;
   RawMap map_;
-  std::vector<Eigen::Vector3d> vertices_;
+  CityModel city_;
+  std::map<std::string, const CityObject*> object_of_;
   BuildingIds ids_;
   int place_ = 0;
 };
 
 }  // namespace
-
-bool LooksLikeCityJson(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  if (extension != ".json" && extension != ".cityjson") return false;
-  return ReadFile(path).find("\"CityJSON\"") != std::string::npos;
-}
 
 RawMap ReadCityJson(const std::filesystem::path& path, const PlanOptions& options) {
   try {

@@ -14,6 +14,7 @@
 #include "plan/map/internal/attributes.h"
 #include "plan/map/internal/ogr.h"
 #include "plan/map/internal/read_cityjson.h"
+#include "survey/city_model.h"
 #include "survey/error.h"
 #include "survey/quiet_gdal.h"
 
@@ -425,7 +426,7 @@ RawMap ReadLayer(const std::filesystem::path& path, const PlanOptions& options,
 }  // namespace
 
 RawMap ReadMap(const std::filesystem::path& path, const PlanOptions& options) {
-  if (internal::LooksLikeCityJson(path)) return internal::ReadCityJson(path, options);
+  if (LooksLikeCityJson(path)) return internal::ReadCityJson(path, options);
   return ReadLayer(path, options, kBuildings);
 }
 

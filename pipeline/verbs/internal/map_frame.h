@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
+#include <span>
 #include <string>
 
 #include "survey/georef.h"
@@ -15,5 +17,11 @@ namespace stucco {
 // Throws Error (kBadInput), which names `file`, where PROJ does not know the map or a camera is
 // beyond it.
 Georef MoveFromMap(const std::string& crs, const std::string& file, Reconstruction& model);
+
+// Takes points east, north and high in `crs`, in its units, into the frame of a georef ("enu").
+// Heights stay as they are, whatever they count from. Throws Error (kBadInput), which names `file`,
+// where PROJ does not know the system or a point has no place in it.
+void MovePointsFromMap(const std::string& crs, const std::string& file, const Georef& georef,
+                       std::span<Eigen::Vector3d> points);
 
 }  // namespace stucco

@@ -10,8 +10,6 @@
 
 namespace stucco::plan::internal {
 
-bool LooksLikeCityJson(const std::filesystem::path& path);
-
 // Buildings and building parts of CityJSON 1.0, 1.1 and 2.0 (https://www.cityjson.org/specs); other
 // city objects are left out. A footprint is the union of the ground surfaces where the file says
 // which these are, else of the faces at the bottom, else of all faces seen from above. Heights are

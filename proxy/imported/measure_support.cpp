@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/imported/measure_support.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <cmath>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "survey/geometry2d.h"
+
+namespace stucco {
+namespace {
+
+namespace bg = boost::geometry;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Place = bg::model::point<double, 3, bg::cs::cartesian>;
+using Box = bg::model::box<Place>;
+using Entry = std::pair<Box, size_t>;
+
+constexpr size_t kMostPoints = 3'000'000;
+constexpr double kCellsOfSide = 100;
+
+Place PlaceOf(const Vector3d& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+// What lies on a facet, in cells of its plane.
+class FacetCells {
+ public:
+  FacetCells(const Facet& facet, double cell) : facet_(facet) {
+    u_ = facet.normal.unitOrthogonal();
+    v_ = facet.normal.cross(u_);
+    polygon_.rings.push_back(InPlane(facet.outer));
+    for (const auto& hole : facet.holes) polygon_.rings.push_back(InPlane(hole));
+    bounds_ = BoundsOf(polygon_);
+    cell_ = std::max(cell, bounds_.sizes().maxCoeff() / kCellsOfSide);
+    columns_ = static_cast<size_t>(bounds_.sizes().x() / cell_) + 1;
+    const size_t rows = static_cast<size_t>(bounds_.sizes().y() / cell_) + 1;
+    hit_.resize(columns_ * rows);
+  }
+
+  void Add(const Vector3d& p, double reach) {
+    const double distance = facet_.normal.dot(p) - facet_.offset;
+    if (std::abs(distance) > reach) return;
+    const Vector2d at = Flat(p);
+    if (!bounds_.contains(at) || !Contains(polygon_, at)) return;
+    ++points_;
+    squares_ += distance * distance;
+    const Vector2d cell = (at - bounds_.min()) / cell_;
+    hit_[static_cast<size_t>(cell.y()) * columns_ + static_cast<size_t>(cell.x())] = 1;
+  }
+
+  void Write(Facet& facet) const {
+    facet.support = static_cast<int>(points_);
+    facet.rms = points_ > 0 ? std::sqrt(squares_ / static_cast<double>(points_)) : 0;
+    facet.seen = SeenShare();
+    facet.inferred = 1 - facet.seen;
+  }
+
+ private:
+  Vector2d Flat(const Vector3d& p) const { return {u_.dot(p), v_.dot(p)}; }
+  Ring InPlane(const std::vector<Vector3d>& corners) const {
+    Ring ring;
+    ring.reserve(corners.size());
+    for (const Vector3d& p : corners) ring.push_back(Flat(p));
+    return ring;
+  }
+
+  // Of the cells whose middle lies in the facet, or that have points, those that have points.
+  double SeenShare() const {
+    size_t inside = 0;
+    size_t hit = 0;
+    for (size_t i = 0; i < hit_.size(); ++i) {
+      const size_t row = i / columns_;
+      const Vector2d middle =
+          bounds_.min() +
+          cell_ * Vector2d(static_cast<double>(i % columns_) + 0.5, static_cast<double>(row) + 0.5);
+      hit += hit_[i];
+      inside += hit_[i] != 0 || Contains(polygon_, middle);
+    }
+    return inside > 0 ? static_cast<double>(hit) / static_cast<double>(inside) : 0;
+  }
+
+  const Facet& facet_;
+  Vector3d u_, v_;
+  Polygon polygon_;
+  Eigen::AlignedBox2d bounds_;
+  double cell_ = 0;
+  size_t columns_ = 0;
+  std::vector<char> hit_;
+  size_t points_ = 0;
+  double squares_ = 0;
+};
+
+Entry EntryOf(const Facet& facet, double reach, size_t index) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& p : facet.outer) box.extend(p);
+  const Vector3d margin = Vector3d::Constant(reach);
+  return {{PlaceOf(box.min() - margin), PlaceOf(box.max() + margin)}, index};
+}
+
+}  // namespace
+
+void MeasureSupport(const PointStream& cloud, double reach, double cell, Proxy& proxy) {
+  std::vector<Facet*> facets;
+  std::vector<FacetCells> cells;
+  std::vector<Entry> entries;
+  for (Building& building : proxy.buildings) {
+    for (Facet& facet : building.facets) {
+      entries.push_back(EntryOf(facet, reach, facets.size()));
+      facets.push_back(&facet);
+      cells.emplace_back(facet, cell);
+    }
+  }
+  const bg::index::rtree<Entry, bg::index::rstar<16>> boxes(entries);
+  const size_t step = cloud.count / kMostPoints + 1;
+  size_t number = 0;
+  std::vector<Entry> near;
+  cloud.for_each([&](const CloudPoint& point) {
+    if (number++ % step != 0) return;
+    near.clear();
+    const Place place = PlaceOf(point.position);
+    boxes.query(bg::index::intersects(Box(place, place)), std::back_inserter(near));
+    for (const Entry& entry : near) cells[entry.second].Add(point.position, reach);
+  });
+  for (size_t i = 0; i < facets.size(); ++i) cells[i].Write(*facets[i]);
+}
+
+}  // namespace stucco
