@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "texture/relief/best_rectangle.h"
 #include "texture/relief/plane_sweep.h"
 #include "texture/relief/sweep_tiles.h"
+#include "texture/relief/wall_edges.h"
 
 namespace stucco {
 namespace {
@@ -40,6 +42,7 @@ constexpr int kFewestPairs = 3;
 constexpr float kBehind = 0.5f;       // of a pair that shows the facet
 constexpr double kMostBehind = 0.3;   // of a rectangle
 constexpr int kMostRectangles = 400;  // looked at
+constexpr double kSnap_m = 0.6;       // how far a side of what lies back may move to an edge
 
 TexelGrid SweepRaster(const TexelGrid& grid) {
   const double needed =
@@ -73,6 +76,7 @@ class RectangleFinder {
  public:
   RectangleFinder(const PlaneSweep& sweep, const std::vector<SweepTile>& tiles)
       : sweep_(sweep),
+        edges_(sweep),
         tiles_(tiles),
         labels_(sweep.raster.size(), sweep.plane),
         best_(sweep.planes) {
@@ -85,7 +89,8 @@ class RectangleFinder {
       const int label = BestLabel();
       if (best_[label]->sum < kLeastSum_m2 / CellArea()) break;
       const CellRectangle whole = Refined(best_[label]->cells, label);
-      const CellRectangle cells = WithoutRim(whole, label);
+      const CellRectangle cells =
+          SideOf(label) == kBehindIt ? Snapped(whole, label) : WithoutRim(whole, label);
       if (IsSure(cells, label)) {
         Take(cells, label);
       } else {
@@ -117,8 +122,10 @@ class RectangleFinder {
   float Squarest(size_t cell, int label) const {
     return sweep_.squarest[label * sweep_.raster.size() + cell];
   }
+  // What lies back lies no farther back: panes show things that are farther off.
   bool IsFree(size_t cell, int label) const {
-    return labels_[cell] != label && !refused_[SideOf(label)][cell];
+    return labels_[cell] != label && !refused_[SideOf(label)][cell] &&
+           (labels_[cell] >= sweep_.plane || label >= sweep_.plane);
   }
   bool Tells(size_t cell, int label) const {
     return std::max(Best(cell, label), Best(cell, labels_[cell])) >= kTelling;
@@ -183,6 +190,24 @@ class RectangleFinder {
     out.top += around.top;
     out.bottom += around.top;
     return out;
+  }
+
+  // What lies back ends at edges of the wall: plain panes do not tell how far a reveal reaches.
+  CellRectangle Snapped(const CellRectangle& cells, int label) const {
+    const int reach = static_cast<int>(kSnap_m / sweep_.raster.texel);
+    const CellRectangle part = {std::max(0, cells.left - reach), std::max(0, cells.top - reach),
+                                std::min(sweep_.raster.width, cells.right + reach),
+                                std::min(sweep_.raster.height, cells.bottom + reach)};
+    cv::Mat evidence(part.bottom - part.top, part.right - part.left, CV_32F, cv::Scalar(0));
+    for (int y = part.top; y < part.bottom; ++y) {
+      for (int x = part.left; x < part.right; ++x) {
+        const size_t cell = CellAt(x, y);
+        if (!IsFree(cell, label) || !Tells(cell, label)) continue;
+        evidence.at<float>(y - part.top, x - part.left) =
+            Best(cell, label) - Best(cell, labels_[cell]);
+      }
+    }
+    return edges_.Snap(cells, part, evidence, reach);
   }
 
   // Windows reach over the edges of what stands out: plain surfaces next to it seem to be as high.
@@ -305,6 +330,7 @@ class RectangleFinder {
   }
 
   const PlaneSweep& sweep_;
+  WallEdges edges_;
   const std::vector<SweepTile>& tiles_;
   std::vector<int> labels_;
   // By cell: that it lies on this side of the facet's plane is refused.

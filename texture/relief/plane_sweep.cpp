@@ -208,6 +208,7 @@ class Sweep {
     std::vector<Shown> shown;
     shown.reserve(photos_.size());
     for (const SweepPhoto& photo : photos_) shown.push_back(Show(photo, plane));
+    if (label == out_.plane) AverageGrey(shown);
     std::vector<cv::Mat> covariances;
     for (const Pair& pair : pairs_) {
       const Shown& a = shown[pair.a];
@@ -227,6 +228,22 @@ class Sweep {
         }
         if (votes.empty()) continue;
         Summarise(label, static_cast<size_t>(y) * out_.raster.width + x, votes);
+      }
+    }
+  }
+
+  void AverageGrey(const std::vector<Shown>& shown) {
+    for (int y = cells_.top; y < cells_.bottom; ++y) {
+      for (int x = cells_.left; x < cells_.right; ++x) {
+        const int cell = (y - around_.top) * part_.width + x - around_.left;
+        float sum = 0;
+        float count = 0;
+        for (const Shown& photo : shown) {
+          if (!photo.valid.at<uint8_t>(cell)) continue;
+          sum += photo.grey.at<float>(cell);
+          count += 1;
+        }
+        if (count > 0) out_.grey[static_cast<size_t>(y) * out_.raster.width + x] = sum / count;
       }
     }
   }
@@ -335,6 +352,7 @@ PlaneSweep StartSweep(const TexelGrid& raster, double parallax) {
   }
   out.plain.resize(out.all.size());
   out.pairs.resize(raster.size());
+  out.grey.assign(raster.size(), -1);
   return out;
 }
 

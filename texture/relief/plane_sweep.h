@@ -64,6 +64,9 @@ struct PlaneSweep {
   std::vector<float> closest;   // the best pair
   std::vector<Plain> plain;     // in all pairs
   std::vector<uint8_t> pairs;   // how many show the cell on the raster's own plane
+  // Mean brightness there, 0 to 255, of the photos that show the cell; below 0: none does. What is
+  // on the plane is sharp in it, what is not is blurred.
+  std::vector<float> grey;
 
   double HeightOf(int label) const { return (label - plane) * step; }
 };
