@@ -104,9 +104,8 @@ int ImportSurfaceModel(const Program& program, const SurfaceImportRequest& reque
     PrintJson(json);
   } else if (!common.quiet) {
     std::cout << fmt::format(
-        "Imported {} facets of {} buildings, {} of them closed, from {} as "
-        "proxy.\n",
-        report.facets, report.buildings, report.closed, report.format);
+        "Imported {} facets of {} buildings, {} of them closed, from {} as proxy.\n", report.facets,
+        report.buildings, report.closed, report.format);
     for (const std::string& note : report.notes) std::cout << "  " << note << "\n";
     std::cout << "Next: " << next << "\n";
   }
@@ -119,6 +118,8 @@ struct SurfaceWords {
   std::string up = "format";
   bool fit = false;
   CLI::Option* fit_option = nullptr;
+
+  bool AnySaid() const { return !offset.empty() || up != "format" || fit_option->count() > 0; }
 };
 
 Eigen::Vector3d OffsetOf(const std::string& text) {
@@ -151,7 +152,12 @@ SurfaceImportRequest RequestOf(const std::string& model, const std::string& crs,
 
 int Import(const Program& program, const std::string& model, ScanRequest scan,
            const SurfaceWords& words) {
-  if (!scan.map.empty()) {
+  const bool is_town = !scan.map.empty();
+  if (words.AnySaid() && (is_town || !IsSurfaceModel(model))) {
+    throw Error(ErrorKind::kUsage, "--offset, --up and --fit go with a model of surfaces",
+                "leave them out: poses and clouds say themselves where they lie");
+  }
+  if (is_town) {
     scan.cloud = model;
     return ImportTown(program, scan);
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "report/internal/html_sections.h"
 #include "survey/escape.h"
 #include "survey/numbers.h"
@@ -56,7 +58,10 @@ std::string MapFindings(const Proxy& proxy) {
   for (const std::string& finding : proxy.findings) {
     items += fmt::format("<li>{}</li>", EscapeHtml(finding));
   }
-  return "<h3>The map and the photos</h3><ul class=\"findings\">" + items + "</ul>";
+  const bool imported = std::ranges::any_of(
+      proxy.buildings, [](const Building& building) { return building.source == "file"; });
+  return fmt::format("<h3>{}</h3><ul class=\"findings\">{}</ul>",
+                     imported ? "Where the model is from" : "The map and the photos", items);
 }
 
 }  // namespace

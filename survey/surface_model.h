@@ -36,4 +36,16 @@ struct SurfaceModel {
   std::vector<std::string> notes;  // what of the file was left out
 };
 
+// Calls `what` with every corner, in the order of the polygons.
+template <typename Do>
+void ForCorners(SurfaceModel& model, const Do& what) {
+  for (SurfaceObject& object : model.objects) {
+    for (SurfacePolygon& polygon : object.polygons) {
+      for (auto& ring : polygon.rings) {
+        for (Eigen::Vector3d& corner : ring) what(corner);
+      }
+    }
+  }
+}
+
 }  // namespace stucco

@@ -55,10 +55,8 @@ std::string CrsOf(const SurfaceImportRequest& request, const Georef& georef, Sur
   if (crs.empty()) return crs;
   if (!IsCrsOnEarth(crs)) {
     if (request.crs.empty()) {
-      model.notes.push_back(
-          fmt::format("its coordinate system {} is not on the earth, and taken "
-                      "for that of the survey",
-                      crs));
+      model.notes.push_back(fmt::format(
+          "its coordinate system {} is not on the earth, and taken for the survey's", crs));
       return "";
     }
     throw Error(ErrorKind::kUsage,
@@ -79,17 +77,11 @@ std::string CrsOf(const SurfaceImportRequest& request, const Georef& georef, Sur
 void Place(const SurfaceImportRequest& request, const std::string& crs, const Georef& georef,
            SurfaceModel& model) {
   std::vector<Eigen::Vector3d> corners;
-  const auto for_corners = [&](const auto& what) {
-    for (SurfaceObject& object : model.objects) {
-      for (SurfacePolygon& polygon : object.polygons) {
-        for (auto& ring : polygon.rings) std::ranges::for_each(ring, what);
-      }
-    }
-  };
-  for_corners([&](const Eigen::Vector3d& corner) { corners.push_back(corner + request.offset); });
+  ForCorners(model,
+             [&](const Eigen::Vector3d& corner) { corners.emplace_back(corner + request.offset); });
   if (!crs.empty()) MovePointsFromMap(crs, request.file.string(), georef, corners);
   const Eigen::Vector3d* next = corners.data();
-  for_corners([&](Eigen::Vector3d& corner) { corner = *next++; });
+  ForCorners(model, [&](Eigen::Vector3d& corner) { corner = *next++; });
 }
 
 }  // namespace

@@ -236,7 +236,6 @@ class PieceFinder {
       piece.first = *std::ranges::min_element(members);
       piece.facet_class = first.facet_class;
       piece.id = first.id;
-      piece.normal = area.normalized();
       LayPlane(model_, piece);
     }
   }

@@ -37,17 +37,6 @@ constexpr double kAroundShare = 0.2;
 constexpr double kLeastInPictures = 0.02;
 constexpr double kFewNear = 0.05;
 
-template <typename Do>
-void ForCorners(SurfaceModel& model, const Do& what) {
-  for (SurfaceObject& object : model.objects) {
-    for (SurfacePolygon& polygon : object.polygons) {
-      for (auto& ring : polygon.rings) {
-        for (Vector3d& corner : ring) what(corner);
-      }
-    }
-  }
-}
-
 class Maker {
  public:
   Maker(SurfaceModel model, const SurfaceSurvey& survey, const std::string& file)
@@ -110,26 +99,25 @@ class Maker {
 
   void Fit(const std::vector<Vector3d>& points) {
     const UprightMove move = FitToPoints(model_, points);
+    if (move.near_after < kFewNear) {
+      out_.notes.push_back(fmt::format(
+          "it stays where it was: nowhere near do more than {:.0f} % of the points around "
+          "it lie within 0.2 m of it",
+          100 * move.near_after));
+      return;
+    }
+    if (move.shift.norm() == 0) return;
     box_.setEmpty();
     ForCorners(model_, [&](Vector3d& corner) {
       corner = move * corner;
       box_.extend(corner);
     });
-    if (move.near_after < kFewNear) {
-      out_.notes.push_back(
-          fmt::format("only {:.0f} % of the points around it lie within 0.2 m of it: look whether "
-                      "it lies where "
-                      "it should",
-                      100 * move.near_after));
-    } else if (move.shift.norm() > 0) {
-      out_.notes.push_back(fmt::format(
-          "it was moved onto the survey's points, {:.2f} m east, {:.2f} m north, {:.2f} m up and "
-          "turned by {:.2f} degrees: {:.0f} % of the points around it lie within 0.2 m of it, "
-          "{:.0f} "
-          "% before",
-          move.shift.x(), move.shift.y(), move.shift.z(), move.yaw_rad * 180 / std::numbers::pi,
-          100 * move.near_after, 100 * move.near_before));
-    }
+    out_.notes.push_back(fmt::format(
+        "it was moved onto the survey's points, {:.2f} m east, {:.2f} m north, {:.2f} m up and "
+        "turned by {:.2f} degrees: {:.0f} % of those around it lie within 0.2 m of it, before "
+        "{:.0f}",
+        move.shift.x(), move.shift.y(), move.shift.z(), move.yaw_rad * 180 / std::numbers::pi,
+        100 * move.near_after, 100 * move.near_before));
   }
 
   void MakeFacets() {
@@ -227,7 +215,9 @@ class Maker {
     if (!(shown > 0 && shown >= kLeastInPictures * all)) RefuseItsPlace();
   }
 
+  // Poses of other programs may come without points: then pictures alone must tell.
   void RequireAmong(const std::vector<Vector3d>& points) const {
+    if (survey_.cloud.empty() && survey_.points.empty()) return;
     const Vector3d margin = Vector3d::Constant(Around());
     const Eigen::AlignedBox3d around(box_.min() - margin, box_.max() + margin);
     const bool any =

@@ -306,6 +306,14 @@ TEST_F(ImportedTown, WallsSeenFromBehindAreTurned) {
   EXPECT_LT(made.proxy.buildings.at(0).facets.at(0).normal.y(), -0.99);
 }
 
+TEST_F(ImportedTown, WithoutPointsPicturesAloneTell) {
+  SurfaceSurvey survey = Survey();
+  survey.cloud.clear();
+  const SurfaceProxy made = ProxyOfSurfaces(MeshOf(houses_), survey, /*moves=*/true, "town.obj");
+  EXPECT_EQ(made.proxy.buildings.size(), 2u);
+  EXPECT_THAT(made.notes, testing::Contains(HasSubstr("there is no cloud yet")));
+}
+
 TEST_F(ImportedTown, RefusesWhatNoPhotoLooksAtAndWhatIsNotMadeOfPlanes) {
   const auto refusal = [&](const SurfaceModel& model) -> std::string {
     try {
