@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 
 #include "calib/features/descriptors.h"
@@ -74,21 +75,39 @@ __attribute__((target_clones("avx2", "default"))) int32_t Product(const int16_t*
 class Appearances {
  public:
   explicit Appearances(const std::vector<std::vector<float>>& signatures) {
+    rounded_.reserve(signatures.size());
     for (const std::vector<float>& signature : signatures) {
       std::vector<int16_t>& rounded = rounded_.emplace_back();
+      rounded.reserve(signature.size());
       for (const float value : signature) {
         rounded.push_back(static_cast<int16_t>(std::lround(value * kUnit)));
       }
     }
   }
 
-  void AddMostAlike(int photo, int count, Pairs& pairs) const {
-    const auto distance = [&](int other) -> double {
-      if (rounded_[photo].empty() || rounded_[other].empty()) return INFINITY;
-      return -Product(rounded_[photo].data(), rounded_[other].data(), rounded_[photo].size());
-    };
-    AddNearest(photo, static_cast<int>(rounded_.size()), count, distance, pairs);
+  // Of photos first to end - 1. A few photos are held against a few others at a time, as many as
+  // stay near the processor: the signatures of a large survey do not.
+  void AddMostAlike(size_t first, size_t end, int count, Pairs& pairs) const {
+    const size_t all = rounded_.size();
+    std::vector<double> distances((end - first) * all, INFINITY);
+    for (size_t begin = 0; begin < all; begin += kAtOnce) {
+      for (size_t photo = first; photo < end; ++photo) {
+        for (size_t other = begin; other < std::min(all, begin + kAtOnce); ++other) {
+          if (rounded_[photo].empty() || rounded_[other].empty()) continue;
+          distances[(photo - first) * all + other] =
+              -Product(rounded_[photo].data(), rounded_[other].data(), rounded_[photo].size());
+        }
+      }
+    }
+    for (size_t photo = first; photo < end; ++photo) {
+      const double* distance = distances.data() + (photo - first) * all;
+      AddNearest(
+          static_cast<int>(photo), static_cast<int>(all), count,
+          [distance](int other) { return distance[other]; }, pairs);
+    }
   }
+
+  static constexpr size_t kAtOnce = 16;
 
  private:
   // Products of vectors of this length, and parts of them, fit into 32 bits.
@@ -97,14 +116,13 @@ class Appearances {
   std::vector<std::vector<int16_t>> rounded_;
 };
 
-// What fn(photo, pairs) adds for each photo; ascending, each pair once.
+// What fn(part, pairs) adds for each of so many parts of the photos; ascending, each pair once.
 template <typename Fn>
-Pairs OfAllPhotos(size_t num_photos, int threads, const Fn& fn) {
-  std::vector<Pairs> of_photo(num_photos);
-  ParallelFor(num_photos, threads,
-              [&](size_t photo) { fn(static_cast<int>(photo), of_photo[photo]); });
+Pairs OfAllParts(size_t num_parts, int threads, const Fn& fn) {
+  std::vector<Pairs> of_part(num_parts);
+  ParallelFor(num_parts, threads, [&](size_t part) { fn(part, of_part[part]); });
   Pairs all;
-  for (const Pairs& pairs : of_photo) all.insert(all.end(), pairs.begin(), pairs.end());
+  for (const Pairs& pairs : of_part) all.insert(all.end(), pairs.begin(), pairs.end());
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
@@ -118,8 +136,8 @@ std::vector<std::pair<int, int>> SelectPairs(
   assert(signatures.size() == positions.size());
   const int count = static_cast<int>(positions.size());
   const bool all = count <= options.exhaustive_below;
-  const Appearances appearances(signatures);
-  return OfAllPhotos(positions.size(), options.threads, [&](int a, Pairs& pairs) {
+  const Pairs near = OfAllParts(positions.size(), options.threads, [&](size_t photo, Pairs& pairs) {
+    const int a = static_cast<int>(photo);
     const int end = all ? count : std::min(count, a + 1 + options.followers);
     for (int b = a + 1; b < end; ++b) pairs.emplace_back(a, b);
     if (all) return;
@@ -129,15 +147,22 @@ std::vector<std::pair<int, int>> SelectPairs(
           return positions[a] && positions[b] ? (*positions[a] - *positions[b]).norm() : INFINITY;
         },
         pairs);
-    appearances.AddMostAlike(a, options.neighbours, pairs);
   });
+  if (all) return near;
+  const Pairs alike = MostAlike(signatures, options.neighbours, options.threads);
+  Pairs pairs;
+  std::ranges::set_union(near, alike, std::back_inserter(pairs));
+  return pairs;
 }
 
 std::vector<std::pair<int, int>> MostAlike(const std::vector<std::vector<float>>& signatures,
                                            int count, int threads) {
   const Appearances appearances(signatures);
-  return OfAllPhotos(signatures.size(), threads, [&](int photo, Pairs& pairs) {
-    appearances.AddMostAlike(photo, count, pairs);
+  constexpr size_t kPart = Appearances::kAtOnce;
+  const size_t parts = (signatures.size() + kPart - 1) / kPart;
+  return OfAllParts(parts, threads, [&](size_t part, Pairs& pairs) {
+    const size_t end = std::min(signatures.size(), (part + 1) * kPart);
+    appearances.AddMostAlike(part * kPart, end, count, pairs);
   });
 }
 
