@@ -14,6 +14,7 @@ import unittest
 ROOT = pathlib.Path(__file__).parents[2]
 sys.path[:0] = [str(ROOT / "bench"), str(ROOT / "scripts")]
 import features_per_megapixel  # noqa: E402
+import fine_facades  # noqa: E402
 import key_figures  # noqa: E402
 import measure  # noqa: E402
 import slowest_units  # noqa: E402
@@ -35,6 +36,27 @@ class ComputedTwice(unittest.TestCase):
 
     def test_passes_over_a_torn_line(self):
         self.assertEqual(surveys.computed_twice([unit("a")[:20], unit("a")]), ([], 1))
+
+
+class FineFacades(unittest.TestCase):
+    # An L that stands along y, seen from -x.
+    RING = [[0, 4, 0], [0, 0, 0], [0, 0, 3], [0, 2, 3], [0, 2, 1], [0, 4, 1]]
+
+    def test_samples_lie_in_the_ring_and_look_out(self):
+        points = list(fine_facades.samples(self.RING))
+        self.assertEqual(len(points), 8 / fine_facades.SPACING_M ** 2)
+        for (x, y, z), normal in points:
+            self.assertAlmostEqual(x, 0)
+            self.assertTrue(0 < y < 4 and 0 < z < (3 if y < 2 else 1))
+            for value, wanted in zip(normal, (-1, 0, 0)):
+                self.assertAlmostEqual(value, wanted)
+
+    def test_the_largest_facades_that_photos_are_planned_for(self):
+        def facade(name, length, top, views):
+            return {"id": name, "a_m": [0, 0], "b_m": [length, 0], "z_m": [0, top], "views": views}
+        plan = {"facades": [facade("small", 5, 4, ["a"]), facade("unseen", 50, 40, []),
+                            facade("high", 5, 20, ["b"]), facade("long", 30, 4, ["c"])]}
+        self.assertEqual(fine_facades.largest_facades(plan, 2), ["long", "high"])
 
 
 class Outputs(unittest.TestCase):

@@ -147,6 +147,53 @@ TEST(RunTexture, FindsTheBalconiesOfALongWallAtBothEnds) {
   for (const double x : {5.0, 9.0, 13.0}) EXPECT_NEAR(relief->HeightAt(x, 3 - 1.6), 0, 0.05) << x;
 }
 
+struct Window {
+  Eigen::Vector2d low;  // x and z
+  Eigen::Vector2d high;
+  double depth = 0;    // of the sash behind the wall
+  double sash = 0.3;   // its width around the pane
+  double room = 0.25;  // from there to what the pane shows
+};
+
+// A window in the wall of MakeWall; through its pane one sees what is farther off.
+Scene WindowScene(const Window& window, const Scene& wall) {
+  return [=](const Eigen::Vector3d& from, const Eigen::Vector3d& way) -> std::optional<Colour> {
+    const auto at = [&](double y) -> Eigen::Vector2d {
+      const Eigen::Vector3d point = from + (y - from.y()) / way.y() * way;
+      return {point.x(), point.z()};
+    };
+    const auto within = [&](const Eigen::Vector2d& p, double margin) {
+      return (p.array() > window.low.array() + margin).all() &&
+             (p.array() < window.high.array() - margin).all();
+    };
+    if (way.y() <= 0 || !within(at(0), 0)) return wall(from, way);
+    const Eigen::Vector2d on_sash = at(window.depth);
+    if (!within(on_sash, 0)) return Colour::Constant(110);
+    if (!within(on_sash, window.sash)) return BalconyColour(on_sash.x(), on_sash.y());
+    const Eigen::Vector2d in_room = at(window.depth + window.room);
+    return WallColour(in_room.x() + 2.3, in_room.y() + 0.9);
+  };
+}
+
+// What a pane shows does not tell that the pane lies where its sash does.
+TEST(RunTexture, AWindowLiesBackAsAWhole) {
+  const Window window = {{1.2, 0.9}, {2.6, 2.3}, 0.3};
+  WallSurvey survey;
+  const Scene scene = WindowScene(window, WallScene(4, 3));
+  survey.Add("a.jpg", {3.2, -4.0, 1.8}, {2, 0, 1.5}, 1, scene);
+  survey.Add("b.jpg", {0.8, -4.0, 1.7}, {2, 0, 1.5}, 1, scene);
+  survey.Add("c.jpg", {2.1, -4.0, 2.7}, {2, 0, 1.5}, 1, scene);
+  survey.Add("d.jpg", {1.9, -4.0, 0.5}, {2, 0, 1.5}, 1, scene);
+  const auto relief = ReliefOf(survey, 0.01);
+  ASSERT_NE(relief, nullptr);
+  for (double x = window.low.x() + 0.15; x < window.high.x() - 0.1; x += 0.1) {
+    for (double z = window.low.y() + 0.15; z < window.high.y() - 0.1; z += 0.1) {
+      EXPECT_NEAR(relief->HeightAt(x, 3 - z), -window.depth, 0.06) << x << " " << z;
+    }
+  }
+  for (const double x : {0.5, 3.4}) EXPECT_NEAR(relief->HeightAt(x, 1.5), 0, 0.05);
+}
+
 TEST(RunTexture, FindsNoReliefOnAFlatWall) {
   WallSurvey survey;
   survey.Add("a.jpg", {4.6, -4.0, 1.7}, {2, 0, 1.5});

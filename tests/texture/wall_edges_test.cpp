@@ -56,6 +56,17 @@ TEST_F(WallEdgesTest, EvidenceKeepsItFromTheNextEdge) {
   EXPECT_EQ(edges.Snap({16, 9, 21, 20}, part, against, 8).left, 16);
 }
 
+// The blurred bar is no edge to go to, and nothing else is there: but another window ends there.
+TEST_F(WallEdgesTest, SidesGoToTheLinesOfOtherWindows) {
+  WallEdges edges(sweep_);
+  const CellRectangle part = {24, 0, 40, 30};
+  const cv::Mat nothing(30, 16, CV_32F, cv::Scalar(0));
+  EXPECT_TRUE(edges.Snap({28, 10, 36, 22}, part, nothing, 4) == (CellRectangle{28, 10, 36, 22}));
+  edges.Remember({10, 8, 22, 24});
+  EXPECT_TRUE(edges.Snap({28, 10, 36, 22}, part, nothing, 4) == (CellRectangle{28, 8, 36, 24}));
+  EXPECT_EQ(edges.Snap({28, 10, 36, 22}, part, nothing, 1).top, 10);
+}
+
 TEST_F(WallEdgesTest, WhereNoPhotoShowsTheWallThereAreNone) {
   for (int y = 0; y < 30; ++y) Grey(9, y) = -1;
   EXPECT_EQ(WallEdges(sweep_).Along({10, 8, 22, 24})[0], 0);

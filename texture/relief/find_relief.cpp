@@ -42,7 +42,10 @@ constexpr int kFewestPairs = 3;
 constexpr float kBehind = 0.5f;       // of a pair that shows the facet
 constexpr double kMostBehind = 0.3;   // of a rectangle
 constexpr int kMostRectangles = 400;  // looked at
-constexpr double kSnap_m = 0.6;       // how far a side of what lies back may move to an edge
+// How far a side of what lies back may move to an edge: farther first, as far as that is sure.
+constexpr double kSnaps_m[] = {1.0, 0.6};
+constexpr double kLeastReveal_m = 0.5;  // a side of what lies back
+constexpr double kMostRefused = 0.6;    // of a rectangle that lies back
 
 TexelGrid SweepRaster(const TexelGrid& grid) {
   const double needed =
@@ -89,10 +92,8 @@ class RectangleFinder {
       const int label = BestLabel();
       if (best_[label]->sum < kLeastSum_m2 / CellArea()) break;
       const CellRectangle whole = Refined(best_[label]->cells, label);
-      const CellRectangle cells =
-          SideOf(label) == kBehindIt ? Snapped(whole, label) : WithoutRim(whole, label);
-      if (IsSure(cells, label)) {
-        Take(cells, label);
+      if (const auto cells = Ended(whole, label)) {
+        Take(*cells, label);
       } else {
         Refuse(whole, label);
       }
@@ -192,9 +193,22 @@ class RectangleFinder {
     return out;
   }
 
+  // The rectangle as it most likely ends; nothing where that is not sure.
+  std::optional<CellRectangle> Ended(const CellRectangle& whole, int label) const {
+    if (SideOf(label) != kBehindIt) {
+      const CellRectangle cells = WithoutRim(whole, label);
+      return IsSure(cells, label) ? std::optional(cells) : std::nullopt;
+    }
+    for (const double reach_m : kSnaps_m) {
+      const CellRectangle cells =
+          Snapped(whole, label, static_cast<int>(reach_m / sweep_.raster.texel));
+      if (IsSure(cells, label)) return cells;
+    }
+    return std::nullopt;
+  }
+
   // What lies back ends at edges of the wall: plain panes do not tell how far a reveal reaches.
-  CellRectangle Snapped(const CellRectangle& cells, int label) const {
-    const int reach = static_cast<int>(kSnap_m / sweep_.raster.texel);
+  CellRectangle Snapped(const CellRectangle& cells, int label, int reach) const {
     const CellRectangle part = {std::max(0, cells.left - reach), std::max(0, cells.top - reach),
                                 std::min(sweep_.raster.width, cells.right + reach),
                                 std::min(sweep_.raster.height, cells.bottom + reach)};
@@ -266,6 +280,7 @@ class RectangleFinder {
     if (!(free * CellArea() >= kLeastArea_m2 && telling >= kLeastTelling * free)) return false;
     if (std::min(cells.right - cells.left, cells.bottom - cells.top) < kLeastSide) return false;
     if (label == sweep_.plane) return true;
+    if (!out && !IsReveal(cells, label)) return false;
     // What is beyond the last planes may be farther off.
     if (label == 0 || label + 1 == sweep_.planes) return false;
     if (!out) return correlation >= kLeastCorrelationIn * telling;
@@ -273,8 +288,29 @@ class RectangleFinder {
            correlation >= kLeastCorrelationOut * telling && squarely >= kLeastSquarely * telling;
   }
 
+  // Wide enough, and panes, which show what is farther off, are not most of it.
+  bool IsReveal(const CellRectangle& cells, int label) const {
+    const int side = std::min(cells.right - cells.left, cells.bottom - cells.top);
+    int refused = 0;
+    for (int y = cells.top; y < cells.bottom; ++y) {
+      for (int x = cells.left; x < cells.right; ++x) {
+        refused += refused_[SideOf(label)][CellAt(x, y)];
+      }
+    }
+    return side * sweep_.raster.texel >= kLeastReveal_m && refused <= kMostRefused * cells.Cells();
+  }
+
   void Take(const CellRectangle& cells, int label) {
     ForFree(cells, label, [&](size_t cell) { labels_[cell] = label; });
+    if (label < sweep_.plane) {
+      edges_.Remember(cells);
+      for (int y = cells.top; y < cells.bottom; ++y) {
+        for (int x = cells.left; x < cells.right; ++x) {
+          int& now = labels_[CellAt(x, y)];
+          if (now == sweep_.plane) now = label;
+        }
+      }
+    }
     if (label > sweep_.plane) RefuseHidden(cells, sweep_.HeightOf(label) / sweep_.raster.texel);
     ForgetOver(cells);
   }

@@ -11,6 +11,7 @@ namespace {
 
 constexpr float kSharpEdge = 12;  // grey levels from cell to cell: sharper edges count for no more
 constexpr float kEdgeWorth = 0.3f;  // of a cell's length of such an edge, in correlations of a cell
+constexpr float kLineWorth = 0.15f;  // likewise, on the line of another window's side
 constexpr int kSnapRounds = 3;
 constexpr int kLeastSide = 5;  // cells
 
@@ -34,6 +35,20 @@ class PartSums {
 };
 
 }  // namespace
+
+WallEdges::WallEdges(const PlaneSweep& sweep) : sweep_(sweep) {
+  const auto columns = static_cast<size_t>(sweep.raster.width) + 1;
+  const auto rows = static_cast<size_t>(sweep.raster.height) + 1;
+  for (const int side : {0, 1}) lines_[side].resize(columns, false);
+  for (const int side : {2, 3}) lines_[side].resize(rows, false);
+}
+
+void WallEdges::Remember(const CellRectangle& cells) {
+  lines_[0][cells.left] = true;
+  lines_[1][cells.right] = true;
+  lines_[2][cells.top] = true;
+  lines_[3][cells.bottom] = true;
+}
 
 float WallEdges::Between(int x, int y, int beside_x, int beside_y) const {
   const int width = sweep_.raster.width;
@@ -70,15 +85,18 @@ CellRectangle WallEdges::Snap(CellRectangle cells, const CellRectangle& part,
     const auto height = static_cast<float>(at.bottom - at.top);
     return kEdgeWorth * ((left + right) * height + (top + bottom) * width) + sums.Over(at);
   };
-  const auto snap = [&](int CellRectangle::*side, int low, int high) {
+  const auto snap = [&](int CellRectangle::*side, int low, int high, const auto& lines,
+                        int length) {
+    // Only of the side that is moved: those next to it would gain by growing along their lines.
+    const double on_line = kLineWorth * length;
     CellRectangle best = cells;
-    double most = worth(cells);
+    double most = worth(cells) + (lines[cells.*side] ? on_line : 0);
     const int last = std::min(high, found.*side + reach);
     for (int at = std::max(low, found.*side - reach); at <= last; ++at) {
       CellRectangle moved = cells;
       moved.*side = at;
       if (std::min(moved.right - moved.left, moved.bottom - moved.top) < kLeastSide) continue;
-      const double now = worth(moved);
+      const double now = worth(moved) + (lines[at] ? on_line : 0);
       if (now <= most) continue;
       most = now;
       best = moved;
@@ -86,10 +104,10 @@ CellRectangle WallEdges::Snap(CellRectangle cells, const CellRectangle& part,
     cells = best;
   };
   for (int round = 0; round < kSnapRounds; ++round) {
-    snap(&CellRectangle::left, part.left, part.right);
-    snap(&CellRectangle::right, part.left, part.right);
-    snap(&CellRectangle::top, part.top, part.bottom);
-    snap(&CellRectangle::bottom, part.top, part.bottom);
+    snap(&CellRectangle::left, part.left, part.right, lines_[0], cells.bottom - cells.top);
+    snap(&CellRectangle::right, part.left, part.right, lines_[1], cells.bottom - cells.top);
+    snap(&CellRectangle::top, part.top, part.bottom, lines_[2], cells.right - cells.left);
+    snap(&CellRectangle::bottom, part.top, part.bottom, lines_[3], cells.right - cells.left);
   }
   return cells;
 }

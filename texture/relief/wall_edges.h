@@ -16,7 +16,10 @@ namespace stucco {
 class WallEdges {
  public:
   // The sweep must outlive this.
-  explicit WallEdges(const PlaneSweep& sweep) : sweep_(sweep) {}
+  explicit WallEdges(const PlaneSweep& sweep);
+
+  // Windows stand in rows and columns: from now on sides go to the lines of this one's rather.
+  void Remember(const CellRectangle& cells);
 
   // How sharp the edges along the left, right, upper and lower side of a rectangle are, means from
   // 0 to 1.
@@ -32,6 +35,8 @@ class WallEdges {
   float Between(int x, int y, int beside_x, int beside_y) const;
 
   const PlaneSweep& sweep_;
+  // Where left, right, upper and lower sides of remembered ones are, by column or row.
+  std::array<std::vector<bool>, 4> lines_;
 };
 
 }  // namespace stucco
