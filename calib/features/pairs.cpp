@@ -136,7 +136,7 @@ std::vector<std::pair<int, int>> SelectPairs(
   assert(signatures.size() == positions.size());
   const int count = static_cast<int>(positions.size());
   const bool all = count <= options.exhaustive_below;
-  const Pairs near = OfAllParts(positions.size(), options.threads, [&](size_t photo, Pairs& pairs) {
+  Pairs near = OfAllParts(positions.size(), options.threads, [&](size_t photo, Pairs& pairs) {
     const int a = static_cast<int>(photo);
     const int end = all ? count : std::min(count, a + 1 + options.followers);
     for (int b = a + 1; b < end; ++b) pairs.emplace_back(a, b);
