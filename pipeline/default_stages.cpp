@@ -47,7 +47,7 @@ Stage CalibStage() {
 Stage DenseStage() {
   Stage stage;
   stage.name = "dense";
-  stage.version = 4;
+  stage.version = 5;
   stage.title = "the dense point cloud";
   stage.needs = {"ingest", "calib"};
   stage.inputs = {kCapturesFile, kSparseFolder};

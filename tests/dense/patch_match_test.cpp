@@ -128,6 +128,31 @@ TEST(MatchDepths, CostsAreThoseOfMatchingAlone) {
   EXPECT_LT(costs[costs.size() / 2], 0.1 * 127);
 }
 
+// The same pictures with as little contrast as walls in the shade have.
+Pyramids InTheShade(const Pyramids& pyramids, float contrast) {
+  Pyramids shaded;
+  for (const auto& pyramid : pyramids) {
+    auto dark = std::make_shared<ViewPyramid>(*pyramid);
+    for (PackedImage& image : dark->images) {
+      for (uint8_t& grey : image.gray) {
+        grey = static_cast<uint8_t>(std::lround(40 + contrast * (static_cast<float>(grey) - 128)));
+      }
+      image = Pack(image.width, image.height, image.gray);
+    }
+    shaded.push_back(std::move(dark));
+  }
+  return shaded;
+}
+
+TEST(MatchDepths, FindsAWallInTheShade) {
+  const std::vector<MadePlane> planes = {SlantedWall()};
+  const Pyramids pyramids = InTheShade(MakePyramids(4, planes), 0.12f);
+  const DepthMap map = MatchDepths(InputOf(pyramids, planes, 0), Options());
+  const Quality quality = Measure(map, pyramids[0]->cameras[0], planes);
+  EXPECT_GT(quality.found, 0.6);
+  EXPECT_GT(quality.within, 0.9);
+}
+
 TEST(MatchDepths, GivesTheSameTwice) {
   const std::vector<MadePlane> planes = {SlantedWall()};
   const Pyramids pyramids = MakePyramids(3, planes);
