@@ -41,3 +41,9 @@ function(use_precompiled target kind)
   target_precompile_headers(${target} REUSE_FROM precompiled_${kind}${cgal})
   target_compile_options(${target} PRIVATE -fpch-preprocess) # which ccache asks for
 endfunction()
+
+# Sources whose inner loops become vector instructions at -O3 only. They do without the precompiled
+# header: it would bring its own level to functions that are compiled for a processor of their own.
+function(optimise_inner_loops)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-O3" SKIP_PRECOMPILE_HEADERS ON)
+endfunction()

@@ -45,7 +45,6 @@ constexpr int kMostRectangles = 400;  // looked at
 // How far a side of what lies back may move to an edge: farther first, as far as that is sure.
 constexpr double kSnaps_m[] = {1.0, 0.6};
 constexpr double kLeastReveal_m = 0.5;  // a side of what lies back
-constexpr double kMostRefused = 0.6;    // of a rectangle that lies back
 
 TexelGrid SweepRaster(const TexelGrid& grid) {
   const double needed =
@@ -243,21 +242,22 @@ class RectangleFinder {
 
   bool IsPlainHere(const CellRectangle& cells, int label) const {
     int plain = 0;
-    for (int y = cells.top; y < cells.bottom; ++y) {
-      for (int x = cells.left; x < cells.right; ++x) {
-        plain += PlainAt(CellAt(x, y), label) != Plain::kNot;
-      }
-    }
+    ForAll(cells, [&](size_t cell) { plain += PlainAt(cell, label) != Plain::kNot; });
     return 2 * plain > std::max(0, cells.Cells());
   }
 
   template <typename Do>
-  void ForFree(const CellRectangle& cells, int label, const Do& what) const {
+  void ForAll(const CellRectangle& cells, const Do& what) const {
     for (int y = cells.top; y < cells.bottom; ++y) {
-      for (int x = cells.left; x < cells.right; ++x) {
-        if (IsFree(CellAt(x, y), label)) what(CellAt(x, y));
-      }
+      for (int x = cells.left; x < cells.right; ++x) what(CellAt(x, y));
     }
+  }
+
+  template <typename Do>
+  void ForFree(const CellRectangle& cells, int label, const Do& what) const {
+    ForAll(cells, [&](size_t cell) {
+      if (IsFree(cell, label)) what(cell);
+    });
   }
 
   bool IsSure(const CellRectangle& cells, int label) const {
@@ -280,7 +280,7 @@ class RectangleFinder {
     if (!(free * CellArea() >= kLeastArea_m2 && telling >= kLeastTelling * free)) return false;
     if (std::min(cells.right - cells.left, cells.bottom - cells.top) < kLeastSide) return false;
     if (label == sweep_.plane) return true;
-    if (!out && !IsReveal(cells, label)) return false;
+    if (!out && !IsWideEnough(cells)) return false;
     // What is beyond the last planes may be farther off.
     if (label == 0 || label + 1 == sweep_.planes) return false;
     if (!out) return correlation >= kLeastCorrelationIn * telling;
@@ -288,28 +288,19 @@ class RectangleFinder {
            correlation >= kLeastCorrelationOut * telling && squarely >= kLeastSquarely * telling;
   }
 
-  // Wide enough, and panes, which show what is farther off, are not most of it.
-  bool IsReveal(const CellRectangle& cells, int label) const {
+  bool IsWideEnough(const CellRectangle& cells) const {
     const int side = std::min(cells.right - cells.left, cells.bottom - cells.top);
-    int refused = 0;
-    for (int y = cells.top; y < cells.bottom; ++y) {
-      for (int x = cells.left; x < cells.right; ++x) {
-        refused += refused_[SideOf(label)][CellAt(x, y)];
-      }
-    }
-    return side * sweep_.raster.texel >= kLeastReveal_m && refused <= kMostRefused * cells.Cells();
+    return side * sweep_.raster.texel >= kLeastReveal_m;
   }
 
   void Take(const CellRectangle& cells, int label) {
     ForFree(cells, label, [&](size_t cell) { labels_[cell] = label; });
     if (label < sweep_.plane) {
       edges_.Remember(cells);
-      for (int y = cells.top; y < cells.bottom; ++y) {
-        for (int x = cells.left; x < cells.right; ++x) {
-          int& now = labels_[CellAt(x, y)];
-          if (now == sweep_.plane) now = label;
-        }
-      }
+      // Panes as well, which show what is farther off and were refused for it.
+      ForAll(cells, [&](size_t cell) {
+        if (labels_[cell] == sweep_.plane) labels_[cell] = label;
+      });
     }
     if (label > sweep_.plane) RefuseHidden(cells, sweep_.HeightOf(label) / sweep_.raster.texel);
     ForgetOver(cells);
@@ -317,9 +308,7 @@ class RectangleFinder {
 
   // What is on the same side there is the same thing seen less well.
   void Refuse(const CellRectangle& cells, int label) {
-    for (int y = cells.top; y < cells.bottom; ++y) {
-      for (int x = cells.left; x < cells.right; ++x) refused_[SideOf(label)][CellAt(x, y)] = 1;
-    }
+    ForAll(cells, [&](size_t cell) { refused_[SideOf(label)][cell] = 1; });
     ForgetOver(cells);
   }
 
