@@ -218,6 +218,9 @@ GeoreferenceResult Georeference(const Reconstructed& from, const MapperOptions& 
     result.sigmas = SigmasOf(mapper, false, scene);
   } else {
     result.georef = *from.frame;
+    if (const auto sigma = UpSigma_rad(*result.records)) {
+      result.georef.up_sigma_deg = *sigma / kRadians;
+    }
   }
   for (const int photo : result.prior_outliers) {
     context.progress->Warn(

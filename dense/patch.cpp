@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kSpatialSigma = 5;
 constexpr float kColorSigma = 30;      // grey levels
-constexpr float kLeastVariance = 4.0;  // grey levels squared; below is noise
+constexpr float kLeastVariance = 1.0;  // grey levels squared; less is noise
 
 using Floats = float __attribute__((vector_size(32)));
 using Ints = int32_t __attribute__((vector_size(32)));

@@ -19,9 +19,9 @@ constexpr size_t kMostOffers = 13;         // of a pixel: its own plane, eight a
 constexpr float kGeometricWeight = 0.15f;  // per pixel of disagreement
 constexpr float kGeometricLimit = 3;       // pixels
 // Grey levels squared, within two pixels. What photos of full size reduced to some megapixels have
-// of noise is a tenth to a third of it; walls in the shade and slates have no more than twice as
+// of noise is a tenth to four tenths of it; walls in the shade and slates have two to four times as
 // much.
-constexpr float kLeastOwnVariance = 2;
+constexpr float kLeastOwnVariance = 1;
 constexpr float kSteepest = 0.1f;  // cosine between a plane's normal and the ray, at least
 constexpr float kUnknown = -1;     // a matching cost that was not asked for yet
 constexpr float kSamePx = 0.02f;  // planes that take no pixel of a window further apart match alike

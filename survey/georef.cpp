@@ -83,6 +83,7 @@ std::optional<std::string> FindProblem(const Georef& georef) {
   if (georef.up && !(std::abs(georef.up->norm() - 1) < kUnitTolerance)) {
     return "up is not a unit vector";
   }
+  if (georef.up_sigma_deg && !(*georef.up_sigma_deg >= 0)) return "up_sigma_deg is negative";
   return std::nullopt;
 }
 
@@ -95,6 +96,7 @@ static void Fields(Archive& archive, T& georef) {
   archive.Optional("origin_longitude_deg", georef.origin_longitude_deg);
   archive.Optional("origin_height_m", georef.origin_height_m);
   archive.Optional("up", georef.up);
+  archive.Optional("up_sigma_deg", georef.up_sigma_deg);
   archive.Required("metric", georef.metric);
   archive.Optional("source", georef.source);
 }

@@ -328,6 +328,7 @@ void MeasureAttitudes(const std::vector<PoseRecord>& records, const Scene& scene
     unknowns.yaw[f] = false;
   }
   fit = FitTurned(pairs, flights, unknowns);
+  errors.sigma_tilt_rad = fit.sigmas.segment<2>(3).maxCoeff();
   const Eigen::Array3d mount = fit.values.head<3>().array() / fit.sigmas.head<3>().array();
   if ((mount.abs() < kSignificant).all()) {
     unknowns.mount = false;
@@ -362,6 +363,11 @@ RecordErrors MeasureRecordErrors(const std::vector<PoseRecord>& records, const S
   MeasureAttitudes(records, scene, ties, errors);
   errors.sigma_hover_m = MeasureHovers(records, scene);
   return errors;
+}
+
+std::optional<double> UpSigma_rad(const RecordErrors& errors) {
+  if (errors.sigma_tilt_rad < 0) return std::nullopt;
+  return std::hypot(errors.sigma_tilt_rad, errors.tilt_rad.norm(), kLeastAttitude_rad);
 }
 
 void ApplyRecords(const std::vector<PoseRecord>& records, const RecordErrors& errors,

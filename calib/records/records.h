@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "calib/records/read_records.h"
@@ -35,7 +36,14 @@ struct RecordErrors {
   double sigma_hover_m = 0;
   // The scene's frame against gravity, as the gimbals show it: rotation vector, up component 0.
   Eigen::Vector3d tilt_rad = Eigen::Vector3d::Zero();
+  // Of that tilt about its worse axis, whatever the mount may be; negative: too few gimbals tell.
+  double sigma_tilt_rad = -1;
 };
+
+// How far the up of a frame that the records hold may be off, one standard deviation: how surely
+// the gimbals know it, and how far the frame is tilted against them. Nothing where they do not
+// tell.
+std::optional<double> UpSigma_rad(const RecordErrors& errors);
 
 // Variance components of the records from the photos that have poses, by medians, so that wrong
 // poses and wrong records do not count; the scene must be in the frame of the records. A shift, a

@@ -80,19 +80,20 @@ std::vector<Eigen::Vector3d> UpFromPhotos(std::span<const SurveyPhoto> photos) {
   return guesses;
 }
 
-Eigen::Vector3d RefineUp(const std::vector<Plane>& planes, const Eigen::Vector3d& first_guess,
-                         double tolerance_deg) {
+Eigen::Vector3d RefineUp(const std::vector<Plane>& planes, const UpGuess& guess) {
   constexpr int kRounds = 12;
   constexpr double kHold = 0.01;  // keeps up where walls of one direction leave it free
+  constexpr double kWallLean_deg = 0.5;
+  constexpr double kLeastSigma_deg = 0.01;
   // Grounds and terraces slope more often than walls lean: they decide only what walls leave open.
   constexpr double kFlatWeight = 0.2;
   constexpr double kFlatShare = 0.1;  // at most, of the walls' weight
-  Eigen::Vector3d up = first_guess;
-  double gate = std::sin(tolerance_deg * kDegree);
+  Eigen::Vector3d up = guess.up;
+  double gate = std::sin(guess.tolerance_deg * kDegree);
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix3d system = Eigen::Matrix3d::Zero();
     Eigen::Matrix3d flats = Eigen::Matrix3d::Zero();
-    double walls_total = 0, flats_total = 0;
+    double walls_total = 0, walls_squares = 0, flats_total = 0;
     for (const Plane& plane : planes) {
       const double along = plane.normal.dot(up);
       // Tukey's weights, the gate narrowing to 3 degrees: leaning planes lose their say.
@@ -101,6 +102,7 @@ Eigen::Vector3d RefineUp(const std::vector<Plane>& planes, const Eigen::Vector3d
         const double weight = plane.area * std::pow(1 - lean * lean, 2);
         system += weight * plane.normal * plane.normal.transpose();
         walls_total += weight;
+        walls_squares += weight * weight;
       }
       const double tilt = std::sqrt(std::max(0.0, 1 - along * along)) / gate;
       if (along > 0 && tilt < 1) {
@@ -115,7 +117,13 @@ Eigen::Vector3d RefineUp(const std::vector<Plane>& planes, const Eigen::Vector3d
     system += share * flats;
     const double total = walls_total + share * flats_total;
     if (!(total > 0)) break;
-    system += kHold * total * (Eigen::Matrix3d::Identity() - first_guess * first_guess.transpose());
+    double hold = kHold * total;
+    if (guess.sigma_deg && walls_total > 0) {
+      const double of_one_wall = walls_squares / walls_total;
+      hold +=
+          of_one_wall * std::pow(kWallLean_deg / std::max(*guess.sigma_deg, kLeastSigma_deg), 2);
+    }
+    system += hold * (Eigen::Matrix3d::Identity() - guess.up * guess.up.transpose());
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(system);
     Eigen::Vector3d next = solver.eigenvectors().col(0);
     if (next.dot(up) < 0) next = -next;
@@ -148,7 +156,7 @@ UpEstimate EstimateUp(const std::vector<Plane>& planes, std::span<const SurveyPh
   double best_score = -1;
   for (size_t c = 0; c < candidates.size(); ++c) {
     const auto& [guess, from_photos] = candidates[c];
-    const Eigen::Vector3d up = RefineUp(planes, guess, kTolerance_deg);
+    const Eigen::Vector3d up = RefineUp(planes, {guess, kTolerance_deg});
     if (!IsPlausible(photos, up)) continue;
     const double explained = Explained(planes, up);
     // Walls can be taken for floors: the first guess, from level cameras, breaks such ties.

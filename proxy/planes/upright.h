@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,15 @@ std::vector<Eigen::Vector3d> UpFromPhotos(std::span<const SurveyPhoto> photos);
 // them and no photos the result is z.
 UpEstimate EstimateUp(const std::vector<Plane>& planes, std::span<const SurveyPhoto> photos);
 
-// Refines a direction that is known to some degrees, by walls (and flat planes) within
-// `tolerance_deg` of it.
-Eigen::Vector3d RefineUp(const std::vector<Plane>& planes, const Eigen::Vector3d& first_guess,
-                         double tolerance_deg);
+// A direction that is known to some degrees.
+struct UpGuess {
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  double tolerance_deg = 5;                        // walls (and flat planes) within it count
+  std::optional<double> sigma_deg = std::nullopt;  // one standard deviation, where it was measured
+};
+
+// Refines it by walls and flat planes. One wall is taken to lean by half a degree as measured:
+// panes stand behind it, eaves and balconies before it.
+Eigen::Vector3d RefineUp(const std::vector<Plane>& planes, const UpGuess& guess);
 
 }  // namespace stucco

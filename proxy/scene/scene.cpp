@@ -114,15 +114,18 @@ void FindUp(const std::vector<Plane>& planes, const ProxyInput& input, const Pro
   if (georef.up && georef.up->allFinite() && georef.up->norm() > 0) {
     // Gimbals are good to about a degree, and positions of a few metres from a short flight tilt
     // the frame by more; walls are better, but only near what sensors say. RTK and surveyed points
-    // need no help, nor does a scan, which has no cameras: its coordinate system knows up.
+    // need no help, nor does a scan, which has no cameras: its coordinate system knows up. Where
+    // gimbals look all around, calibration knows it better than walls with windows and balconies.
     constexpr double kGimbal_deg = 3;
     constexpr double kPositions_deg = 5;
     const Eigen::Vector3d given = georef.up->normalized();
+    constexpr double kSure_deg = 0.1;
     const bool exact =
         georef.frame == "enu" &&
-        (georef.source == "rtk" || georef.source == kGroundControlSource || input.photos.empty());
+        (georef.source == "rtk" || georef.source == kGroundControlSource || input.photos.empty() ||
+         (georef.up_sigma_deg && *georef.up_sigma_deg < kSure_deg));
     const double tolerance_deg = georef.frame == "enu" ? kPositions_deg : kGimbal_deg;
-    scene.up = exact ? given : RefineUp(planes, given, tolerance_deg);
+    scene.up = exact ? given : RefineUp(planes, {given, tolerance_deg, georef.up_sigma_deg});
     findings.notes.push_back(fmt::format(
         "up: from calibration ({}); walls moved it by {:.2f} deg", georef.source,
         std::acos(std::clamp(scene.up.dot(given), -1.0, 1.0)) * 180 / std::numbers::pi));

@@ -139,7 +139,18 @@ TEST(MeasureRecordErrors, SeesTheTiltOfTheScene) {
     photo.pose->rotation = photo.pose->rotation * turn;
     photo.pose->translation = -(photo.pose->rotation * place);
   }
-  EXPECT_LT((MeasureRecordErrors(records, scene).tilt_rad - tilt).norm(), 0.06 * kDegree);
+  const RecordErrors errors = MeasureRecordErrors(records, scene);
+  EXPECT_LT((errors.tilt_rad - tilt).norm(), 0.06 * kDegree);
+  EXPECT_GT(UpSigma_rad(errors), 0.45 * kDegree);
+  EXPECT_LT(UpSigma_rad(errors), 0.6 * kDegree);
+}
+
+TEST(MeasureRecordErrors, SaysHowSurelyItKnowsUp) {
+  const Scene scene = MakeFlight(96);
+  auto records = MakeRecords(scene, {});
+  EXPECT_LT(UpSigma_rad(MeasureRecordErrors(records, scene)), 0.1 * kDegree);
+  for (PoseRecord& record : records) record.gimbal.reset();
+  EXPECT_EQ(UpSigma_rad(MeasureRecordErrors(records, scene)), std::nullopt);
 }
 
 TEST(MeasureRecordErrors, FindsShiftsBetweenFlights) {

@@ -79,8 +79,23 @@ TEST(EstimateUp, LetsGoOfLeaningPlanes) {
 TEST(RefineUp, ASiteThatSlopesDoesNotTiltTheWalls) {
   const std::vector<Plane> planes = {MakePlane({0, -1, 0}, 80), MakePlane({1, 0, 0}, 60),
                                      MakePlane({0.03, 0.02, 1}, 40000)};
-  const Vector3d up = RefineUp(planes, Vector3d(-0.02, 0.02, 1).normalized(), 4);
+  const Vector3d up = RefineUp(planes, {Vector3d(-0.02, 0.02, 1).normalized(), 4});
   EXPECT_LT(DegreesBetween(up, Vector3d::UnitZ()), 0.35);
+}
+
+// Walls of one house whose panes stand back lean in by what the windows' heights make of it; what
+// gimbals know better holds, and many houses outvote what they know less well.
+TEST(RefineUp, HoldsWhatIsSurerThanTheWalls) {
+  const Vector3d given = Vector3d(0.004, 0, 1).normalized();  // 0.23 degrees
+  const std::vector<Plane> house = {MakePlane({0, -1, 0}, 80), MakePlane({1, 0, 0}, 60),
+                                    MakePlane({0, 1, 0}, 80), MakePlane({-1, 0, 0}, 60)};
+  const Vector3d sure = RefineUp(house, {given, 5, 0.05});
+  EXPECT_LT(DegreesBetween(sure, given), 0.03);
+  const Vector3d unsure = RefineUp(house, {given, 5, 1.0});
+  EXPECT_LT(DegreesBetween(unsure, Vector3d::UnitZ()), 0.05);
+  std::vector<Plane> town;
+  for (int i = 0; i < 200; ++i) town.insert(town.end(), house.begin(), house.end());
+  EXPECT_LT(DegreesBetween(RefineUp(town, {given, 5, 0.05}), Vector3d::UnitZ()), 0.1);
 }
 
 TEST(EstimateUp, UsesTheGroundBelowPhotosStraightDown) {
