@@ -53,12 +53,13 @@ std::string CloudCrs(const ScanRequest& request) {
 
 // The map without a flight. Nobody flies by its heights: tops that it does not know are taken for
 // those of two storeys, and only where the cloud shows nothing either.
-Plan ReadMapAsPlan(const ScanRequest& request) {
+Plan ReadMapAsPlan(const ScanRequest& request, std::vector<std::string>& repairs) {
   constexpr double kTwoStoreys_m = 6;
   plan::PlanOptions options;
   options.map_crs = request.map_crs.empty() ? request.crs : request.map_crs;
   options.altitude_m = plan::kMostAltitude_m;  // so that heights may be unknown
   Site site = plan::ReadSite({.map = request.map}, options);
+  repairs = site.repairs;
   const auto lower = [&](Interval& z_m, bool known) {
     if (!known) z_m.to_m = std::min(z_m.to_m, z_m.from_m + kTwoStoreys_m);
   };
@@ -88,7 +89,11 @@ size_t BuildingsInCloud(const Plan& plan, const Georef& georef, const PointCloud
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector3d& p : cloud.positions) box.extend(Eigen::Vector2d(p.head<2>()));
   return static_cast<size_t>(std::ranges::count_if(plan.footprints, [&](const auto& footprint) {
-    return box.contains(EnuFromPlan(plan.origin, georef, footprint.rings_m.front().front()));
+    Eigen::AlignedBox2d reached;
+    for (const Eigen::Vector2d& corner : footprint.rings_m.front()) {
+      reached.extend(EnuFromPlan(plan.origin, georef, corner));
+    }
+    return box.intersects(reached);
   }));
 }
 
@@ -167,13 +172,13 @@ ScanImportReport ImportScan(const fs::path& survey, const ScanRequest& request,
   // All that can be wrong with the input shows before the survey is touched.
   const std::string crs = CloudCrs(request);
   RequireNoPhotos(survey, table);
-  const Plan plan = ReadMapAsPlan(request);
+  ScanImportReport report;
+  const Plan plan = ReadMapAsPlan(request, report.notes);
   Scan scan{request.cloud, ReadScan(request.cloud), {}};
   const CrsUnits units = UnitsOfCrs(crs);
   const double metres_per_unit = units.vertical_m.value_or(units.horizontal_m);
   scan.georef = FrameOf(plan, scan.cloud, metres_per_unit);
   MovePointsFromMap(crs, request.cloud.string(), scan.georef, scan.cloud.positions);
-  ScanImportReport report;
   report.points = scan.cloud.size();
   report.buildings = plan.footprints.size();
   report.reached = BuildingsInCloud(plan, scan.georef, scan.cloud);

@@ -54,14 +54,15 @@ BoxGrid GridOf(const std::vector<Footprint>& footprints) {
 }
 
 // Gives parts of unknown buildings the building that most of them lies in, and takes them out of
-// its outline.
+// its outline. One that begins higher up stands on the building, of which it takes the top only;
+// where parts make up all of the outline, they alone say what stands there, passages included.
 class PartAssigner {
  public:
   PartAssigner(std::vector<Footprint>& footprints, const std::vector<bool>& is_loose_part)
       : footprints_(footprints), is_loose_part_(is_loose_part), grid_(GridOf(footprints)) {}
 
   void Assign(RepairLog& repairs) {
-    std::map<int, std::vector<Polygon>> parts_of;
+    std::map<int, std::vector<Footprint>> parts_of;
     for (size_t i = 0; i < footprints_.size(); ++i) {
       if (!is_loose_part_[i]) continue;
       const int host = HostOf(static_cast<int>(i));
@@ -70,9 +71,9 @@ class PartAssigner {
         continue;
       }
       footprints_[i].building = footprints_[host].building;
-      parts_of[host].push_back(footprints_[i].outline);
+      parts_of[host].push_back(footprints_[i]);
     }
-    for (const auto& [host, parts] : parts_of) CutOut(host, internal::Union(parts));
+    for (const auto& [host, parts] : parts_of) TakeOut(parts, host);
     // Slivers and what is covered by parts altogether.
     std::erase_if(footprints_, [](const Footprint& f) { return f.outline.rings.empty(); });
     footprints_.insert(footprints_.end(), rest_.begin(), rest_.end());
@@ -94,14 +95,65 @@ class PartAssigner {
     return host;
   }
 
-  void CutOut(int host, const std::vector<Polygon>& parts) {
-    std::vector<Polygon> rest = internal::Difference(footprints_[host].outline, parts);
-    std::erase_if(rest, internal::IsSliver);
-    footprints_[host].outline = rest.empty() ? Polygon{} : rest.front();
-    for (size_t i = 1; i < rest.size(); ++i) {
-      rest_.push_back(footprints_[host]);
-      rest_.back().outline = rest[i];
+  void TakeOut(const std::vector<Footprint>& parts, int host) {
+    constexpr double kLeastRest = 0.05;  // of the outline: less is how it was drawn
+    const Footprint whole = footprints_[host];
+    std::vector<Polygon> all;
+    std::vector<Polygon> from_the_ground;
+    for (const Footprint& part : parts) {
+      all.push_back(part.outline);
+      if (!BeginsAbove(part, whole)) from_the_ground.push_back(part.outline);
     }
+    std::vector<Polygon> rest = Without(whole.outline, internal::Union(all));
+    double area = 0;
+    for (const Polygon& piece : rest) area += Area(piece);
+    const bool parts_are_all = !from_the_ground.empty() && area < kLeastRest * Area(whole.outline);
+    std::vector<Footprint> pieces;
+    for (Polygon& piece : rest) pieces.push_back(Like(whole, std::move(piece)));
+    if (!parts_are_all) {
+      for (Footprint& below : Below(parts, whole, from_the_ground)) {
+        pieces.push_back(std::move(below));
+      }
+    }
+    footprints_[host] = pieces.empty() ? Like(whole, {}) : pieces.front();
+    if (!pieces.empty()) rest_.insert(rest_.end(), pieces.begin() + 1, pieces.end());
+  }
+
+  // What of a building stands below the parts that begin above its foot, the lowest one first.
+  static std::vector<Footprint> Below(std::vector<Footprint> parts, const Footprint& whole,
+                                      std::vector<Polygon> taken) {
+    std::erase_if(parts, [&](const Footprint& part) { return !BeginsAbove(part, whole); });
+    std::ranges::stable_sort(parts, {}, [](const Footprint& part) { return part.z_m.from_m; });
+    std::vector<Footprint> pieces;
+    for (const Footprint& part : parts) {
+      for (const Polygon& under : internal::Intersection(part.outline, whole.outline)) {
+        for (Polygon& piece : Without(under, internal::Union(taken))) {
+          Footprint& below = pieces.emplace_back(Like(whole, std::move(piece)));
+          if (HasTop(whole) && whole.z_m.to_m < part.z_m.from_m) continue;
+          below.z_m.to_m = part.z_m.from_m;
+          below.top_known = true;
+        }
+      }
+      taken.push_back(part.outline);
+    }
+    return pieces;
+  }
+
+  static bool BeginsAbove(const Footprint& part, const Footprint& whole) {
+    constexpr double kStep_m = 1;
+    return part.z_m.from_m > whole.z_m.from_m + kStep_m;
+  }
+
+  static std::vector<Polygon> Without(const Polygon& outline, const std::vector<Polygon>& taken) {
+    std::vector<Polygon> rest = internal::Difference(outline, taken);
+    std::erase_if(rest, internal::IsSliver);
+    return rest;
+  }
+
+  static Footprint Like(const Footprint& model, Polygon outline) {
+    Footprint footprint = model;
+    footprint.outline = std::move(outline);
+    return footprint;
   }
 
   std::vector<Footprint>& footprints_;
@@ -218,7 +270,7 @@ class OverlapCutter {
     Note(smaller, larger, "stands inside {} and rises above it; made a part of it");
     explained_.insert(footprints_[smaller].building);
     footprints_[smaller].building = footprints_[larger].building;
-    cuts_[larger].push_back(smaller);
+    if (!StandsAbove(footprints_[smaller], footprints_[larger])) SeparateParts(smaller, larger);
   }
 
   // What stays must be as high as what it stands for.

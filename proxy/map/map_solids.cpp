@@ -208,6 +208,42 @@ bool IsAsGood(const ClosedBuilding& with_wings, const ClosedBuilding& without) {
          with_wings.detail <= std::max(without.detail, SolidDetail::kCoarse);
 }
 
+// Whether most of a wing hangs over the ground by the map: counted on a grid.
+bool IsRaised(const MapBuilding& house, const FittedBuilding& wing) {
+  constexpr double kStep_m = 0.5;
+  const Eigen::AlignedBox2d box = BoundsOf(wing.building, 0);
+  int inside = 0, raised = 0;
+  for (double y = box.min().y() + kStep_m / 2; y < box.max().y(); y += kStep_m) {
+    for (double x = box.min().x() + kStep_m / 2; x < box.max().x(); x += kStep_m) {
+      const Eigen::Vector2d p(x, y);
+      if (DistanceTo(wing.building, p) > 0) continue;
+      ++inside;
+      raised += std::ranges::any_of(house.raised, [&](const auto& r) { return Contains(r, p); });
+    }
+  }
+  return 2 * raised > inside;
+}
+
+// What was joined to a house, for people.
+std::vector<std::string> WingsOf(const MapBuilding& house,
+                                 const std::vector<const FittedBuilding*>& wings) {
+  double lacking = 0, raised = 0;
+  for (const FittedBuilding* wing : wings) {
+    (IsRaised(house, *wing) ? raised : lacking) += Area(wing->building);
+  }
+  std::vector<std::string> lines;
+  if (lacking > 0) {
+    lines.push_back(
+        fmt::format("{}: wings that the map lacks lean on it, {:.0f} m2", house.id, lacking));
+  }
+  if (raised > 0) {
+    lines.push_back(fmt::format(
+        "{}: parts that begin above the ground by the map are built down to it, {:.0f} m2",
+        house.id, raised));
+  }
+  return lines;
+}
+
 // Closes houses once more with the wings that lean on them, and takes these out of `wings`, where
 // that makes as good a solid.
 void JoinWings(const UprightSurvey& survey, const Workshop& with, Houses& houses,
@@ -235,9 +271,13 @@ void JoinWings(const UprightSurvey& survey, const Workshop& with, Houses& houses
   for (size_t i = 0; i < extended.size(); ++i) {
     const size_t h = extended[i];
     if (!IsAsGood(closed[i], houses.closed[h])) continue;
-    findings.of_map.push_back(
-        {fmt::format("{}: wings that the map lacks lean on it, {:.0f} m2", houses.mapped[h].id,
-                     Area(mapped[i]) - Area(houses.mapped[h]))});
+    std::vector<const FittedBuilding*> joined;
+    for (size_t w = 0; w < wings.size(); ++w) {
+      if (house_of[w] == h) joined.push_back(&wings[w].fitted);
+    }
+    for (std::string& line : WingsOf(houses.mapped[h], joined)) {
+      findings.of_map.push_back({std::move(line)});
+    }
     houses.closed[h] = std::move(closed[i]);
     houses.mapped[h] = std::move(mapped[i]);
     for (size_t w = 0; w < wings.size(); ++w) has_joined[w] = has_joined[w] || house_of[w] == h;
@@ -258,6 +298,20 @@ void NoteShift(const MapRegistration& place, ProxyFindings& findings) {
       "the map lies {:.1f} m beside what the photos show, turned by {:.1f} degrees: this was taken "
       "into account",
       place.shift_m.norm(), std::abs(place.turn_rad) * 180 / std::numbers::pi)});
+}
+
+std::string PlaceOf(const MapRegistration& place) {
+  const std::string where =
+      place.measured
+          ? fmt::format(
+                "the survey shows the plan's map {:.2f} m east and {:.2f} m north of where "
+                "it is, turned by {:.2f} deg",
+                place.shift_m.x(), place.shift_m.y(), place.turn_rad * 180 / std::numbers::pi)
+          : "the cloud shows too few walls to tell whether the plan's map lies right; it is taken "
+            "as it is";
+  return fmt::format(
+      "{}; of the ground below its buildings {:.0f} % is built over, next to them {:.0f} %", where,
+      100 * place.raised_inside, 100 * place.raised_outside);
 }
 
 OutlineMap Moved(OutlineMap map, const Eigen::Isometry2d& motion) {
@@ -283,11 +337,7 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
     findings.of_map.push_back({"the plan's map gives no shape, because " + place.refused, true});
     return std::nullopt;
   }
-  findings.notes.push_back(fmt::format(
-      "the survey shows the plan's map {:.2f} m east and {:.2f} m north of where it is, turned by "
-      "{:.2f} deg; of the ground below its buildings {:.0f} % is built over, next to them {:.0f} %",
-      place.shift_m.x(), place.shift_m.y(), place.turn_rad * 180 / std::numbers::pi,
-      100 * place.raised_inside, 100 * place.raised_outside));
+  findings.notes.push_back(PlaceOf(place));
   NoteShift(place, findings);
   OutlineMap found = Moved(map, place.survey_from_map);
   const Workshop with{scene, input, options, threads};

@@ -54,8 +54,8 @@ OutlineMap OutlinesOf(const Plan& plan, const Georef& georef, const Eigen::Vecto
     building.z_m.to_m = std::max(building.z_m.to_m, footprint.z_m.to_m);
     building.top_known = building.top_known && footprint.top_known;
     building.to_capture = building.to_capture || footprint.in_area;
-    if (footprint.z_m.from_m > foot[footprint.building] + kRaisedFoot_m) continue;
-    Polygon& part = building.parts.emplace_back();
+    const bool is_raised = footprint.z_m.from_m > foot[footprint.building] + kRaisedFoot_m;
+    Polygon& part = (is_raised ? building.raised : building.parts).emplace_back();
     for (const Ring& ring : footprint.outline.rings) {
       Ring& moved = part.rings.emplace_back();
       for (const Eigen::Vector2d& corner : ring) moved.push_back(to_survey(corner));
@@ -66,9 +66,11 @@ OutlineMap OutlinesOf(const Plan& plan, const Georef& georef, const Eigen::Vecto
 
 MapBuilding Moved(const MapBuilding& building, const Eigen::Isometry2d& motion) {
   MapBuilding moved = building;
-  for (Polygon& part : moved.parts) {
-    for (Ring& ring : part.rings) {
-      for (Eigen::Vector2d& corner : ring) corner = motion * corner;
+  for (auto* polygons : {&moved.parts, &moved.raised}) {
+    for (Polygon& part : *polygons) {
+      for (Ring& ring : part.rings) {
+        for (Eigen::Vector2d& corner : ring) corner = motion * corner;
+      }
     }
   }
   return moved;

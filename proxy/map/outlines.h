@@ -17,7 +17,9 @@ namespace stucco {
 struct MapBuilding {
   std::string id;
   std::vector<Polygon> parts;  // without overlaps
-  Interval z_m;                // foot and top, in the plan's heights
+  // Parts that begin above the ground: what of them stands on no other part hangs over it.
+  std::vector<Polygon> raised = {};
+  Interval z_m;  // foot and top, in the plan's heights
   bool top_known = false;
   bool to_capture = false;  // the plan has facades of it
 };

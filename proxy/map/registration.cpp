@@ -236,26 +236,32 @@ bool IsInside(const Eigen::Vector2d& p, const std::vector<MapBuilding>& building
 }
 
 // Of each building inside and beside, but not in a neighbour.
-std::pair<RaisedCells, RaisedCells> CountRaised(const UprightSurvey& survey,
-                                                const std::vector<MapBuilding>& buildings) {
+struct RaisedShares {
+  RaisedCells inside, outside;
+  // Also of buildings beside which no ground shows.
+  int all_inside = 0, all_outside = 0;
+};
+
+RaisedShares CountRaised(const UprightSurvey& survey, const std::vector<MapBuilding>& buildings) {
   constexpr double kInside_m = 0.5;  // the wall's own points are neither
   constexpr double kNear_m = 1.5;    // eaves and hedges beside a wall say nothing
-  RaisedCells inside, outside;
+  RaisedShares shares;
   for (const MapBuilding& building : buildings) {
     const auto ground = GroundAround(survey, building);
-    if (!ground) continue;
     for (const auto& [cell, height] : TopsAround(survey, building)) {
       const Eigen::Vector2d middle(cell.first + 0.5, cell.second + 0.5);
       const double to_outline = ToOutline(building, middle);
       const bool within = DistanceTo(building, middle) == 0;
       if (within ? to_outline < kInside_m : to_outline < kNear_m || to_outline > kRing_m) continue;
       if (!within && IsInside(middle, buildings)) continue;
-      RaisedCells& cells = within ? inside : outside;
+      ++(within ? shares.all_inside : shares.all_outside);
+      if (!ground) continue;
+      RaisedCells& cells = within ? shares.inside : shares.outside;
       ++cells.seen;
       cells.raised += height > *ground + kRaised_m;
     }
   }
-  return {inside, outside};
+  return shares;
 }
 
 }  // namespace
@@ -282,20 +288,27 @@ MapRegistration RegisterMap(const UprightSurvey& survey, const OutlineMap& map) 
     found.survey_from_map = motion->Transform();
     found.turn_rad = motion->turn_rad;
     found.shift_m = motion->shift;
+    found.measured = true;
   }
   std::vector<MapBuilding> buildings;
   buildings.reserve(map.buildings.size());
   for (const MapBuilding& building : map.buildings) {
     buildings.push_back(Moved(building, found.survey_from_map));
   }
-  const auto [inside, outside] = CountRaised(survey, buildings);
+  const RaisedShares shares = CountRaised(survey, buildings);
+  const auto& [inside, outside, all_inside, all_outside] = shares;
   found.raised_inside = inside.Share();
   found.raised_outside = outside.Share();
   constexpr int kFewestCells = 20;  // photos from the street show no roof, and prove nothing here
   constexpr double kLeastRaised = 0.6;
   constexpr double kLeastContrast = 0.3;
-  if (inside.seen >= kFewestCells &&
-      !(inside.Share() >= kLeastRaised && inside.Share() - outside.Share() >= kLeastContrast)) {
+  constexpr double kLeastBeside = 0.05;  // of what a scan shows of roofs; eaves may be as much
+  if (upright.camera_centers.empty() && all_outside < kLeastBeside * all_inside) {
+    found.refused =
+        "the cloud shows nothing beside the buildings: without the ground nobody knows how high "
+        "its roofs are; take a cloud with its ground points";
+  } else if (inside.seen >= kFewestCells && !(inside.Share() >= kLeastRaised &&
+                                              inside.Share() - outside.Share() >= kLeastContrast)) {
     found.refused = fmt::format(
         "of the ground below its buildings {:.0f} % is built over, of that next to them {:.0f} %",
         100 * inside.Share(), 100 * outside.Share());

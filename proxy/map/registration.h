@@ -18,6 +18,7 @@ struct MapRegistration {
   Eigen::Isometry2d survey_from_map = Eigen::Isometry2d::Identity();  // of an OutlineMap
   double turn_rad = 0;                                                // counter-clockwise
   Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();                  // of the middle of the map
+  bool measured = false;      // else it was not moved: a scan from above lies where it says
   double raised_inside = 0;   // share of what the cloud shows of the footprints that is no ground
   double raised_outside = 0;  // the same next to them
   std::string refused;        // empty: the map is of this place

@@ -19,7 +19,7 @@ void Describe(OptionTable& table, ProxyOptions& options) {
             "five times level_of_detail.");
   table.Add("min_points", options.min_points, 0, 1000000,
             "Planes with fewer points of the thinned cloud are dropped. 0: as many as make up a "
-            "third of min_area, 12 to 60.");
+            "0.4 of min_area, 12 to 60.");
   table.Add("fill_gap", options.fill_gap, 0, kLargest,
             "Gaps of a facet up to about this width are closed (windows, occluded strips). 0: five "
             "times level_of_detail.");

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "proxy/output/cityjson.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "proxy/output/internal/city_appearance.h"
+#include "survey/disjoint_sets.h"
 
 namespace stucco {
 namespace {
@@ -112,6 +115,46 @@ Json SemanticsOf(const Facet& facet, const Eigen::Vector3d& up) {
   return surface;
 }
 
+// The closed pieces of a solid: facets that meet along edges, in their order. A solid of CityJSON
+// is one piece, but a building of a map may stand in two places.
+std::vector<Building> PiecesOf(const Building& building) {
+  if (!building.watertight) return {building};
+  const auto before = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::ranges::lexicographical_compare(a, b);
+  };
+  const auto edge_before = [&](const auto& a, const auto& b) {
+    if (before(a.first, b.first) || before(b.first, a.first)) return before(a.first, b.first);
+    return before(a.second, b.second);
+  };
+  std::map<std::pair<Eigen::Vector3d, Eigen::Vector3d>, int, decltype(edge_before)> facet_at(
+      edge_before);
+  DisjointSets groups(building.facets.size());
+  for (int f = 0; f < static_cast<int>(building.facets.size()); ++f) {
+    const Facet& facet = building.facets[f];
+    std::vector<const std::vector<Eigen::Vector3d>*> rings = {&facet.outer};
+    for (const auto& hole : facet.holes) rings.push_back(&hole);
+    for (const auto* ring : rings) {
+      for (size_t i = 0; i < ring->size(); ++i) {
+        auto edge = std::pair((*ring)[i], (*ring)[(i + 1) % ring->size()]);
+        if (before(edge.second, edge.first)) std::swap(edge.first, edge.second);
+        const auto [entry, added] = facet_at.try_emplace(edge, f);
+        if (!added) groups.Join(entry->second, f);
+      }
+    }
+  }
+  std::map<int, size_t> piece_of;
+  std::vector<Building> pieces;
+  for (int f = 0; f < static_cast<int>(building.facets.size()); ++f) {
+    const auto [entry, added] = piece_of.try_emplace(groups.Find(f), pieces.size());
+    if (added) {
+      pieces.push_back(building);
+      pieces.back().facets.clear();
+    }
+    pieces[entry->second].facets.push_back(building.facets[f]);
+  }
+  return pieces;
+}
+
 // `appearance`: null for surfaces without pictures.
 Json GeometryOf(const Building& building, const Eigen::Vector3d& up, bool semantics,
                 VertexTable& table, CityAppearance* appearance) {
@@ -153,16 +196,19 @@ std::string TextOf(const Proxy& proxy, CityAppearance* appearance) {
           {"geometry", Json::array({GeometryOf(building, proxy.up, false, table, appearance)})}};
       continue;
     }
-    const std::string part = building.id + "-1";
+    Json parts = Json::array();
     Json attributes = {{"watertight", building.watertight}, {"source", building.source}};
     if (!building.detail.empty()) attributes["detail"] = building.detail;
-    objects[building.id] = {{"type", "Building"},
-                            {"attributes", std::move(attributes)},
-                            {"children", Json::array({part})}};
-    objects[part] = {
-        {"type", "BuildingPart"},
-        {"parents", Json::array({building.id})},
-        {"geometry", Json::array({GeometryOf(building, proxy.up, true, table, appearance)})}};
+    objects[building.id] = {{"type", "Building"}, {"attributes", std::move(attributes)}};
+    for (const Building& piece : PiecesOf(building)) {
+      const std::string part = fmt::format("{}-{}", building.id, parts.size() + 1);
+      objects[part] = {
+          {"type", "BuildingPart"},
+          {"parents", Json::array({building.id})},
+          {"geometry", Json::array({GeometryOf(piece, proxy.up, true, table, appearance)})}};
+      parts.push_back(part);
+    }
+    objects[building.id]["children"] = std::move(parts);
   }
   Json city = {{"type", "CityJSON"}, {"version", "2.0"}};
   city["transform"] = table.Transform();

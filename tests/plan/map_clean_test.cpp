@@ -213,6 +213,54 @@ TEST(CleanMap, PartsTakeThePlaceOfTheOutline) {
   EXPECT_EQ(upper, 1);
 }
 
+// A house with a tower on its roof, drawn as an outline and a part that begins at 6 m; whether the
+// outline says its own height or that of the tower.
+TEST(CleanMap, BelowARaisedPartStandsItsHouse) {
+  for (const double height : {6.0, 15.0}) {
+    const CleanedMap map = CleanMap({Feature("B0001", {Rectangle(0, 0, 20, 10)}, height),
+                                     Part("B0002", Rectangle(4, 2, 10, 8), 6, 15)});
+    ExpectClean(map);
+    double ground = 0, tower = 0;
+    for (const Footprint& footprint : map.footprints) {
+      EXPECT_EQ(footprint.building, "B0001");
+      (footprint.z_m.from_m > 0 ? tower : ground) += Area(footprint.outline);
+    }
+    EXPECT_NEAR(ground, 200, 1e-6);
+    EXPECT_NEAR(tower, 36, 1e-6);
+    int walls = 0;
+    for (const Facade& facade : FacadesOf(map)) walls += facade.z_m == Interval{6, 15};
+    EXPECT_EQ(walls, height == 6 ? 4 : 0);  // beside the tower the house may be as high
+    for (const Facade& facade : FacadesOf(map)) {
+      EXPECT_FALSE(facade.z_m.from_m == 0 && facade.a.x() > 1 && facade.a.x() < 19)
+          << "a wall inside of the house";
+    }
+  }
+}
+
+TEST(CleanMap, ARaisedBuildingInsideAnotherIsItsTower) {
+  MapFeature tower = Feature("B0002", {Rectangle(4, 2, 10, 8)}, 15);
+  tower.min_height_m = 6;
+  const CleanedMap map = CleanMap({Feature("B0001", {Rectangle(0, 0, 20, 10)}, 6), tower});
+  ExpectClean(map);
+  EXPECT_NEAR(AreaOf(map, "B0001"), 200 + 36, 1e-6);
+  ASSERT_EQ(map.footprints.size(), 2u);
+  EXPECT_EQ(map.footprints[0].outline.rings.size(), 1u);
+}
+
+// Parts that make up the whole outline: below the one in the middle one walks through.
+TEST(CleanMap, PartsAloneSayWhereAPassageIs) {
+  const CleanedMap map = CleanMap({Feature("B0001", {Rectangle(0, 0, 30, 10)}, 9),
+                                   Part("B0002", Rectangle(0, 0, 12, 10), 0, 9),
+                                   Part("B0003", Rectangle(12, 0, 18, 10), 4, 9),
+                                   Part("B0004", Rectangle(18, 0, 30, 10), 0, 9)});
+  ExpectClean(map);
+  ASSERT_EQ(map.footprints.size(), 3u);
+  for (const Footprint& footprint : map.footprints) {
+    const bool is_passage = footprint.outline.rings[0][0].x() == 12;
+    EXPECT_EQ(footprint.z_m.from_m, is_passage ? 4 : 0);
+  }
+}
+
 TEST(CleanMap, OverlappingPartsLeaveTheHigherOne) {
   const CleanedMap map = CleanMap({Feature("B0001", {Rectangle(0, 0, 30, 30)}, 30),
                                    Part("B0002", Rectangle(0, 0, 30, 30), 0, 10),

@@ -107,6 +107,35 @@ TEST(CityJsonText, AClosedBuildingIsASolid) {
   EXPECT_EQ(geometry["semantics"]["values"][0].size(), 2u);
 }
 
+// One id of a map that stands in two places: two solids, as no solid has two pieces.
+TEST(CityJsonText, WhatStandsInTwoPlacesIsTwoParts) {
+  const auto box_at = [](double east) {
+    const Vector3d o(east, 0, 0);
+    const Vector3d x = 4 * Vector3d::UnitX(), y = 5 * Vector3d::UnitY(), z = 3 * Vector3d::UnitZ();
+    return std::vector<Facet>{Square("", FacetClass::kGround, o, y, x),
+                              Square("", FacetClass::kRoof, o + z, x, y),
+                              Square("", FacetClass::kWall, o, x, z),
+                              Square("", FacetClass::kWall, o + x, y, z),
+                              Square("", FacetClass::kWall, o + x + y, -x, z),
+                              Square("", FacetClass::kWall, o + y, -y, z)};
+  };
+  Proxy proxy = Model(true);
+  Building& building = proxy.buildings[0];
+  building.facets = box_at(0);
+  for (const Facet& facet : box_at(10)) building.facets.push_back(facet);
+  std::swap(building.facets[1], building.facets[8]);
+  const auto city = nlohmann::json::parse(CityJsonText(proxy))["CityObjects"];
+  EXPECT_EQ(city["B0001"]["children"], nlohmann::json({"B0001-1", "B0001-2"}));
+  for (const char* part : {"B0001-1", "B0001-2"}) {
+    const auto& geometry = city[part]["geometry"][0];
+    EXPECT_EQ(geometry["type"], "Solid");
+    ASSERT_EQ(geometry["boundaries"].size(), 1u);
+    EXPECT_EQ(geometry["boundaries"][0].size(), 6u);
+    EXPECT_EQ(geometry["semantics"]["values"][0].size(), 6u);
+    EXPECT_EQ(city[part]["parents"][0], "B0001");
+  }
+}
+
 TEST(CityJsonText, TurnsUpToZ) {
   Proxy proxy = Model(false);
   proxy.up = -Vector3d::UnitY();

@@ -83,6 +83,39 @@ TEST(MapScan, AMapOfAnotherPlaceIsRefused) {
   }));
 }
 
+bool Says(const FromScan& made, const std::string& text) {
+  return std::ranges::any_of(made.findings.of_map, [&](const ProxyFindings::OfMap& finding) {
+    return finding.text.find(text) != std::string::npos;
+  });
+}
+
+TEST(MapScan, WithoutItsGroundNobodyKnowsHowHighRoofsAre) {
+  test::CaptureOptions options{.spacing = 0.3, .noise = 0.02};
+  options.hide = {"wall"};
+  Captured captured = test::Capture(
+      {test::FlatHouse(Rectangle(-10, -5, 0, 5), 6), test::FlatHouse(Rectangle(8, -5, 18, 5), 9)},
+      {}, options);
+  captured.photos.clear();
+  captured.cloud.views.clear();
+  captured.cloud.normals.clear();
+  const FromScan made = MakeFromScan(
+      captured, {{"B0001", {Rectangle(-10, -5, 0, 5)}}, {"B0002", {Rectangle(8, -5, 18, 5)}}});
+  EXPECT_TRUE(Says(made, "nothing beside the buildings"));
+}
+
+// A gate: two parts on the ground, one from 5 m between them, which no file says is a wing.
+TEST(MapScan, WhatTheMapHasOverAPassageIsBuiltDownAndNamed) {
+  const FromScan made = MakeFromScan(Scanned({test::FlatHouse(Rectangle(-10, -5, 10, 5), 9)}, 0.25),
+                                     {{"B0001", {Rectangle(-10, -5, -4, 5)}, 9},
+                                      {"B0001", {Rectangle(4, -5, 10, 5)}, 9},
+                                      {"B0001", {Rectangle(-4, -5, 4, 5)}, 9, 5}});
+  const Building* gate = test::Find(made.proxy, "B0001");
+  ASSERT_NE(gate, nullptr);
+  EXPECT_NEAR(test::VolumeOf(*gate), 20 * 10 * 9, 60);
+  EXPECT_TRUE(Says(made, "begin above the ground"));
+  EXPECT_FALSE(Says(made, "lacks"));
+}
+
 TEST(MapScan, NormalsWithoutPhotosPointUp) {
   const Captured captured = Scanned({test::GableHouse()}, 0.3);
   Samples samples = ThinCloud(StreamOf(captured.cloud), {}, 100000, 0);

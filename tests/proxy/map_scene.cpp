@@ -29,7 +29,7 @@ Plan PlanOf(const std::vector<MapEntry>& entries) {
   plan.origin = {.latitude_deg = 50, .longitude_deg = 14};
   for (const MapEntry& entry : entries) {
     plan.footprints.push_back(
-        {.building = entry.id, .rings_m = entry.rings, .z_m = {0, entry.top}});
+        {.building = entry.id, .rings_m = entry.rings, .z_m = {entry.foot, entry.top}});
     int number = 0;
     for (const Ring& ring : entry.rings) {
       for (size_t i = 0; i < ring.size(); ++i) {
@@ -37,7 +37,7 @@ Plan PlanOf(const std::vector<MapEntry>& entries) {
         facade.id = fmt::format("{}/F{:02}", entry.id, number++);
         facade.a_m = ring[i];
         facade.b_m = ring[(i + 1) % ring.size()];
-        facade.z_m = {0, entry.top};
+        facade.z_m = {entry.foot, entry.top};
         facade.top_known = true;
       }
     }

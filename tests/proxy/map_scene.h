@@ -21,6 +21,7 @@ struct MapEntry {
   std::string id;
   std::vector<Ring> rings;
   double top = 6;
+  double foot = 0;
 };
 
 Ring Rectangle(double x0, double y0, double x1, double y1);

@@ -143,6 +143,14 @@ TEST_F(ImportScanTest, SaysWhatTheCloudDoesNotReach) {
   EXPECT_THAT(Import().notes, Contains(HasSubstr("1 of 2 footprints")));
 }
 
+TEST_F(ImportScanTest, ACloudInsideOfAFootprintReachesIt) {
+  std::erase_if(cloud.positions, [](const auto& p) {
+    return p.x() < kEast + 1 || p.x() > kEast + 9 || p.y() < kNorth + 1 || p.y() > kNorth + 7;
+  });
+  cloud.normals.clear();
+  EXPECT_EQ(Import().reached, 1u);
+}
+
 TEST_F(ImportScanTest, ReplacesNoPosesOfPhotos) {
   town = fake.survey;
   EXPECT_THAT(Refusal().what(), HasSubstr("has photos"));
