@@ -241,8 +241,8 @@ PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, P
   result.stats = StatsOf(result.plan, taken.count(), path.tour.gap());
   AddSafety(task, result);
   result.stats.matches = matches;
-  const std::string loose = LooseFacades(matches);
-  if (!loose.empty()) result.stats.warnings.push_back(loose);
+  const bool links_tried = options.links && options.method == "cocapture";
+  std::ranges::move(MatchWarnings(matches, links_tried), std::back_inserter(result.stats.warnings));
   return result;
 }
 

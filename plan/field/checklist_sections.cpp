@@ -202,9 +202,9 @@ std::string GroundPointsSection(const Plan& plan, const FieldFacts& facts) {
   html +=
       "<p>With a plain GNSS receiver in the drone, measure five control points (corners and "
       "middle); with RTK or PPK one or two are enough, and the others become check points. Check "
-      "points are never used to fit anything: their errors are what you may promise. Stucco takes "
-      "place and scale from the positions in the photos; the points serve to check its model and "
-      "to place it elsewhere.</p>\n";
+      "points are never used to fit anything: their errors are what you may promise. Listed in "
+      "gcp_list.txt with where photos show them, control points hold the model; without them its "
+      "place and scale come from the positions in the photos.</p>\n";
   if (facts.ground_points.empty()) {
     return html +
            "<p>No ground that is free and in view of enough photos was found.</p></section>\n";

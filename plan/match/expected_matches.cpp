@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <set>
+#include <string>
 #include <tuple>
 
 #include "plan/match/ties.h"
@@ -31,6 +33,22 @@ TiedView Describe(const PlannedView& view, const Shot& shot, const Ties& ties) {
   return out;
 }
 
+// Counts the photos outside of the largest part, and what they are meant for.
+void DescribeParts(const Connectivity& whole, const Plan& plan, MatchStats& stats) {
+  std::vector<int> photos(whole.parts, 0);
+  for (const int part : whole.part) ++photos[part];
+  const auto largest = static_cast<int>(std::ranges::max_element(photos) - photos.begin());
+  std::set<std::string> buildings;
+  for (size_t i = 0; i < plan.views.size(); ++i) {
+    if (whole.part[i] == largest) continue;
+    ++stats.apart;
+    for (const PlannedTarget& target : plan.views[i].targets) {
+      buildings.insert(target.facade.substr(0, target.facade.find('/')));
+    }
+  }
+  stats.apart_of.assign(buildings.begin(), buildings.end());
+}
+
 }  // namespace
 
 MatchStats ExpectMatches(const PhotoGraph& photos, std::span<const Hover> hovers, int threads,
@@ -43,8 +61,9 @@ MatchStats ExpectMatches(const PhotoGraph& photos, std::span<const Hover> hovers
                    .hanging = 0,
                    .loose = 0,
                    .weakest = {}};
+  DescribeParts(whole, plan, stats);
   for (const LooseGroup& group : LooseGroups(photos.places, ties)) {
-    stats.hanging += static_cast<int>(group.photos.size());
+    if (group.on >= 0) stats.hanging += static_cast<int>(group.photos.size());
   }
   for (size_t i = 0; i < ties.size(); ++i) {
     PlannedView& view = plan.views[i];

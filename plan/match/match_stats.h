@@ -21,12 +21,15 @@ struct TiedView {
 struct MatchStats {
   int parts = 0;                  // that the photos fall into
   int bridges = 0;                // pairs that alone hold two parts together
-  int hanging = 0;                // photos that those of one hover alone hold to the rest, or none
+  int hanging = 0;                // photos that those of one hover alone hold to their part
   int loose = 0;                  // photos that lack partners
   std::vector<TiedView> weakest;  // the loose ones, then those with the least strength
+  int apart = 0;                  // photos outside of the largest part
+  std::vector<std::string> apart_of = {};  // buildings that they are meant for, ascending
 };
 
-// The facades whose photos will hang loose, in a sentence; empty where there are none.
-std::string LooseFacades(const MatchStats& stats);
+// What will hang loose, a sentence each; none where nothing does. `links_tried`: link photos were
+// looked for, so that there is none where photos still lack partners.
+std::vector<std::string> MatchWarnings(const MatchStats& stats, bool links_tried);
 
 }  // namespace stucco::plan

@@ -103,6 +103,7 @@ Json MatchesJson(const MatchStats& matches) {
   return {{"parts", matches.parts},
           {"bridges", matches.bridges},
           {"hanging", matches.hanging},
+          {"apart", matches.apart},
           {"loose", matches.loose},
           {"weakest", std::move(weakest)}};
 }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -149,13 +150,55 @@ TEST_F(House, SaysWhichPhotosAreLoose) {
   const MatchStats before = described(hovers_);
   EXPECT_GE(before.loose, Loose());
   EXPECT_TRUE(before.weakest.front().is_loose);
-  EXPECT_NE(LooseFacades(before).find("B0001/F0"), std::string::npos);
+  EXPECT_THAT(MatchWarnings(before, true), testing::Contains(testing::HasSubstr("B0001/F0")));
+  EXPECT_THAT(MatchWarnings(before, false),
+              testing::Contains(testing::HasSubstr("no link photos")));
   AddLinkPhotos(setting_, obstacles_, hovers_, progress_);
   const MatchStats after = described(hovers_);
   EXPECT_EQ(after.loose, 0);
   EXPECT_EQ(after.parts, 1);
-  EXPECT_TRUE(LooseFacades(after).empty());
+  EXPECT_THAT(MatchWarnings(after, true), testing::IsEmpty());
   EXPECT_GE(after.weakest.size(), 10u);
+}
+
+TEST(MatchWarnings, NamePartsAndSingleStops) {
+  MatchStats stats{.parts = 1, .bridges = 0, .hanging = 0, .loose = 0, .weakest = {}};
+  EXPECT_THAT(MatchWarnings(stats, true), testing::IsEmpty());
+  stats.parts = 2;
+  stats.apart = 31;
+  stats.apart_of = {"B0002", "B0003"};
+  stats.hanging = 4;
+  EXPECT_THAT(MatchWarnings(stats, true),
+              testing::ElementsAre(testing::HasSubstr("2 parts with nothing that ties them: 31 of "
+                                                      "them (of B0002, B0003)"),
+                                   testing::HasSubstr("single stop tie to the others: 4")));
+}
+
+// Two houses so far apart that no photo shows the ground of both.
+TEST(ExpectMatches, SaysWhichPhotosAreAPartOfTheirOwn) {
+  const Site site = MadeSite({Rectangle(-6, -5, 6, 5), Rectangle(394, -5, 406, 5)},
+                             {.safe_altitude_m = 28, .margin_m = 28, .heights_m = {6, 6}});
+  const CameraPreset camera = FindCamera("mavic-3e");
+  std::vector<Hover> hovers;
+  struct Plan plan;
+  for (const double east : {0.0, 400.0}) {
+    for (int i = 0; i < (east == 0 ? 4 : 3); ++i) {
+      Hover hover;
+      hover.position = {east + 3 * i, 0, 28};
+      hover.shots.push_back({0, -1.57, ViewKind::kNadir, {}});
+      hovers.push_back(hover);
+      PlannedView view;
+      view.id = "h" + std::to_string(hovers.size());
+      if (east > 0) view.targets.push_back({"B0002/F01", {0, 1}, {0, 6}});
+      plan.views.push_back(view);
+    }
+  }
+  const MatchSetting setting{site, camera, 2};
+  const MatchStats stats = ExpectMatches(PhotoGraph(setting, hovers), hovers, 2, plan);
+  EXPECT_EQ(stats.parts, 2);
+  EXPECT_EQ(stats.apart, 3);
+  EXPECT_THAT(stats.apart_of, testing::ElementsAre("B0002"));
+  EXPECT_EQ(stats.hanging, 0);
 }
 
 TEST_F(House, CandidatesAreFreeAndNearInDirectionAndScale) {

@@ -116,12 +116,15 @@ TEST(Stats, SayHowThePhotosHangTogether) {
       1,
       7,
       1,
-      {{"h0001v1", 2, 1, 0.25, {"B0001/F00"}, true}, {"h0002v1", 5, 0, 1.5, {}, false}}};
+      {{"h0001v1", 2, 1, 0.25, {"B0001/F00"}, true}, {"h0002v1", 5, 0, 1.5, {}, false}},
+      3,
+      {"B0004"}};
   WriteStats(stats, folder / "stats.json");
   const auto matches = nlohmann::json::parse(ReadFile(folder / "stats.json"))["matches"];
   EXPECT_EQ(matches["parts"], 2);
   EXPECT_EQ(matches["bridges"], 1);
   EXPECT_EQ(matches["hanging"], 7);
+  EXPECT_EQ(matches["apart"], 3);
   EXPECT_EQ(matches["loose"], 1);
   EXPECT_EQ(matches["weakest"][0]["close"], 1);
   EXPECT_EQ(matches["weakest"][0]["facades"][0], "B0001/F00");
