@@ -39,6 +39,7 @@
 #include "survey/calibration.h"
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/one_blas_thread.h"
 #include "survey/one_opencv_thread.h"
 #include "survey/plan_of_survey.h"
 #include "survey/survey_folder.h"
@@ -142,9 +143,14 @@ GeoreferenceResult RefineWithRecords(const MapperOptions& mapper,
     }
   }
   for (const int photo : taken) {
-    result.taken[photo] =
-        "its matches give a pose that contradicts its recorded position and angles by more than "
-        "these are good to; something that repeats itself looks like that, or a wrong record";
+    const PoseRecord& record = records[photo];
+    result.taken[photo] = fmt::format(
+        "its matches give a pose that contradicts its recorded {} by more than {} good to; "
+        "something that repeats itself looks like that, or a wrong record",
+        !record.gimbal     ? "position"
+        : !record.position ? "angles"
+                           : "position and angles",
+        record.gimbal ? "these are" : "it is");
   }
   FilterScene(mapper, scene);
   result.off_together = OffTogether(scene);
@@ -224,7 +230,7 @@ GeoreferenceResult Georeference(const Reconstructed& from, const MapperOptions& 
   }
   for (const int photo : result.prior_outliers) {
     context.progress->Warn(
-        fmt::format("{}: its recorded position contradicts the other photos and is not used",
+        fmt::format("{}: its recorded position contradicts the other photos and hardly counts",
                     scene.photos[photo].name));
   }
   result.residuals = MeasurePriors(scene, result.prior_outliers);
@@ -282,12 +288,17 @@ void TakeWeak(const OnRepeatingWalls& repeating, const std::vector<PoseSigma>& s
   for (const int photo : taken) parts.part_of_photo[photo] = -1;
 }
 
-// Those of `why` that could stand before any of several bays, ascending.
-std::vector<int> NoteUnregistered(const OnRepeatingWalls& repeating, const Scene& scene,
+// Those of `why` that match others and could stand before any of several bays, ascending.
+std::vector<int> NoteUnregistered(const OnRepeatingWalls& repeating,
+                                  const std::vector<VerifiedPair>& pairs, const Scene& scene,
                                   const StageContext& context, std::map<int, std::string>& why) {
+  std::vector<bool> matches(scene.photos.size(), false);
+  for (const VerifiedPair& pair : pairs) {
+    matches[pair.pair.first] = matches[pair.pair.second] = true;
+  }
   std::vector<int> ambiguous;
   for (auto& [photo, reason] : why) {
-    if (repeating.IsMostOf(photo)) {
+    if (matches[photo] && repeating.IsMostOf(photo)) {
       ambiguous.push_back(photo);
       reason = kAmbiguous;
     }
@@ -300,6 +311,7 @@ std::vector<int> NoteUnregistered(const OnRepeatingWalls& repeating, const Scene
 
 void RunCalib(const CalibOptions& options, StageContext& context) {
   const OneOpenCvThread photos_run_side_by_side;
+  UseOneBlasThread();
   const UsablePhotos photos = ReadPhotos(context);
   const GroundControl control = ReadGroundControl(options, photos.captures, photos.usable, context);
   const Guidance guidance = GuideByPlan(options, photos.captures, photos.usable, context);
@@ -338,7 +350,7 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   georeference.residuals = MeasurePriors(scene, georeference.prior_outliers);
   std::map<int, std::string> unregistered =
       Unregistered(mapper, pairs, scene, parts, georeference.taken);
-  const std::vector<int> ambiguous = NoteUnregistered(repeating, scene, context, unregistered);
+  const std::vector<int> ambiguous = NoteUnregistered(repeating, pairs, scene, context, unregistered);
   const SummaryInput summary{.captures = photos.captures,
                              .capture_of_photo = photos.capture_of_photo,
                              .scene = scene,

@@ -107,7 +107,13 @@ std::string WhyNoFrame(const UsablePhotos& photos, bool plan_holds_it) {
     positions += photo->position.has_value();
     heights += photo->position && photo->position->has_height;
   }
-  if (heights > 0) return "";
+  if (heights > 0 && !plan_holds_it) {
+    return fmt::format(
+        "only {} of the photos say where and how high they were taken: three or more are needed for "
+        "a scale and a place",
+        heights);
+  }
+  if (heights > 0) return "too few photos have a height: the plan's places took their place";
   if (positions == 0) {
     return plan_holds_it
                ? "the photos do not say where they were taken: they begin where the plan wanted "

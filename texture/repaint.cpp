@@ -32,12 +32,12 @@ struct Work {
   const TextureOptions& options;
   const RepaintRequest& request;
   const TextureInput& input;  // with the new photos
-  const PaintScene& scene;
+  PaintScene scene;
   const StageContext& context;
   const TextureSet& old;
   std::vector<const Facet*> facets = {};            // by facet of `old`
   std::vector<FacetLook> looks = {};                // likewise
-  std::vector<Eigen::Vector3d> gains = {};          // by new photo, against each other
+  PhotosLight light = {};                           // of the new photos, against each other
   Eigen::Vector3d level = Eigen::Vector3d::Ones();  // of all new photos, against the old pictures
 
   fs::path OldFolder() const { return (context.survey / kTexturesFile).parent_path(); }
@@ -73,18 +73,18 @@ void LookAtFacets(Work& work) {
                 "check that they show the buildings of the survey; a wider texture.max_angle_deg "
                 "admits more oblique photos");
   }
-  work.gains = GainsFrom(work.looks, work.input.photos.size());
+  work.light = LightFrom(work.looks, work.input.photos, *work.context.progress);
   // Nothing may become too bright before the new pictures are brought to the level of the old ones.
   double largest = 1;
-  for (const Eigen::Vector3d& gain : work.gains) largest = std::max(largest, gain.maxCoeff());
-  for (Eigen::Vector3d& gain : work.gains) gain /= largest;
+  for (const Eigen::Vector3d& gain : work.light.gains) largest = std::max(largest, gain.maxCoeff());
+  for (Eigen::Vector3d& gain : work.light.gains) gain /= largest;
 }
 
 // The facet from new photos alone, not levelled; checkpointed.
 FacetFiles PaintNew(const Work& work, size_t i) {
   const Facet& facet = *work.facets[i];
   const FacetLook& look = work.looks[i];
-  std::vector<std::string> key = {FilesKey(facet, look, work.input, work.gains, work.options)};
+  std::vector<std::string> key = {FilesKey(facet, look, work.input, work.light, work.options)};
   if (look.grid) {
     const Eigen::Vector3d& origin = look.grid->origin;
     key.push_back(fmt::format("{} {} {} {} {} {}", origin.x(), origin.y(), origin.z(),
@@ -92,12 +92,12 @@ FacetFiles PaintNew(const Work& work, size_t i) {
     if (look.grid->relief) key.push_back(EncodeRelief(*look.grid->relief).png);
   }
   return UnpackFiles(ComputeUnit(work.context, "facet", HashParts(key), [&] {
-    PaintedFacet painted = PaintFacet({facet, look, work.gains, work.scene, work.options});
+    PaintedFacet painted = PaintFacet({facet, look, work.light.gains, work.scene, work.options});
     // What stands before the facet is not the facet, neither to be compared nor to be taken.
     for (size_t texel = 0; texel < painted.in_front.size(); ++texel) {
       if (painted.in_front[texel]) painted.labels[texel] = 255;
     }
-    return PackFiles(MakeFacetFiles(facet, painted, work.input.photos, work.gains, false));
+    return PackFiles(MakeFacetFiles(facet, painted, work.input.photos, work.light.gains, false));
   }));
 }
 
@@ -191,14 +191,23 @@ std::vector<EpochFacet> RepaintSurvey(const TextureOptions& options, const Repai
   }
   const OcclusionScene occlusion(input.proxy);
   const std::vector<NearestPoints> nearest = SplatAll(input, context);
-  PhotoCache cache(context.photos, context.memory_limit_bytes / 3);
-  const PaintScene scene{{input.photos, &occlusion, nearest, input.cloud.positions},
-                         &cache,
-                         input.proxy.up.normalized(),
-                         input.proxy.metric};
-  Work work{options, request, input, scene, context, old};
+  Work work{options,
+            request,
+            input,
+            PaintScene{{input.photos, &occlusion, nearest, input.cloud.positions},
+                       nullptr,
+                       input.proxy.up.normalized(),
+                       input.proxy.metric},
+            context,
+            old};
   work.facets = FacetsOf(old, input.proxy);
-  LookAtFacets(work);
+  {
+    PhotoCache as_taken(context.photos, context.memory_limit_bytes / 3);
+    work.scene.cache = &as_taken;
+    LookAtFacets(work);
+  }
+  PhotoCache even = EvenPhotos(input.photos, work.light, context);
+  work.scene.cache = &even;
   work.level = PaintAllNew(work);
   TextureSet textures;
   std::vector<EpochFacet> found = WritePictures(work, textures);

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <condition_variable>
+#include <map>
 #include <mutex>
 #include <numeric>
 
@@ -140,12 +142,43 @@ std::vector<FacetLook> LookAtAll(const std::vector<const Facet*>& facets, const 
   return looks;
 }
 
-std::vector<Eigen::Vector3d> GainsFrom(const std::vector<FacetLook>& looks, size_t photos) {
+PhotosLight LightFrom(const std::vector<FacetLook>& looks, std::span<const SurveyPhoto> photos,
+                      Progress& progress) {
   std::vector<ColourRatio> ratios;
   for (const FacetLook& look : looks) {
     ratios.insert(ratios.end(), look.ratios.begin(), look.ratios.end());
   }
-  return SolveGains(ratios, photos);
+  std::map<CameraId, int> lenses;
+  std::vector<int> lens_of_photo;
+  for (const SurveyPhoto& photo : photos) {
+    const auto next = static_cast<int>(lenses.size());
+    lens_of_photo.push_back(lenses.try_emplace(photo.camera.id, next).first->second);
+  }
+  constexpr double kGamma = 2.2;  // light of codes, about
+  PhotosLight light = SolveLight(ratios, lens_of_photo);
+  for (const auto& [camera, lens] : lenses) {
+    const auto photo = std::ranges::find(lens_of_photo, lens) - lens_of_photo.begin();
+    const Falloff& falloff = light.falloffs[photo];
+    if (falloff.IsNone()) continue;
+    progress.Note(
+        fmt::format("the corners of photos get {:.0f} % of the light of their middle: "
+                    "evened out",
+                    100 * std::exp(kGamma * falloff.LogAt(1))));
+  }
+  return light;
+}
+
+PhotoCache EvenPhotos(std::span<const SurveyPhoto> photos, const PhotosLight& light,
+                      const StageContext& context) {
+  std::map<std::string, std::pair<Falloff, Camera>> lens_of;
+  for (size_t i = 0; i < photos.size(); ++i) {
+    lens_of[photos[i].path()] = {light.falloffs[i], photos[i].camera};
+  }
+  return {context.photos, context.memory_limit_bytes / 3,
+          [lens_of = std::move(lens_of)](const std::string& name, Image& photo) {
+            const auto& [falloff, camera] = lens_of.at(name);
+            EvenOut(falloff, camera, photo);
+          }};
 }
 
 void ForEachFacet(std::span<const uint64_t> bytes, const StageContext& context,

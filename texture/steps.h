@@ -12,6 +12,7 @@
 
 #include "survey/stage.h"
 #include "survey/texture_set.h"
+#include "texture/light/solve_light.h"
 #include "texture/options/texture_options.h"
 #include "texture/painting/facet_unit.h"
 #include "texture/views/input.h"
@@ -33,8 +34,13 @@ std::vector<FacetLook> LookAtAll(const std::vector<const Facet*>& facets, const 
                                  const PaintScene& scene, const TextureOptions& options,
                                  const StageContext& context);
 
-// By photo: what makes them agree with each other.
-std::vector<Eigen::Vector3d> GainsFrom(const std::vector<FacetLook>& looks, size_t photos);
+// What makes the photos agree with each other; says where lenses darken their corners.
+PhotosLight LightFrom(const std::vector<FacetLook>& looks, std::span<const SurveyPhoto> photos,
+                      Progress& progress);
+
+// The photos as painting takes them, in the light of their middle.
+PhotoCache EvenPhotos(std::span<const SurveyPhoto> photos, const PhotosLight& light,
+                      const StageContext& context);
 
 // Calls work(i) for every facet, once each, on all threads: of those that fit beside each other
 // (`bytes`, by facet, of the memory beside the photo cache) the one with most first, since it takes

@@ -26,8 +26,8 @@ constexpr double kNotedCoarseness = 1.1;
 // All there is to paint.
 struct Painting {
   std::vector<const Facet*> facets;
-  std::vector<FacetLook> looks;        // by facet
-  std::vector<Eigen::Vector3d> gains;  // by photo
+  std::vector<FacetLook> looks;  // by facet
+  PhotosLight light;
 };
 
 // What painting needs, by facet.
@@ -52,14 +52,15 @@ std::vector<TexturedFacet> PaintAll(const Painting& painting, const TextureInput
   context.progress->Begin("painting facets", facets.size());
   ForEachFacet(BytesOf(painting, scene, options), context, [&](size_t i) {
     context.ThrowIfCancelled();
-    const std::string key = FilesKey(*facets[i], painting.looks[i], input, painting.gains, options);
+    const std::string key = FilesKey(*facets[i], painting.looks[i], input, painting.light, options);
     const auto paint = [&](PaintRecord* record) {
-      return PaintFacet({*facets[i], painting.looks[i], painting.gains, scene, options}, record);
+      return PaintFacet({*facets[i], painting.looks[i], painting.light.gains, scene, options},
+                        record);
     };
     FacetFiles files = UnpackFiles(ComputeUnit(context, "texture_facet", key, [&] {
       const PaintedFacet painted = paint(nullptr);
-      return PackFiles(
-          MakeFacetFiles(*facets[i], painted, input.photos, painting.gains, options.orthophotos));
+      return PackFiles(MakeFacetFiles(*facets[i], painted, input.photos, painting.light.gains,
+                                      options.orthophotos));
     }));
     if (options.debug) {
       PaintRecord record;
@@ -128,15 +129,20 @@ void RunTexture(const TextureOptions& options, StageContext& context) {
   // 2. What hides what.
   const OcclusionScene occlusion(input.proxy);
   const std::vector<NearestPoints> nearest = SplatAll(input, context);
-  PhotoCache cache(context.photos, context.memory_limit_bytes / 3);
-  const PaintScene scene{{input.photos, &occlusion, nearest, input.cloud.positions},
-                         &cache,
-                         input.proxy.up.normalized(),
-                         input.proxy.metric};
+  PaintScene scene{{input.photos, &occlusion, nearest, input.cloud.positions},
+                   nullptr,
+                   input.proxy.up.normalized(),
+                   input.proxy.metric};
 
   // 3. Who sees each facet, how finely and how brightly.
-  painting.looks = LookAtAll(painting.facets, input, scene, options, context);
-  painting.gains = GainsFrom(painting.looks, input.photos.size());
+  {
+    PhotoCache as_taken(context.photos, context.memory_limit_bytes / 3);
+    scene.cache = &as_taken;
+    painting.looks = LookAtAll(painting.facets, input, scene, options, context);
+  }
+  painting.light = LightFrom(painting.looks, input.photos, *context.progress);
+  PhotoCache even = EvenPhotos(input.photos, painting.light, context);
+  scene.cache = &even;
 
   // 4. Paint.
   TextureSet textures;

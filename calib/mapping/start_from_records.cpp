@@ -334,7 +334,7 @@ RecordsStart StartFromRecords(const MapperOptions& options, const std::vector<Ve
   RecordsStart start{true, "", NumRegistered(scene)};
   context.progress->Note(
       fmt::format("{} of {} photos placed by their records ({} pairs turn as the gimbals say, "
-                  "median epipolar error {:.1f} px before)",
+                  "matches lay {:.1f} standard deviations of a keypoint off before, in the middle)",
                   start.num_registered, recorded, motions.size(), error));
   if (start.num_registered >= kLeastPlaced * static_cast<double>(recorded)) return start;
   TakeBack(records, cameras, scene);

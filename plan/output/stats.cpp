@@ -100,12 +100,8 @@ Json MatchesJson(const MatchStats& matches) {
     }
     weakest.push_back(std::move(json));
   }
-  return {{"parts", matches.parts},
-          {"bridges", matches.bridges},
-          {"hanging", matches.hanging},
-          {"apart", matches.apart},
-          {"loose", matches.loose},
-          {"weakest", std::move(weakest)}};
+  return {{"parts", matches.parts}, {"bridges", matches.bridges}, {"hanging", matches.hanging},
+          {"apart", matches.apart}, {"loose", matches.loose},     {"weakest", std::move(weakest)}};
 }
 
 }  // namespace

@@ -63,22 +63,26 @@ TEST(FilesKey, ChangesWithWhatTheFacetDependsOnOnly) {
   }
   FacetLook look;
   look.candidates = {{0, 1, 1}, {1, 1, 1}};
-  std::vector<Eigen::Vector3d> gains(3, Eigen::Vector3d::Ones());
+  PhotosLight light{std::vector<Eigen::Vector3d>(3, Eigen::Vector3d::Ones()),
+                    std::vector<Falloff>(3)};
   TextureOptions options;
-  const auto key = [&] { return FilesKey(wall, look, input, gains, options); };
+  const auto key = [&] { return FilesKey(wall, look, input, light, options); };
   const std::string original = key();
 
   input.photos[2].captured.hash = "other";  // no candidate
-  gains[2] *= 2;
+  light.gains[2] *= 2;
   options.glb_quality = 50;
   EXPECT_EQ(key(), original);
   input.photos[1].captured.hash = "other";
   EXPECT_NE(key(), original);
   input.photos[1].captured.hash = "b";
   EXPECT_EQ(key(), original);
-  gains[0].x() = 1.01;
+  light.gains[0].x() = 1.01;
   EXPECT_NE(key(), original);
-  gains[0].x() = 1;
+  light.gains[0].x() = 1;
+  light.falloffs[0].terms[0] = -0.1;
+  EXPECT_NE(key(), original);
+  light.falloffs[0] = {};
   input.photos[0].cam_from_world.translation.x() += 1e-9;
   EXPECT_NE(key(), original);
   input.photos[0].cam_from_world.translation.x() -= 1e-9;
@@ -103,14 +107,14 @@ TEST(FilesKey, ChangesWithThePlannedPhotosOfTheFacade) {
   input.photos = {test::LookFrom("a", {2, -5, 1}, {2, 0, 1}, {100, 100, 100})};
   FacetLook look;
   look.candidates = {{0, 1, 1}};
-  const std::vector<Eigen::Vector3d> gains(1, Eigen::Vector3d::Ones());
-  const std::string files = FilesKey(wall, look, input, gains, {});
+  const PhotosLight light{{Eigen::Vector3d::Ones()}, {Falloff()}};
+  const std::string files = FilesKey(wall, look, input, light, {});
   const std::string first_look = LookKey(wall, input, {});
   input.photos[0].planned_facades = {"B0009/F02"};
-  EXPECT_EQ(FilesKey(wall, look, input, gains, {}), files);
+  EXPECT_EQ(FilesKey(wall, look, input, light, {}), files);
   EXPECT_EQ(LookKey(wall, input, {}), first_look);
   input.photos[0].planned_facades = {"B0009/F01"};
-  EXPECT_NE(FilesKey(wall, look, input, gains, {}), files);
+  EXPECT_NE(FilesKey(wall, look, input, light, {}), files);
   EXPECT_NE(LookKey(wall, input, {}), first_look);
 }
 

@@ -147,6 +147,11 @@ TEST(PhotoCache, DecodesOnceAndForgetsTheOldest) {
   EXPECT_EQ(cache.Get("a.jpg", 50)->levels[0].width_px, 50);
   EXPECT_EQ(cache.Get("a.jpg", 50)->full_width_px, 200);
   EXPECT_THROW(cache.Get("missing.jpg", 0), Error);
+  PhotoCache prepared(folder.path(), 170000, [](const std::string& name, Image& photo) {
+    photo.Pixel(0, 0)[0] = name == "b.jpg" ? 250 : 0;
+  });
+  EXPECT_EQ(prepared.Get("b.jpg", 0)->levels[0].Pixel(0, 0)[0], 250);
+  EXPECT_GT(prepared.Get("b.jpg", 0)->levels[1].Pixel(0, 0)[0], 100);
 }
 
 }  // namespace

@@ -268,7 +268,8 @@ std::optional<ColourRatio> BrightnessRatio(const FacetPicture& before, const Fac
       rgb_before.push_back(before.picture.data[k]);
     }
   }
-  return MeasureRatio(0, 1, rgb_after, rgb_before, both);
+  const auto ratios = MeasureRatios({0, rgb_after, {}}, {1, rgb_before, {}}, both);
+  return ratios.empty() ? std::nullopt : std::optional(ratios.front());
 }
 
 EpochPicture MakeEpochPicture(EpochFacetInput input, const EpochStyle& style) {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "texture/light/colour.h"
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 
@@ -15,73 +13,37 @@ namespace {
 constexpr float kDarkest = 12;     // below, noise and black clipping change ratios
 constexpr float kBrightest = 245;  // above, clipped
 constexpr size_t kFewestTexels = 24;
-// Deviations: of a measured log ratio with many texels, and of a photo's gain from 1.
-constexpr double kRatioSigma = 0.02;
-constexpr double kGainSigma = 0.5;
-constexpr double kManyTexels = 200;
-constexpr double kHuberWidth = 0.06;
-constexpr int kRounds = 8;
-constexpr double kLargestGain = 4;
+constexpr size_t kMostGroups = 4;
+constexpr double kLargestCommonGain = 4;
 constexpr size_t kFewestFacets = 3;  // of which one may have another colour
 // Hues of facets that lie farther apart than this, in the middle, have no white balance in common:
 // logarithms of encoded colours, about what eyes see beside each other.
 constexpr double kAgreeingHues = 0.05;
 
-// Hues of gains farther from the middle of all than both: logarithms, and times the median
-// distance.
-constexpr double kAlwaysLikely = 0.05;
-constexpr double kFarFromUsual = 4;
-
-// A tree or a car before most of what a photo shows makes its ratios those of leaves to plaster; a
-// camera's white balance does no such thing to one photo. Hues that are far from those of the other
-// photos in `logs` come back to where they are still likely.
-void LimitHues(const std::vector<size_t>& compared, std::vector<Eigen::Vector3d>& logs) {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+// The median ratio over some texels.
+ColourRatio RatioOver(const PhotoColours& a, const PhotoColours& b,
+                      std::span<const size_t> texels) {
+  ColourRatio ratio{.a = a.photo, .b = b.photo, .weight = static_cast<double>(texels.size())};
   for (int k = 0; k < 3; ++k) {
-    std::vector<double> values;
-    values.reserve(compared.size());
-    for (const size_t i : compared) values.push_back(HueOf(logs[i])[k]);
-    middle[k] = Median(std::move(values)).value_or(0);
-  }
-  std::vector<double> apart;
-  apart.reserve(compared.size());
-  for (const size_t i : compared) apart.push_back((HueOf(logs[i]) - middle).norm());
-  const double most = std::max(kAlwaysLikely, kFarFromUsual * Median(apart).value_or(0));
-  for (size_t n = 0; n < compared.size(); ++n) {
-    if (!(apart[n] > most)) continue;
-    Eigen::Vector3d& log = logs[compared[n]];
-    const Eigen::Vector3d hue = middle + (HueOf(log) - middle) * (most / apart[n]);
-    log = hue.array() + (log.mean() - hue.mean());
-  }
-}
-
-// One channel: log gains.
-Eigen::VectorXd SolveChannel(std::span<const ColourRatio> ratios, size_t photos, int channel) {
-  const auto count = static_cast<Eigen::Index>(photos);
-  Eigen::VectorXd log_gain = Eigen::VectorXd::Zero(count);
-  for (int round = 0; round < kRounds; ++round) {
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      entries.emplace_back(i, i, 1 / (kGainSigma * kGainSigma));
+    std::vector<double> logs;
+    logs.reserve(texels.size());
+    for (const size_t i : texels) {
+      logs.push_back(std::log(static_cast<double>(a.rgb[3 * i + k]) / b.rgb[3 * i + k]));
     }
-    for (const ColourRatio& ratio : ratios) {
-      const double difference = log_gain[ratio.a] - log_gain[ratio.b] + ratio.log_ratio[channel];
-      const double huber = std::min(1.0, kHuberWidth / std::max(1e-12, std::abs(difference)));
-      const double weight =
-          huber * std::min(1.0, ratio.weight / kManyTexels) / (kRatioSigma * kRatioSigma);
-      entries.emplace_back(ratio.a, ratio.a, weight);
-      entries.emplace_back(ratio.b, ratio.b, weight);
-      entries.emplace_back(ratio.a, ratio.b, -weight);
-      entries.emplace_back(ratio.b, ratio.a, -weight);
-      right[ratio.a] -= weight * ratio.log_ratio[channel];
-      right[ratio.b] += weight * ratio.log_ratio[channel];
-    }
-    Eigen::SparseMatrix<double> normal(count, count);
-    normal.setFromTriplets(entries.begin(), entries.end());
-    log_gain = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(normal).solve(right);
+    ratio.log_ratio[k] = *Median(std::move(logs));
   }
-  return log_gain;
+  const auto mean = [&](const PhotoColours& photo) {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    if (photo.corner_share.empty()) return sum;
+    for (const size_t i : texels) {
+      const double share = photo.corner_share[i];
+      sum += Eigen::Vector2d(share, share * share);
+    }
+    return Eigen::Vector2d(sum / static_cast<double>(texels.size()));
+  };
+  ratio.corner_a = mean(a);
+  ratio.corner_b = mean(b);
+  return ratio;
 }
 
 }  // namespace
@@ -90,46 +52,30 @@ Eigen::Vector3d HueOf(const Eigen::Vector3d& logs) {
   return logs.array() - logs.mean();
 }
 
-std::optional<ColourRatio> MeasureRatio(int a, int b, std::span<const float> rgb_a,
-                                        std::span<const float> rgb_b,
-                                        std::span<const uint8_t> both_show) {
-  std::vector<double> logs[3];
+std::vector<ColourRatio> MeasureRatios(const PhotoColours& a, const PhotoColours& b,
+                                       std::span<const uint8_t> both_show) {
   const auto usable = [](const float* rgb) {
     return std::min({rgb[0], rgb[1], rgb[2]}) > kDarkest &&
            std::max({rgb[0], rgb[1], rgb[2]}) < kBrightest;
   };
+  std::vector<size_t> texels;
   for (size_t i = 0; i < both_show.size(); ++i) {
-    if (!both_show[i] || !usable(&rgb_a[3 * i]) || !usable(&rgb_b[3 * i])) continue;
-    for (int k = 0; k < 3; ++k) {
-      logs[k].push_back(std::log(static_cast<double>(rgb_a[3 * i + k]) / rgb_b[3 * i + k]));
-    }
+    if (both_show[i] && usable(&a.rgb[3 * i]) && usable(&b.rgb[3 * i])) texels.push_back(i);
   }
-  if (logs[0].size() < kFewestTexels) return std::nullopt;
-  ColourRatio ratio{a, b};
-  for (int k = 0; k < 3; ++k) ratio.log_ratio[k] = *Median(logs[k]);
-  ratio.weight = static_cast<double>(logs[0].size());
-  return ratio;
-}
-
-std::vector<Eigen::Vector3d> SolveGains(std::span<const ColourRatio> ratios, size_t photos) {
-  std::vector<Eigen::Vector3d> gains(photos, Eigen::Vector3d::Ones());
-  if (ratios.empty()) return gains;
-  std::vector<Eigen::Vector3d> logs(photos, Eigen::Vector3d::Zero());
-  for (int channel = 0; channel < 3; ++channel) {
-    const Eigen::VectorXd log_gain = SolveChannel(ratios, photos, channel);
-    for (size_t i = 0; i < photos; ++i) logs[i][channel] = log_gain[static_cast<Eigen::Index>(i)];
+  if (texels.size() < kFewestTexels) return {};
+  size_t groups = 1;
+  if (!a.corner_share.empty() && !b.corner_share.empty()) {
+    groups = std::min(kMostGroups, texels.size() / kFewestTexels);
+    std::ranges::stable_sort(texels, {},
+                             [&](size_t i) { return a.corner_share[i] - b.corner_share[i]; });
   }
-  std::vector<uint8_t> is_compared(photos, 0);
-  for (const ColourRatio& ratio : ratios) is_compared[ratio.a] = is_compared[ratio.b] = 1;
-  std::vector<size_t> compared;
-  for (size_t i = 0; i < photos; ++i) {
-    if (is_compared[i]) compared.push_back(i);
+  std::vector<ColourRatio> ratios;
+  for (size_t group = 0; group < groups; ++group) {
+    const size_t begin = group * texels.size() / groups;
+    const size_t end = (group + 1) * texels.size() / groups;
+    ratios.push_back(RatioOver(a, b, std::span(texels).subspan(begin, end - begin)));
   }
-  LimitHues(compared, logs);
-  for (const size_t i : compared) {
-    gains[i] = logs[i].array().exp().max(1 / kLargestGain).min(kLargestGain);
-  }
-  return gains;
+  return ratios;
 }
 
 Eigen::Vector3d CommonGain(std::span<const ColourRatio> ratios) {
@@ -146,7 +92,7 @@ Eigen::Vector3d CommonGain(std::span<const ColourRatio> ratios) {
   if (ratios.size() < kFewestFacets || *Median(std::move(apart)) > kAgreeingHues) {
     log_ratio.setConstant(log_ratio.mean());
   }
-  return (-log_ratio).array().exp().min(kLargestGain).max(1 / kLargestGain);
+  return (-log_ratio).array().exp().min(kLargestCommonGain).max(1 / kLargestCommonGain);
 }
 
 }  // namespace stucco

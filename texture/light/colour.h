@@ -10,28 +10,34 @@
 
 namespace stucco {
 
-// How much brighter one photo shows the same surface than another, per channel.
+// How much brighter one photo shows the same surface than another, per channel. Colours are codes
+// of photos, which follow light about as a power does: what brightens all light by a factor
+// multiplies all codes by one.
 struct ColourRatio {
   int a = -1;  // indices of the photos
   int b = -1;
   Eigen::Vector3d log_ratio = Eigen::Vector3d::Zero();  // log(colour in a / colour in b)
   double weight = 0;                                    // number of texels it is the median of
+  // Means over these texels of what the lens's falloff goes by: CornerShare and its square.
+  Eigen::Vector2d corner_a = Eigen::Vector2d::Zero();
+  Eigen::Vector2d corner_b = Eigen::Vector2d::Zero();
 };
 
 // The part of a difference between logarithms of colours that brighter light does not make.
 Eigen::Vector3d HueOf(const Eigen::Vector3d& logs);
 
-// The median ratio over the texels that both show freely and that are neither black nor clipped
-// in either; nothing with fewer than 24 of them. Colours are 3 per texel, 0 to 255.
-std::optional<ColourRatio> MeasureRatio(int a, int b, std::span<const float> rgb_a,
-                                        std::span<const float> rgb_b,
-                                        std::span<const uint8_t> both_show);
+// What one photo shows of some texels.
+struct PhotoColours {
+  int photo = -1;
+  std::span<const float> rgb;           // 3 per texel, 0 to 255
+  std::span<const float> corner_share;  // CornerShare of where it shows them; empty: not known
+};
 
-// Gains per photo and channel that make the photos agree: least squares on the logarithms over all
-// overlaps of the whole model, with Huber weights, drawn to 1 (Brown & Lowe, "Automatic Panoramic
-// Image Stitching using Invariant Features", 2007, on ratios). Hues that only one photo has are
-// held near those of the others. Photos without overlap keep 1.
-std::vector<Eigen::Vector3d> SolveGains(std::span<const ColourRatio> ratios, size_t photos);
+// The median ratio over the texels that both show freely and that are neither black nor clipped
+// in either; nothing with fewer than 24 of them. Where these are many, up to four, of texels that
+// lie alike in the two pictures: between them, exposures are the same and falloffs differ.
+std::vector<ColourRatio> MeasureRatios(const PhotoColours& a, const PhotoColours& b,
+                                       std::span<const uint8_t> both_show);
 
 // What brings all of `a` to their `b`, when each ratio is of another facet and of the same two
 // days: the median of each channel, so that a facade that was painted over does not recolour the

@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 // Raise when the meaning of a unit or the method behind it changes.
-constexpr char kVersion[] = "9";
+constexpr char kVersion[] = "10";
 
 json FromVector(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
@@ -159,7 +159,8 @@ std::string PackLook(const FacetLook& look) {
   for (const Candidate& c : look.candidates) candidates.push_back({c.photo, c.seen, c.merit});
   json ratios = json::array();
   for (const ColourRatio& r : look.ratios) {
-    ratios.push_back({r.a, r.b, r.weight, FromVector(r.log_ratio)});
+    ratios.push_back({r.a, r.b, r.weight, FromVector(r.log_ratio), r.corner_a[0], r.corner_a[1],
+                      r.corner_b[0], r.corner_b[1]});
   }
   const json limits = {look.limits.max_angle_deg, look.limits.tolerance, look.limits.clearance};
   return ToBytes(
@@ -177,7 +178,12 @@ FacetLook UnpackLook(const std::string& bytes) {
     const json& limits = j.at("limits");
     look.limits = {limits.at(0), limits.at(1), limits.at(2)};
     for (const json& r : j.at("ratios")) {
-      look.ratios.push_back({r.at(0), r.at(1), ToVector(r.at(3)), r.at(2)});
+      look.ratios.push_back({r.at(0),
+                             r.at(1),
+                             ToVector(r.at(3)),
+                             r.at(2),
+                             {r.at(4).get<double>(), r.at(5).get<double>()},
+                             {r.at(6).get<double>(), r.at(7).get<double>()}});
     }
   } catch (const json::exception& problem) {
     throw Error(ErrorKind::kBadInput, fmt::format("not a facet's first look: {}", problem.what()));
@@ -256,15 +262,17 @@ std::string LookKey(const Facet& facet, const TextureInput& input, const Texture
 }
 
 std::string FilesKey(const Facet& facet, const FacetLook& look, const TextureInput& input,
-                     std::span<const Eigen::Vector3d> gains, const TextureOptions& options) {
+                     const PhotosLight& light, const TextureOptions& options) {
   std::vector<std::string> parts = {
       kVersion, facet.id, input.geometry_hash, OptionsText(options),
       fmt::format("{} {} {}", look.texel, look.limits.tolerance, look.limits.clearance)};
   for (const Candidate& candidate : look.candidates) {
-    const Eigen::Vector3d& gain = gains[candidate.photo];
+    const Eigen::Vector3d& gain = light.gains[candidate.photo];
+    const Eigen::Vector2d& falloff = light.falloffs[candidate.photo].terms;
     const SurveyPhoto& photo = input.photos[candidate.photo];
     parts.push_back(PhotoText(photo) + (IsPlannedFor(facet, photo) ? " planned" : ""));
-    parts.push_back(fmt::format("{} {} {}", gain.x(), gain.y(), gain.z()));
+    parts.push_back(
+        fmt::format("{} {} {} {} {}", gain.x(), gain.y(), gain.z(), falloff[0], falloff[1]));
   }
   return HashParts(parts);
 }

@@ -8,6 +8,7 @@
 
 #include "survey/texture_set.h"
 #include "texture/grid/relief_file.h"
+#include "texture/light/solve_light.h"
 #include "texture/options/texture_options.h"
 #include "texture/painting/paint.h"
 #include "texture/views/input.h"
@@ -40,6 +41,6 @@ FacetFiles UnpackFiles(const std::string& bytes);
 
 std::string LookKey(const Facet& facet, const TextureInput& input, const TextureOptions& options);
 std::string FilesKey(const Facet& facet, const FacetLook& look, const TextureInput& input,
-                     std::span<const Eigen::Vector3d> gains, const TextureOptions& options);
+                     const PhotosLight& light, const TextureOptions& options);
 
 }  // namespace stucco

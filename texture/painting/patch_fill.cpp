@@ -14,7 +14,7 @@ namespace {
 constexpr int kRadius = 3;
 constexpr int kSmallestLevel = 40;  // shorter side of the coarsest level, texels
 constexpr size_t kFewestSources = 200;
-constexpr int kRounds = 4;             // of matching and voting per level
+constexpr int kVotingRounds = 4;       // of matching and voting per level
 constexpr int kSweeps = 3;             // of propagation and random search per round
 constexpr float kTrustFalloff = 1.3f;  // per texel into the hole
 
@@ -221,7 +221,7 @@ cv::Mat Synthesize(std::vector<Level>& levels, uint32_t seed) {
       continue;
     }
     matcher.Start(field);
-    for (int round = 0; round < kRounds; ++round) matcher.Round();
+    for (int round = 0; round < kVotingRounds; ++round) matcher.Round();
     field = matcher.MatchField();
   }
   return field;

@@ -53,14 +53,16 @@ PhotoPyramid BuildPyramid(Image picture, int full_width_px, int full_height_px) 
   return pyramid;
 }
 
-PhotoCache::PhotoCache(const std::filesystem::path& folder, uint64_t limit_bytes)
+PhotoCache::PhotoCache(const std::filesystem::path& folder, uint64_t limit_bytes, Prepare prepare)
     : photos_(
           limit_bytes,
-          [folder](const std::pair<std::string, int>& key) {
+          [folder, prepare = std::move(prepare)](const std::pair<std::string, int>& key) {
             const std::filesystem::path path = folder / key.first;
             const ImageSize full = ReadJpegSize(path);
+            Image photo = ReadJpeg(path, 3, key.second);
+            if (prepare) prepare(key.first, photo);
             return std::make_shared<const PhotoPyramid>(
-                BuildPyramid(ReadJpeg(path, 3, key.second), full.width_px, full.height_px));
+                BuildPyramid(std::move(photo), full.width_px, full.height_px));
           },
           SizeOf) {}
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -28,7 +29,9 @@ PhotoPyramid BuildPyramid(Image picture, int full_width_px, int full_height_px);
 // `limit_bytes`. Thread-safe.
 class PhotoCache {
  public:
-  PhotoCache(const std::filesystem::path& folder, uint64_t limit_bytes);
+  // `prepare` has its way with each photo, by its name, before it is halved.
+  using Prepare = std::function<void(const std::string& name, Image& photo)>;
+  PhotoCache(const std::filesystem::path& folder, uint64_t limit_bytes, Prepare prepare = {});
 
   // `max_side_px` 0: full size. Throws Error (kBadInput) where the file cannot be decoded.
   std::shared_ptr<const PhotoPyramid> Get(const std::string& name, int max_side_px) {

@@ -13,7 +13,7 @@ constexpr float kSharpEdge = 12;  // grey levels from cell to cell: sharper edge
 constexpr float kEdgeWorth = 0.3f;  // of a cell's length of such an edge, in correlations of a cell
 constexpr float kLineWorth = 0.15f;  // likewise, on the line of another window's side
 constexpr int kSnapRounds = 3;
-constexpr int kLeastSide = 5;  // cells
+constexpr int kLeastOpeningSide = 5;  // cells
 
 // Of a part of the raster, from sums over all cells above and left of each corner.
 class PartSums {
@@ -95,7 +95,8 @@ CellRectangle WallEdges::Snap(CellRectangle cells, const CellRectangle& part,
     for (int at = std::max(low, found.*side - reach); at <= last; ++at) {
       CellRectangle moved = cells;
       moved.*side = at;
-      if (std::min(moved.right - moved.left, moved.bottom - moved.top) < kLeastSide) continue;
+      if (std::min(moved.right - moved.left, moved.bottom - moved.top) < kLeastOpeningSide)
+        continue;
       const double now = worth(moved) + (lines[at] ? on_line : 0);
       if (now <= most) continue;
       most = now;

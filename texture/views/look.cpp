@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "texture/light/falloff.h"
 #include "texture/photos/resample.h"
 #include "texture/views/plan_prior.h"
 
@@ -54,14 +55,30 @@ std::vector<float> CostsOver(const RasterView& view, const TexelGrid& raster, do
   return ViewCosts(view, raster.texel, texel, scene.sights.photos[view.photo].relative_sharpness);
 }
 
+// Where in the photo's picture the texels of a raster lie.
+std::vector<float> CornerShares(const SurveyPhoto& photo, const TexelGrid& raster) {
+  std::vector<float> shares;
+  shares.reserve(raster.size());
+  for (int y = 0; y < raster.height; ++y) {
+    for (int x = 0; x < raster.width; ++x) {
+      const auto pixel = ProjectIntoPhoto(photo, raster.Center(x, y));
+      shares.push_back(pixel ? static_cast<float>(CornerShare(photo.camera, *pixel)) : 0.0F);
+    }
+  }
+  return shares;
+}
+
 // How much brighter each candidate is than each other.
-std::vector<ColourRatio> MeasureRatios(std::span<const Candidate> candidates,
+std::vector<ColourRatio> RatiosBetween(std::span<const Candidate> candidates,
                                        std::span<const RasterView> views, const TexelGrid& raster,
                                        const PaintScene& scene) {
   std::vector<std::vector<float>> colours;
+  std::vector<std::vector<float>> corners;
   std::vector<const RasterView*> sights;
   for (const Candidate& candidate : candidates) {
-    colours.push_back(SampleRaster(scene.sights.photos[candidate.photo], raster, *scene.cache));
+    const SurveyPhoto& photo = scene.sights.photos[candidate.photo];
+    colours.push_back(SampleRaster(photo, raster, *scene.cache));
+    corners.push_back(CornerShares(photo, raster));
     sights.push_back(&*std::find_if(views.begin(), views.end(), [&](const RasterView& view) {
       return view.photo == candidate.photo;
     }));
@@ -74,9 +91,9 @@ std::vector<ColourRatio> MeasureRatios(std::span<const Candidate> candidates,
         both[i] = sights[a]->texels[i].sight == Sight::kFree &&
                   sights[b]->texels[i].sight == Sight::kFree;
       }
-      const auto ratio =
-          MeasureRatio(candidates[a].photo, candidates[b].photo, colours[a], colours[b], both);
-      if (ratio) ratios.push_back(*ratio);
+      const auto measured = MeasureRatios({candidates[a].photo, colours[a], corners[a]},
+                                          {candidates[b].photo, colours[b], corners[b]}, both);
+      ratios.insert(ratios.end(), measured.begin(), measured.end());
     }
   }
   return ratios;
@@ -173,7 +190,7 @@ FacetLook LookAtFacet(const Facet& facet, const PaintScene& scene, const Texture
     for (float& cost : costs.back()) cost += prior[v];
   }
   look.candidates = RankCandidates(views, raster.inside, costs, options.max_candidates);
-  if (options.colour) look.ratios = MeasureRatios(look.candidates, views, grid, scene);
+  if (options.colour) look.ratios = RatiosBetween(look.candidates, views, grid, scene);
   return look;
 }
 
