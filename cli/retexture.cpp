@@ -78,8 +78,8 @@ void AddRetexture(CLI::App& app, Program& program) {
                   "the photo folder)")
       ->type_name("NAME");
   verb.add_option("--replace", *mode,
-                  "auto: pictures of facets that changed, that new photos show finer, or that had "
-                  "gaps; always: wherever new photos show a facet; never: fill gaps only")
+                  "auto: pictures of facets that changed, and gaps of those that did not; always: "
+                  "wherever new photos show a facet; never: fill gaps only")
       ->type_name("WHEN")
       ->check(CLI::IsMember(std::set<std::string>{"auto", "always", "never"}))
       ->capture_default_str();

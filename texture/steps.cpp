@@ -11,6 +11,7 @@
 #include <map>
 #include <mutex>
 #include <numeric>
+#include <tuple>
 
 #include "survey/files.h"
 #include "survey/parallel.h"
@@ -148,11 +149,15 @@ PhotosLight LightFrom(const std::vector<FacetLook>& looks, std::span<const Surve
   for (const FacetLook& look : looks) {
     ratios.insert(ratios.end(), look.ratios.begin(), look.ratios.end());
   }
-  std::map<CameraId, int> lenses;
+  // Photos of an epoch have cameras of their own that are the same.
+  std::map<std::tuple<CameraModel, int, int, std::vector<double>>, int> lenses;
   std::vector<int> lens_of_photo;
   for (const SurveyPhoto& photo : photos) {
+    const Camera& camera = photo.camera;
     const auto next = static_cast<int>(lenses.size());
-    lens_of_photo.push_back(lenses.try_emplace(photo.camera.id, next).first->second);
+    const auto [lens, added] =
+        lenses.try_emplace({camera.model, camera.width_px, camera.height_px, camera.params}, next);
+    lens_of_photo.push_back(lens->second);
   }
   constexpr double kGamma = 2.2;  // light of codes, about
   PhotosLight light = SolveLight(ratios, lens_of_photo);

@@ -183,8 +183,10 @@ void RequirePlaced(const std::vector<EpochPhoto>& photos, Progress& progress) {
   progress.Note(fmt::format("{} of {} photos are placed in the survey", placed, photos.size()));
 }
 
+// With the facades that the plan means them for where textures go by it.
 std::vector<SurveyPhoto> PosedPhotos(const std::vector<EpochPhoto>& photos,
-                                     const Captures& captures, const StageContext& context) {
+                                     const Captures& captures, bool guided,
+                                     const StageContext& context) {
   Reconstruction model;
   for (size_t i = 0; i < photos.size(); ++i) {
     if (!photos[i].is_placed()) continue;
@@ -197,7 +199,7 @@ std::vector<SurveyPhoto> PosedPhotos(const std::vector<EpochPhoto>& photos,
   }
   std::vector<SurveyPhoto> posed = JoinPhotos(model, captures);
   std::ranges::sort(posed, {}, &SurveyPhoto::path);
-  if (const auto plan = PlanOfSurvey(context)) JoinPlan(*plan, posed);
+  if (const auto plan = guided ? PlanOfSurvey(context) : std::nullopt) JoinPlan(*plan, posed);
   return posed;
 }
 
@@ -216,9 +218,11 @@ Epoch MakeEpoch(const RetextureRequest& request, const std::string& name, const 
   epoch.photos =
       LocalisePhotos(OptionsOf<CalibOptions>(settings, "calib"), model, captures, context);
   RequirePlaced(epoch.photos, *context.progress);
-  epoch.facets =
-      RepaintSurvey(OptionsOf<TextureOptions>(settings, "texture"),
-                    {name, PosedPhotos(epoch.photos, captures, context), request.replace}, context);
+  const auto painting = OptionsOf<TextureOptions>(settings, "texture");
+  epoch.facets = RepaintSurvey(
+      painting,
+      {name, PosedPhotos(epoch.photos, captures, painting.guided, context), request.replace},
+      context);
   WriteEpoch(epoch, context.out / "retexture.json");
   WriteEpochReport(epoch, context);
   return epoch;

@@ -38,6 +38,28 @@ TEST(Decide, SaysWhatCannotBeCompared) {
   EXPECT_THAT(decision.why, HasSubstr("75 % of it"));
 }
 
+TEST(Decide, DoesNotSayThatWhatItCannotCompareIsUnchanged) {
+  FacetEvidence evidence = Unchanged();
+  evidence.painted_before = 0.9;
+  evidence.painted_after = 0.03;  // beside it, and too little to fill
+  evidence.both = evidence.compared = 0;
+  evidence.changed_share = 0;
+  const FacetDecision decision = Decide(ReplaceMode::kAuto, evidence);
+  EXPECT_EQ(decision.choice, FacetChoice::kKept);
+  EXPECT_THAT(decision.why, HasSubstr("nothing of it that was painted"));
+}
+
+TEST(Decide, FillsNoGapsOfAWallThatChanged) {
+  FacetEvidence evidence = Unchanged();
+  evidence.painted_before = 0.7;
+  evidence.painted_after = evidence.both = 0.3;
+  evidence.painted_after += 0.1;
+  evidence.compared = 0.3;
+  EXPECT_EQ(Decide(ReplaceMode::kAuto, evidence).choice, FacetChoice::kFilled);
+  evidence.changed_share = 0.5;
+  EXPECT_EQ(Decide(ReplaceMode::kAuto, evidence).choice, FacetChoice::kKept);
+}
+
 TEST(Decide, KeepsWhatNoNewPhotoShows) {
   FacetEvidence evidence = Unchanged();
   evidence.painted_after = evidence.both = 0;

@@ -23,6 +23,7 @@ FacetDecision Fill(double gained) {
 }
 
 std::string WhyUnchanged(const FacetEvidence& evidence) {
+  if (!(evidence.both > 0)) return "new photos show nothing of it that was painted before";
   if (evidence.compared >= kMostlyCompared * evidence.both) return "it has not changed";
   return fmt::format(
       "it has not changed as far as can be told: new photos look at {} of it from too far aside",

@@ -8,6 +8,7 @@
 #include "survey/pixels.h"
 #include "survey/proxy.h"
 #include "survey/texture_set.h"
+#include "texture/output/picture_part.h"
 
 namespace stucco {
 
@@ -15,6 +16,7 @@ struct TiledFacet {
   const Facet* facet = nullptr;
   const TexturedFacet* texture = nullptr;  // null: nothing painted
   int building = 0;
+  PicturePart part = kWholePicture;  // of the facet, as its picture has it
 };
 
 // A part of a model, at one level of detail.
@@ -27,13 +29,18 @@ struct ModelTile {
       children;  // all of its facets once, at a finer scale; none at full resolution
 };
 
-// The size of a facet's picture in a tile; nothing painted: 0 x 0.
-ImageSize SizeInTile(const TiledFacet& facet, const ModelTile& tile, int longest_px);
+// The size of a facet's picture in a tile, of the part that the tile has; nothing painted: 0 x 0.
+ImageSize SizeInTile(const TiledFacet& facet, const ModelTile& tile);
 
-// Levels of detail: the whole model in one tile whose pictures are made so small that together
-// they have `tile_texels`, then each half of it (of buildings, then of a building's facets, along
-// the longer side of where they stand), until pictures have their full resolution. Of that a facet
-// may have more than `tile_texels` alone.
-ModelTile BuildTileTree(const Proxy& proxy, const TextureSet& textures, double tile_texels);
+// What a tile holds at most.
+struct TileLimits {
+  double texels = 0;   // of all pictures together
+  int longest_px = 0;  // of one
+};
+
+// Levels of detail: the whole model in one tile whose pictures are made so small that they keep the
+// limits, then each half of it (of buildings, then of a building's facets, along the longer side of
+// where they stand, then of a facet's picture), until pictures have their full resolution.
+ModelTile BuildTileTree(const Proxy& proxy, const TextureSet& textures, const TileLimits& limits);
 
 }  // namespace stucco

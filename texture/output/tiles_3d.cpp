@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -41,7 +42,14 @@ Eigen::AlignedBox3d BoxOf(const std::vector<TiledFacet>& facets,
                           const Eigen::Isometry3d& tile_from_world) {
   Eigen::AlignedBox3d box;
   for (const TiledFacet& facet : facets) {
-    for (const Eigen::Vector3d& corner : facet.facet->outer) box.extend(tile_from_world * corner);
+    Eigen::AlignedBox3d around;
+    for (const Eigen::Vector3d& corner : facet.facet->outer) {
+      around.extend(tile_from_world * corner);
+    }
+    if (facet.texture != nullptr && facet.part.volume() < 1) {
+      around = around.intersection(BoxOf(facet.part, *facet.texture, tile_from_world));
+    }
+    if (!around.isEmpty()) box.extend(around);
   }
   return box;
 }
@@ -58,6 +66,19 @@ TileFrame FrameOf(const std::vector<TiledFacet>& facets, const Eigen::Vector3d& 
   return frame;
 }
 
+// The part of a facet's picture that a tile has, in the size that it has there.
+Image ReadPart(const TiledFacet& facet, const fs::path& folder, const ImageSize& size) {
+  const TexturedFacet& texture = *facet.texture;
+  if (facet.part.volume() == 1) return ReadScaled(folder / texture.image, size);
+  const ImageSize full = SizeOf(facet.part, {texture.width_px, texture.height_px});
+  const double scale = static_cast<double>(size.width_px) / full.width_px;
+  const Image whole = ReadScaled(
+      folder / texture.image,
+      {std::max(size.width_px, static_cast<int>(std::lround(scale * texture.width_px))),
+       std::max(size.height_px, static_cast<int>(std::lround(scale * texture.height_px)))});
+  return Cut(whole, facet.part, size);
+}
+
 // The pictures of a tile in one, and where each lies.
 struct TilePicture {
   AtlasLayout layout;
@@ -70,7 +91,7 @@ TilePicture PictureOf(const ModelTile& tile, const fs::path& folder,
   TilePicture picture;
   std::vector<ImageSize> painted;
   for (const TiledFacet& facet : tile.facets) {
-    picture.sizes.push_back(SizeInTile(facet, tile, options.atlas_px - 2 * kAtlasGutter_px));
+    picture.sizes.push_back(SizeInTile(facet, tile));
     if (facet.texture != nullptr) painted.push_back(picture.sizes.back());
   }
   if (painted.empty()) return picture;
@@ -84,7 +105,7 @@ TilePicture PictureOf(const ModelTile& tile, const fs::path& folder,
     const TexturedFacet* texture = tile.facets[i].texture;
     if (texture == nullptr) continue;
     picture.layout.places[i] = packed.places[next++];
-    PaintInAtlas(ReadScaled(folder / texture->image, picture.sizes[i]), picture.layout.places[i],
+    PaintInAtlas(ReadPart(tile.facets[i], folder, picture.sizes[i]), picture.layout.places[i],
                  atlas);
   }
   picture.jpeg = EncodeImage(atlas, "atlas.jpg", options.jpeg_quality);
@@ -116,8 +137,12 @@ std::string TileGlb(const ModelTile& tile, const TileFrame& frame, const Texture
   }
   const Eigen::Isometry3d glb_from_world = YUpFromZUp() * frame.tile_from_world;
   for (size_t i = 0; i < tile.facets.size(); ++i) {
-    const auto& [facet, texture, building] = tile.facets[i];
+    const auto& [facet, texture, building, part] = tile.facets[i];
     GlbMesh mesh = GlbMeshOf(*facet, texture, glb_from_world, texture == nullptr ? 0 : 1);
+    if (texture != nullptr && part.volume() < 1) {
+      for (GlbPrimitive& primitive : mesh.primitives) primitive = ClippedTo(part, primitive);
+      std::erase_if(mesh.primitives, [](const GlbPrimitive& p) { return p.indices.empty(); });
+    }
     if (mesh.primitives.empty()) continue;
     if (texture != nullptr) MoveIntoAtlas(picture, i, mesh);
     glb.meshes.push_back(std::move(mesh));
@@ -165,8 +190,9 @@ Json TilesetOf(const ModelTile& root, const TileFrame& frame) {
 
 void WriteTiles3d(const TexturedModel& model, const Georef& georef, const fs::path& out,
                   const Tiles3dOptions& options) {
-  const double tile_texels = kPacked * options.atlas_px * options.atlas_px;
-  const ModelTile root = BuildTileTree(model.proxy, model.textures, tile_texels);
+  const TileLimits limits{kPacked * options.atlas_px * options.atlas_px,
+                          options.atlas_px - 2 * kAtlasGutter_px};
+  const ModelTile root = BuildTileTree(model.proxy, model.textures, limits);
   if (root.facets.empty()) {
     throw Error(ErrorKind::kBadInput, "the model has no facets: there is nothing to tile");
   }
