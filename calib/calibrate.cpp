@@ -350,7 +350,8 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   georeference.residuals = MeasurePriors(scene, georeference.prior_outliers);
   std::map<int, std::string> unregistered =
       Unregistered(mapper, pairs, scene, parts, georeference.taken);
-  const std::vector<int> ambiguous = NoteUnregistered(repeating, pairs, scene, context, unregistered);
+  const std::vector<int> ambiguous =
+      NoteUnregistered(repeating, pairs, scene, context, unregistered);
   const SummaryInput summary{.captures = photos.captures,
                              .capture_of_photo = photos.capture_of_photo,
                              .scene = scene,

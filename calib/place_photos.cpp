@@ -109,7 +109,8 @@ std::string WhyNoFrame(const UsablePhotos& photos, bool plan_holds_it) {
   }
   if (heights > 0 && !plan_holds_it) {
     return fmt::format(
-        "only {} of the photos say where and how high they were taken: three or more are needed for "
+        "only {} of the photos say where and how high they were taken: three or more are needed "
+        "for "
         "a scale and a place",
         heights);
   }

@@ -28,9 +28,9 @@ struct FacetDecision {
 // What becomes of a facet's picture.
 // kAlways: wherever new photos show it. kNever: only what was not painted before.
 // kAuto: a picture that new photos show well enough, four fifths of what any photo shows, is
-// replaced where the wall changed (a tenth of what both show); of a wall that did not, what no photo
-// had shown is filled where that is a twentieth of the facet or more; all else is kept, also where new photos are
-// finer: what has not changed keeps its bytes, and the reason says so.
+// replaced where the wall changed (a tenth of what both show); of a wall that did not, what no
+// photo had shown is filled where that is a twentieth of the facet or more; all else is kept, also
+// where new photos are finer: what has not changed keeps its bytes, and the reason says so.
 FacetDecision Decide(ReplaceMode mode, const FacetEvidence& evidence);
 
 }  // namespace stucco
