@@ -30,8 +30,9 @@ GEOMETRY = ["scene", "method", "posed", "position (mm)", "rotation (deg)", "geor
             "cloud error (m)", "complete: seen", "all", "its walls: seen", "model error (m)",
             "complete: seen", "all", "its walls (m)", "complete: seen", "watertight",
             "facets / truth", "ids"]
-PICTURES = ["scene", "method", "painted", "SSIM", "MS-SSIM", "PSNR", "GMSD", "FLIP", "LPIPS",
-            "misregistration (px)", "(m)", "held out: compared", "SSIM", "PSNR", "FLIP"]
+PICTURES = ["scene", "method", "painted", "SSIM", "one ideal photo", "on planes", "one ideal photo",
+            "MS-SSIM", "PSNR", "GMSD", "FLIP", "LPIPS", "misregistration (px)", "(m)",
+            "held out: compared", "SSIM", "PSNR", "FLIP"]
 TIMES = ["scene", "method", "photos", "seconds", "plan", "fly", *surveys.STAGES, "evaluate", "all"]
 
 
@@ -72,8 +73,11 @@ def geometry_cells(figures):
 def picture_cells(figures):
     texture, views = figures["texture"], figures["views"]
     return [percent(texture["painted"]),
+            *(surveys.number(figure, 3)
+              for figure in (texture["ssim_mean"], texture["ceiling"]["ssim"],
+                             texture["plane"]["ssim"], texture["plane"]["ceiling"]["ssim"])),
             *(surveys.number(texture[name + "_mean"], 2 if name == "psnr" else 3)
-              for name in ("ssim", "ms_ssim", "psnr", "gmsd", "flip", "lpips")),
+              for name in ("ms_ssim", "psnr", "gmsd", "flip", "lpips")),
             surveys.number(texture["misregistration_px"]),
             surveys.number(texture["misregistration_m"], 3), percent(views["compared"]),
             surveys.number(views["ssim_mean"], 3),

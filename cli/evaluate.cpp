@@ -83,6 +83,21 @@ std::string SurfacesText(const Evaluation& evaluation) {
          (evaluation.proxy.truth_buildings > 0 ? "\n" + ProxyText(evaluation.proxy) : "");
 }
 
+// Beside what one ideal photo of the truth would reach.
+std::string CeilingText(const Evaluation& evaluation) {
+  if (evaluation.facades.empty()) return "";
+  const auto of = [](const auto& result, const auto& ceiling) {
+    return fmt::format("{} of {}", Decimal(result, 3), Decimal(ceiling, 3));
+  };
+  return fmt::format(
+      "(SSIM of facades, of what one ideal photo has: {}; on walls' planes {}, on what stands out "
+      "or "
+      "lies back {})\n",
+      of(evaluation.texture_mean.ssim, evaluation.ceiling_mean.ssim),
+      of(evaluation.plane_mean.result.ssim, evaluation.plane_mean.ceiling.ssim),
+      of(evaluation.relief_mean.result.ssim, evaluation.relief_mean.ceiling.ssim));
+}
+
 std::string PicturesText(const Evaluation& evaluation) {
   if (evaluation.facades.empty() && evaluation.views.empty()) return "";
   return fmt::format("\n{:<11} {:>7} {:>8} {:>7} {:>7} {:>7} {:>7}\n", "", "SSIM", "MS-SSIM",
@@ -92,9 +107,10 @@ std::string PicturesText(const Evaluation& evaluation) {
          PictureText("  buildings", evaluation.views_buildings_mean) +
          fmt::format(
              "(facades: the {} of their area that are painted; held out: the {} of buildings that "
-             "the model has)\nmisregistration {} px, {}\n",
+             "the model has)\n{}misregistration {} px, {}\n",
              Percent(evaluation.painted), Percent(evaluation.views_compared),
-             Decimal(evaluation.misregistration_px, 2), Metres(evaluation.misregistration_m));
+             CeilingText(evaluation), Decimal(evaluation.misregistration_px, 2),
+             Metres(evaluation.misregistration_m));
 }
 
 std::string Text(const Evaluation& evaluation) {
