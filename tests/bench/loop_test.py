@@ -35,6 +35,7 @@ EVALUATION = {
               "facade_id_rate": 0.9},
     "texture": {**{name + "_mean": 0.5 for name in ("ssim", "ms_ssim", "gmsd", "flip")},
                 "psnr_mean": 21.25, "lpips_mean": None, "misregistration_px": 0.75,
+                "ceiling": {"ssim": 0.875}, "plane": {"ssim": 0.5, "ceiling": {"ssim": 0.9375}},
                 "misregistration_m": 0.015, "painted": 0.625, "facades": [{"area_m2": 30}]},
     "views": {"compared": 0.95, "ssim_mean": 0.6, "psnr_mean": 19.5, "flip_mean": 0.2, "photos": []}, "notes": []}
 
@@ -107,7 +108,7 @@ class Loop(WithStandIn):
         for row in ("| 46 | 20 | 1234 | 7.2 | 30 | 0.90 | 0.80 | 0.70 | 1.00 |",
                     "| 45 / 46 | 12.3 | 0.0100 | 1.50 | 0.210 | 95.5 % | 90.0 % | 60.0 % | 0.300 "
                     "| 80.0 % | 75.0 % | 0.250 | 70.0 % | 2 / 3 | 40 / 38 | 90.0 % |",
-                    "| 62.5 % | 0.500 | 0.500 | 21.25 | 0.500 | 0.500 | - | 0.75 | 0.015 | 95.0 % "
+                    "| 62.5 % | 0.500 | 0.875 | 0.500 | 0.938 | 0.500 | 21.25 | 0.500 | 0.500 | - | 0.75 | 0.015 | 95.0 % "
                     "| 0.600 | 19.50 | 0.200 |"):
             self.assertIn(start + row, table)
         # The made-up program takes next to nothing, and a second or two on a busy machine.
