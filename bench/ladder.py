@@ -3,14 +3,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where a model of a made scene loses what: the same flight with the truth put in below each rung.
 
-  bench/ladder.py OUT [--style hamlet] [--seed 1] [--scale 0.25] [--rungs map,cloud,poses,own]
+  bench/ladder.py OUT [--style hamlet] [--seed 1] [--scale 0.25]
+                  [--rungs map,nomap,cloud,poses,own,facets] [--textures]
                   [--map-seed 1 | --exact-map] [--jitter 0.4] [--eaves 0.4] [--gone 3]
                   [--missing 0] [--simpler 0] [--smaller 0]
                   [--plan-args "..."] [--fly-args "..."] [--run-args "..."] [--stucco PROGRAM]
 
 Rungs: "map", the plan's footprints extruded without any photo; "nomap" and "cloud", the true cloud
 with holes and noise into proxy, without and with the map; "poses", true poses into dense and proxy;
-"own", the survey as it is, from ingest to proxy. The map that proxy goes by has the errors of real
+"own", the survey as it is, from ingest to proxy; "facets", true poses, the true cloud and the true
+facets, to be painted. With --textures all but "map" and "nomap" are painted, and their pictures are
+compared on walls' planes with those of one ideal photo. The map that proxy goes by has the errors of real
 ones (perturb_plan.py) unless --exact-map; the drone has flown by the exact one. Printed is a table
 for docs/benchmarks.md. Each rung is a survey OUT/STYLE-SEED-RUNG, made anew each time from
 OUT/STYLE-SEED-flown, which is flown once.
@@ -30,6 +33,7 @@ import surveys
 BENCH = pathlib.Path(__file__).parent
 HEAD = ["scene", "rung", "posed", "model error (m)", "its walls (m)", "walls complete",
         "buildings complete", "closed", "facets / truth", "ids", "CPU s"]
+PICTURES = ["painted", "SSIM on planes", "one ideal photo", "shift (m)"]
 
 
 def local_metres(origin, latitude_deg, longitude_deg):
@@ -140,17 +144,21 @@ class Ladder:
             plan = survey / "plan/plan.json"
             chain.run("errors", [sys.executable, BENCH / "perturb_plan.py", plan, *self.errors()],
                       plan)
-        run = [self.program, "run", survey, "--until", "proxy", *self.arguments.run_args]
+        last = "texture" if self.is_painted(rung) else "proxy"
+        run = [self.program, "run", survey, "--until", last, *self.arguments.run_args]
         if rung != "own":
             georef = true_poses(survey)
         if rung == "map":
             extrude_plan(survey, georef)
-        elif rung in ("cloud", "nomap"):
+        elif rung in ("cloud", "nomap", "facets"):
             (survey / "dense").mkdir()
             cloud = survey / "dense/cloud.ply"
             chain.run("cloud", [sys.executable, BENCH / "true_cloud.py", survey, cloud,
                                 "--step", "2"], cloud)
-            run += ["--from", "proxy"]
+            if rung == "facets":
+                (survey / "proxy").mkdir()
+                shutil.copy(self.scene / "truth/facets.json", survey / "proxy/facets.json")
+            run += ["--from", "texture" if rung == "facets" else "proxy"]
             run += ["--set", "proxy.use_map=false"] if rung == "nomap" else []
         elif rung == "poses":
             run += ["--from", "dense"]
@@ -161,6 +169,9 @@ class Ladder:
         evaluation = json.loads((survey / "evaluation/evaluation.json").read_text())
         return {**evaluation, "cpu_s": chain.costs().get("run", {}).get("cpu_s")}
 
+    def is_painted(self, rung):
+        return rung == "facets" or (self.arguments.textures and rung not in ("map", "nomap"))
+
     def errors(self):
         wanted = self.arguments
         return ["--seed", wanted.map_seed, "--jitter", wanted.jitter, "--eaves", wanted.eaves,
@@ -169,7 +180,11 @@ class Ladder:
 
     def row(self, rung):
         figures = self.climb(rung)
-        poses, proxy = figures["poses"], figures["proxy"]
+        poses, proxy, texture = figures["poses"], figures["proxy"], figures["texture"]
+        plane = texture["plane"]
+        pictures = [loop.percent(texture["painted"]), surveys.number(plane["ssim"], 3),
+                    surveys.number(plane["ceiling"]["ssim"], 3),
+                    surveys.number(plane["shift_m"], 3)] if self.is_painted(rung) else ["-"] * 4
         return [self.scene.name, rung,
                 loop.of_all(poses["posed"], poses["total"]) if rung == "own" else "truth",
                 surveys.number(proxy["building_error95_m"], 3),
@@ -178,13 +193,18 @@ class Ladder:
                 loop.percent(proxy["building_completeness_all"]),
                 loop.of_all(proxy["watertight"], proxy["truth_buildings"]),
                 loop.of_all(proxy["facets"], proxy["truth_facets"]),
-                loop.percent(proxy["facade_id_rate"]), surveys.number(figures["cpu_s"], 0)]
+                loop.percent(proxy["facade_id_rate"]), surveys.number(figures["cpu_s"], 0),
+                *(pictures if self.has_pictures() else [])]
+
+    def has_pictures(self):
+        return any(self.is_painted(rung) for rung in self.arguments.rungs.split(","))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     loop.add_flight_arguments(parser)
     parser.add_argument("--rungs", default="map,nomap,cloud,poses,own")
+    parser.add_argument("--textures", action="store_true")
     parser.add_argument("--exact-map", action="store_true")
     parser.add_argument("--map-seed", default="1")
     parser.add_argument("--jitter", default="0.4")
@@ -196,7 +216,8 @@ def main():
     arguments = parser.parse_args()
     try:
         ladder = Ladder(arguments)
-        print(surveys.markdown_table(HEAD, [ladder.row(rung)
+        head = HEAD + (PICTURES if ladder.has_pictures() else [])
+        print(surveys.markdown_table(head, [ladder.row(rung)
                                             for rung in arguments.rungs.split(",")]))
     except (OSError, steps.Failed) as error:
         sys.exit(f"ladder: {error}")
