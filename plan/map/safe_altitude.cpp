@@ -28,6 +28,7 @@ struct Heights {
   Tall tallest;  // known, or at least as high: the underside of a part
   size_t buildings = 0;
   size_t unknown = 0;  // buildings with a top that is not known
+  std::string first_unknown;
   size_t guessed = 0;  // of these, all of whose unknown tops are guessed
   Tall guess;          // the highest
 };
@@ -57,6 +58,7 @@ Heights HeightsOf(const HighThings& things) {
   heights.buildings = buildings.size();
   for (const auto& [name, tops] : buildings) {
     if (tops.known) continue;
+    if (heights.unknown == 0) heights.first_unknown = name;
     ++heights.unknown;
     if (tops.guessed) ++heights.guessed;
   }
@@ -83,9 +85,11 @@ double RoundedUp(double height_m) {
 
 [[noreturn]] void FailWithoutHeights(const HighThings& things, const Heights& heights,
                                      double d_min_m, const RepairLog& repairs) {
-  std::string what =
-      fmt::format("{}: {} of {} buildings have no height, so that a safe altitude cannot be told",
-                  things.map.string(), heights.unknown, heights.buildings);
+  std::string what = fmt::format(
+      "{}: {} of {} buildings have no height{}, so that a safe altitude cannot be told",
+      things.map.string(), heights.unknown, heights.buildings,
+      heights.unknown < heights.buildings ? fmt::format(" or 0, {} first", heights.first_unknown)
+                                          : "");
   std::string example = "60";
   std::string hint;
   if (heights.guessed > 0) {

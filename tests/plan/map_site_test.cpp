@@ -102,7 +102,8 @@ TEST_F(ReadSiteTest, SameFileSameSite) {
 TEST_F(ReadSiteTest, AltitudeMustBeSaid) {
   EXPECT_THAT(
       ComplaintAbout({House(1, Rectangle(0, 0, 9, 9)), House(2, Rectangle(30, 0, 39, 9), "")}),
-      AllOf(HasSubstr("1 of 2 buildings have no height"), HasSubstr("--altitude")));
+      AllOf(HasSubstr("1 of 2 buildings have no height or 0, B0002 first"),
+            HasSubstr("--altitude")));
   options_.altitude_m = 60;
   const Site site = Read({House(1, Rectangle(0, 0, 9, 9)), House(2, Rectangle(30, 0, 39, 9), "")});
   EXPECT_EQ(site.safe_altitude_m, 60);
