@@ -109,6 +109,7 @@ class PartAssigner {
     for (const Polygon& piece : rest) area += Area(piece);
     const bool parts_are_all = !from_the_ground.empty() && area < kLeastRest * Area(whole.outline);
     std::vector<Footprint> pieces;
+    pieces.reserve(rest.size());
     for (Polygon& piece : rest) pieces.push_back(Like(whole, std::move(piece)));
     if (!parts_are_all) {
       for (Footprint& below : Below(parts, whole, from_the_ground)) {

@@ -224,24 +224,25 @@ bool IsRaised(const MapBuilding& house, const FittedBuilding& wing) {
   return 2 * raised > inside;
 }
 
-// What was joined to a house, for people.
-std::vector<std::string> WingsOf(const MapBuilding& house,
-                                 const std::vector<const FittedBuilding*>& wings) {
+// Says what was joined to a house: the wings of which `is_its` says so.
+template <typename IsIts>
+void NoteWings(const MapBuilding& house, const std::vector<ClosedBuilding>& wings,
+               const IsIts& is_its, ProxyFindings& findings) {
   double lacking = 0, raised = 0;
-  for (const FittedBuilding* wing : wings) {
-    (IsRaised(house, *wing) ? raised : lacking) += Area(wing->building);
+  for (size_t w = 0; w < wings.size(); ++w) {
+    if (!is_its(w)) continue;
+    const FittedBuilding& wing = wings[w].fitted;
+    (IsRaised(house, wing) ? raised : lacking) += Area(wing.building);
   }
-  std::vector<std::string> lines;
   if (lacking > 0) {
-    lines.push_back(
-        fmt::format("{}: wings that the map lacks lean on it, {:.0f} m2", house.id, lacking));
+    findings.of_map.push_back(
+        {fmt::format("{}: wings that the map lacks lean on it, {:.0f} m2", house.id, lacking)});
   }
   if (raised > 0) {
-    lines.push_back(fmt::format(
+    findings.of_map.push_back({fmt::format(
         "{}: parts that begin above the ground by the map are built down to it, {:.0f} m2",
-        house.id, raised));
+        house.id, raised)});
   }
-  return lines;
 }
 
 // Closes houses once more with the wings that lean on them, and takes these out of `wings`, where
@@ -271,13 +272,8 @@ void JoinWings(const UprightSurvey& survey, const Workshop& with, Houses& houses
   for (size_t i = 0; i < extended.size(); ++i) {
     const size_t h = extended[i];
     if (!IsAsGood(closed[i], houses.closed[h])) continue;
-    std::vector<const FittedBuilding*> joined;
-    for (size_t w = 0; w < wings.size(); ++w) {
-      if (house_of[w] == h) joined.push_back(&wings[w].fitted);
-    }
-    for (std::string& line : WingsOf(houses.mapped[h], joined)) {
-      findings.of_map.push_back({std::move(line)});
-    }
+    NoteWings(
+        houses.mapped[h], wings, [&](size_t w) { return house_of[w] == h; }, findings);
     houses.closed[h] = std::move(closed[i]);
     houses.mapped[h] = std::move(mapped[i]);
     for (size_t w = 0; w < wings.size(); ++w) has_joined[w] = has_joined[w] || house_of[w] == h;
