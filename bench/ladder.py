@@ -10,13 +10,13 @@
                   [--plan-args "..."] [--fly-args "..."] [--run-args "..."] [--stucco PROGRAM]
 
 Rungs: "map", the plan's footprints extruded without any photo; "nomap" and "cloud", the true cloud
-with holes and noise into proxy, without and with the map; "poses", true poses into dense and proxy;
-"own", the survey as it is, from ingest to proxy; "facets", true poses, the true cloud and the true
-facets, to be painted. With --textures all but "map" and "nomap" are painted, and their pictures are
-compared on walls' planes with those of one ideal photo. The map that proxy goes by has the errors of real
-ones (perturb_plan.py) unless --exact-map; the drone has flown by the exact one. Printed is a table
-for docs/benchmarks.md. Each rung is a survey OUT/STYLE-SEED-RUNG, made anew each time from
-OUT/STYLE-SEED-flown, which is flown once.
+with holes and noise into proxy, without and with the map; "poses", true poses, of the photos that
+have one, into dense and proxy; "own", the survey as it is, from ingest to proxy; "facets", true poses,
+the true cloud and the true facets, to be painted. With --textures all but "map" and "nomap" are
+painted, and their pictures are compared on walls' planes with those of one ideal photo. The map that
+proxy goes by has the errors of real ones (perturb_plan.py) unless --exact-map; the drone has flown by
+the exact one. Printed is a table for docs/benchmarks.md. Each rung is a survey OUT/STYLE-SEED-RUNG,
+made anew each time from OUT/STYLE-SEED-flown, which is flown once.
 """
 import argparse
 import json
@@ -109,14 +109,55 @@ def extrude_plan(survey, georef):
                        for name, facets in buildings.items()]}))
 
 
+def true_georef(survey):
+    place = json.loads((survey / "truth/flight.json").read_text())["georef"]
+    return {"version": 1, "frame": "enu", **place, "up": [0, 0, 1], "metric": True,
+            "source": "gps"}
+
+
 def true_poses(survey):
     """truth/sparse in the place of calib's results."""
-    place = json.loads((survey / "truth/flight.json").read_text())["georef"]
-    georef = {"version": 1, "frame": "enu", **place, "up": [0, 0, 1], "metric": True,
-              "source": "gps"}
     shutil.copytree(survey / "truth/sparse", survey / "calib/sparse/0")
-    (survey / "calib/georef.json").write_text(json.dumps(georef))
-    return georef
+    (survey / "calib/georef.json").write_text(json.dumps(true_georef(survey)))
+
+
+def centre(words):
+    """Where a photo of images.txt was taken: -R^T t."""
+    w, x, y, z, *t = map(float, words[1:8])
+    rotation = ((1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+                (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+                (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)))
+    return [-sum(rotation[k][i] * t[k] for k in range(3)) for i in range(3)]
+
+
+def lines_of(path):
+    return [line for line in path.read_text().splitlines() if not line.startswith("#")]
+
+
+def correct_poses(survey):
+    """True lenses and poses in calib's results. Points, which only tell dense what photos share and
+    how far away it is, are shifted into the world of the truth."""
+    sparse, truth = survey / "calib/sparse/0", survey / "truth/sparse"
+    for binary in sparse.glob("*.bin"):
+        binary.unlink()
+    true_lines = {line.split()[9]: line.split() for line in lines_of(truth / "images.txt")[::2]}
+    images, shifts = [], []
+    own = lines_of(sparse / "images.txt")
+    for line, observations in zip(own[::2], own[1::2]):
+        words = line.split()
+        true = true_lines[words[9]]
+        shifts.append([a - b for a, b in zip(centre(true), centre(words))])
+        images += [" ".join([words[0], *true[1:8], *words[8:]]), observations]
+    shift = [sorted(of_axis)[len(shifts) // 2] for of_axis in zip(*shifts)]
+    points = []
+    for line in lines_of(sparse / "points3D.txt"):
+        number, *place, rest = line.split(maxsplit=4)
+        points.append(" ".join([number, *(str(float(a) + b) for a, b in zip(place, shift)), rest]))
+    camera = lines_of(truth / "cameras.txt")[0].split()[1:]
+    cameras = [" ".join([line.split()[0], *camera]) for line in lines_of(sparse / "cameras.txt")]
+    for name, lines in (("cameras", cameras), ("images", images), ("points3D", points)):
+        steps.write_whole(sparse / f"{name}.txt", "\n".join(lines) + "\n")
+    (survey / "calib/georef.json").write_text(json.dumps(true_georef(survey)))
 
 
 class Ladder:
@@ -139,17 +180,21 @@ class Ladder:
             shutil.rmtree(survey)
         shutil.copytree(self.flown, survey, copy_function=os.link)
         chain = steps.Chain(self.arguments.out / "logs", survey.name,
-                            ("errors", "cloud", "run", "evaluate"), again="errors")
+                            ("errors", "cloud", "calib", "run", "evaluate"), again="errors")
         if not self.arguments.exact_map:
             plan = survey / "plan/plan.json"
             chain.run("errors", [sys.executable, BENCH / "perturb_plan.py", plan, *self.errors()],
                       plan)
         last = "texture" if self.is_painted(rung) else "proxy"
         run = [self.program, "run", survey, "--until", last, *self.arguments.run_args]
-        if rung != "own":
-            georef = true_poses(survey)
+        if rung == "poses":
+            chain.run("calib", [self.program, "run", survey, "--until", "calib",
+                                *self.arguments.run_args], survey / "calib/georef.json")
+            correct_poses(survey)
+        elif rung != "own":
+            true_poses(survey)
         if rung == "map":
-            extrude_plan(survey, georef)
+            extrude_plan(survey, true_georef(survey))
         elif rung in ("cloud", "nomap", "facets"):
             (survey / "dense").mkdir()
             cloud = survey / "dense/cloud.ply"

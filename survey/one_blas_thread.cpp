@@ -4,6 +4,8 @@
 
 #include <dlfcn.h>
 
+#include <initializer_list>
+
 namespace stucco {
 
 // The libraries stand for each other under one name (libblas.so.3); what they have beside BLAS is

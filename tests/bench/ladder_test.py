@@ -66,6 +66,33 @@ class LocalMetres(unittest.TestCase):
         self.assertAlmostEqual(east, 71.70, delta=0.02)
 
 
+class CorrectPoses(unittest.TestCase):
+    def test_takes_the_true_poses_and_shifts_the_points(self):
+        with tempfile.TemporaryDirectory() as folder:
+            survey = pathlib.Path(folder)
+            own, truth = survey / "calib/sparse/0", survey / "truth/sparse"
+            own.mkdir(parents=True)
+            truth.mkdir(parents=True)
+            (own / "images.bin").write_bytes(b"")
+            (own / "cameras.txt").write_text("# C\n3 PINHOLE 100 80 90 90 50 40\n")
+            (truth / "cameras.txt").write_text("1 PINHOLE 100 80 91 91 51 41\n")
+            # Turned by 180 degrees about z, so that the centre is (tx, ty, -tz).
+            (own / "images.txt").write_text("# I\n7 0 0 0 1 10 20 -5 3 a.jpg\n1 2 11 3 4 -1\n"
+                                            "8 0 0 0 1 11 20 -5 3 b.jpg\n1 2 11\n")
+            (truth / "images.txt").write_text("1 0 0 0 1 13 24 -5 1 b.jpg\n\n"
+                                              "2 0 0 0 1 12 24 -5 1 a.jpg\n\n")
+            (own / "points3D.txt").write_text("# P\n11 1 1 1 9 8 7 0.5 7 0 8 0\n")
+            (survey / "truth/flight.json").write_text('{"georef": {"origin_latitude_deg": 50}}')
+            ladder.correct_poses(survey)
+            self.assertFalse((own / "images.bin").exists())
+            images = (own / "images.txt").read_text().splitlines()
+            self.assertEqual(images, ["7 0 0 0 1 12 24 -5 3 a.jpg", "1 2 11 3 4 -1",
+                                      "8 0 0 0 1 13 24 -5 3 b.jpg", "1 2 11"])
+            self.assertEqual((own / "points3D.txt").read_text(), "11 3.0 5.0 1.0 9 8 7 0.5 7 0 8 0\n")
+            self.assertEqual((own / "cameras.txt").read_text(), "3 PINHOLE 100 80 91 91 51 41\n")
+            self.assertEqual(json.loads((survey / "calib/georef.json").read_text())["frame"], "enu")
+
+
 class PerturbedPlan(unittest.TestCase):
     def test_targets_stay_on_their_facades(self):
         for seed in range(5):
