@@ -18,9 +18,9 @@ constexpr int kShares = 256;  // between the middle and the farthest corner
 using Codes = std::array<uint8_t, 256>;
 
 std::vector<Codes> CodesByShare(const Falloff& falloff) {
-  std::vector<Codes> tables(kShares + 1);
-  for (int s = 0; s <= kShares; ++s) {
-    const double lost = std::exp(-falloff.LogAt(static_cast<double>(s) / kShares));
+  std::vector<Codes> tables(kShares);
+  for (int s = 0; s < kShares; ++s) {
+    const double lost = std::exp(-falloff.LogAt((s + 0.5) / kShares));
     for (int code = 0; code < 256; ++code) {
       tables[s][code] = static_cast<uint8_t>(std::min(255.0, lost * code + 0.5));
     }
@@ -54,7 +54,7 @@ void EvenOut(const Falloff& falloff, const Camera& camera, Image& picture) {
     uint8_t* pixel = picture.Pixel(0, y);
     for (int x = 0; x < picture.width_px; ++x, pixel += picture.channels) {
       const double dx = (x + 0.5) * scale_x - center.x();
-      const int share = std::min(kShares, static_cast<int>((dx * dx + dy * dy) * to_table + 0.5));
+      const int share = std::min(kShares - 1, static_cast<int>((dx * dx + dy * dy) * to_table));
       for (int c = 0; c < picture.channels; ++c) pixel[c] = tables[share][pixel[c]];
     }
   }
