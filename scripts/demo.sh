@@ -17,7 +17,7 @@ if [ ! -f "$demo/scene/scene.json" ]; then # written last
   rm -rf "$demo/scene"
   "$stucco" simulate city -o "$demo/scene" --style hamlet >&2
 fi
-# A small camera, and few pairs and small pictures below: a quarter of an hour instead of hours.
+# A small camera, and few pairs and small pictures below: ten minutes instead of hours.
 [ -f "$survey/plan/plan.json" ] || "$stucco" plan "$demo/scene/map.geojson" -o "$survey" \
   --camera 17.3x13mm,12.29mm,1000x750 --gsd 0.05 --altitude 25 >&2
 "$stucco" simulate "$demo/scene" "$survey" -o "$survey" --held-out 4 >&2
