@@ -110,8 +110,7 @@ std::string WhyNoFrame(const UsablePhotos& photos, bool plan_holds_it) {
   if (heights > 0 && !plan_holds_it) {
     return fmt::format(
         "only {} of the photos say where and how high they were taken: three or more are needed "
-        "for "
-        "a scale and a place",
+        "for a scale and a place",
         heights);
   }
   if (heights > 0) return "too few photos have a height: the plan's places took their place";

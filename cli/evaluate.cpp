@@ -91,8 +91,7 @@ std::string CeilingText(const Evaluation& evaluation) {
   };
   return fmt::format(
       "(SSIM of facades, of what one ideal photo has: {}; on walls' planes {}, on what stands out "
-      "or "
-      "lies back {})\n",
+      "or lies back {})\n",
       of(evaluation.texture_mean.ssim, evaluation.ceiling_mean.ssim),
       of(evaluation.plane_mean.result.ssim, evaluation.plane_mean.ceiling.ssim),
       of(evaluation.relief_mean.result.ssim, evaluation.relief_mean.ceiling.ssim));

@@ -21,8 +21,8 @@ struct Georef {
   double origin_height_m = 0;
   // Unit vector away from the ground, when calibration knows it (GPS or gimbal).
   std::optional<Eigen::Vector3d> up;
-  std::optional<double> up_sigma_deg =
-      std::nullopt;     // one standard deviation of its direction, where measured
+  // One standard deviation of its direction, where measured.
+  std::optional<double> up_sigma_deg = std::nullopt;
   bool metric = false;  // lengths are metres
   // "gcp", "rtk", "gps", "plan", "gimbal", "none"; "file": an imported model said so itself.
   std::string source;

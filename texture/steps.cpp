@@ -166,8 +166,7 @@ PhotosLight LightFrom(const std::vector<FacetLook>& looks, std::span<const Surve
     const Falloff& falloff = light.falloffs[photo];
     if (falloff.IsNone()) continue;
     progress.Note(
-        fmt::format("the corners of photos get {:.0f} % of the light of their middle: "
-                    "evened out",
+        fmt::format("the corners of photos get {:.0f} % of the light of their middle: evened out",
                     100 * std::exp(kGamma * falloff.LogAt(1))));
   }
   return light;

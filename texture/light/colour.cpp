@@ -14,7 +14,7 @@ constexpr float kDarkest = 12;     // below, noise and black clipping change rat
 constexpr float kBrightest = 245;  // above, clipped
 constexpr size_t kFewestTexels = 24;
 constexpr size_t kMostGroups = 4;
-constexpr double kLargestCommonGain = 4;
+constexpr double kLargestGain = 4;
 constexpr size_t kFewestFacets = 3;  // of which one may have another colour
 // Hues of facets that lie farther apart than this, in the middle, have no white balance in common:
 // logarithms of encoded colours, about what eyes see beside each other.
@@ -50,6 +50,10 @@ ColourRatio RatioOver(const PhotoColours& a, const PhotoColours& b,
 
 Eigen::Vector3d HueOf(const Eigen::Vector3d& logs) {
   return logs.array() - logs.mean();
+}
+
+Eigen::Vector3d GainOf(const Eigen::Vector3d& logs) {
+  return logs.array().exp().max(1 / kLargestGain).min(kLargestGain);
 }
 
 std::vector<ColourRatio> MeasureRatios(const PhotoColours& a, const PhotoColours& b,
@@ -92,7 +96,7 @@ Eigen::Vector3d CommonGain(std::span<const ColourRatio> ratios) {
   if (ratios.size() < kFewestFacets || *Median(std::move(apart)) > kAgreeingHues) {
     log_ratio.setConstant(log_ratio.mean());
   }
-  return (-log_ratio).array().exp().min(kLargestCommonGain).max(1 / kLargestCommonGain);
+  return GainOf(-log_ratio);
 }
 
 }  // namespace stucco

@@ -26,6 +26,9 @@ struct ColourRatio {
 // The part of a difference between logarithms of colours that brighter light does not make.
 Eigen::Vector3d HueOf(const Eigen::Vector3d& logs);
 
+// Factors of codes from their logarithms, none above 4 or below a quarter: more is no light.
+Eigen::Vector3d GainOf(const Eigen::Vector3d& logs);
+
 // What one photo shows of some texels.
 struct PhotoColours {
   int photo = -1;

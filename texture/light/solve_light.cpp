@@ -23,7 +23,6 @@ constexpr double kFalloffSigma = 0.25;
 constexpr double kManyTexels = 200;
 constexpr double kHuberWidth = 0.06;
 constexpr int kSolveRounds = 8;
-constexpr double kLargestGain = 4;
 constexpr double kSignificant = 3;  // of its own standard deviation
 
 // Hues of gains farther from the middle of all than both: logarithms, and times the median
@@ -176,6 +175,9 @@ std::vector<Eigen::Vector3d> LogGains(std::span<const ColourRatio> ratios,
 
 PhotosLight SolveLight(std::span<const ColourRatio> ratios, std::span<const int> camera_of_photo) {
   const size_t photos = camera_of_photo.size();
+  assert(std::ranges::all_of(ratios, [&](const ColourRatio& ratio) {
+    return static_cast<size_t>(std::max(ratio.a, ratio.b)) < photos;
+  }));
   PhotosLight light{std::vector<Eigen::Vector3d>(photos, Eigen::Vector3d::Ones()),
                     std::vector<Falloff>(photos)};
   if (ratios.empty()) return light;
@@ -189,9 +191,7 @@ PhotosLight SolveLight(std::span<const ColourRatio> ratios, std::span<const int>
     if (is_compared[i]) compared.push_back(i);
   }
   LimitHues(compared, logs);
-  for (const size_t i : compared) {
-    light.gains[i] = logs[i].array().exp().max(1 / kLargestGain).min(kLargestGain);
-  }
+  for (const size_t i : compared) light.gains[i] = GainOf(logs[i]);
   return light;
 }
 

@@ -22,7 +22,7 @@ struct PhotosLight {
 // falloff (Brown & Lowe, "Automatic Panoramic Image Stitching using Invariant Features", 2007, on
 // ratios). Hues that only one photo has are held near those of the others. Photos without overlap
 // keep 1. A falloff that is no more than three of its own standard deviations is none.
-// `camera_of_photo` numbers the lenses from 0.
+// `camera_of_photo` numbers the lenses from 0. Requires ratios of those photos.
 PhotosLight SolveLight(std::span<const ColourRatio> ratios, std::span<const int> camera_of_photo);
 
 }  // namespace stucco

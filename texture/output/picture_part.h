@@ -18,6 +18,10 @@ using PicturePart = Eigen::AlignedBox2d;
 
 inline const PicturePart kWholePicture{Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1)};
 
+inline bool IsWhole(const PicturePart& part) {
+  return part.isApprox(kWholePicture, 0);
+}
+
 // Both halves of a part of a picture of that size, along its longer side; the cut is between
 // texels.
 std::pair<PicturePart, PicturePart> Halved(const PicturePart& part, const ImageSize& picture);

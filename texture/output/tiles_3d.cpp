@@ -46,7 +46,7 @@ Eigen::AlignedBox3d BoxOf(const std::vector<TiledFacet>& facets,
     for (const Eigen::Vector3d& corner : facet.facet->outer) {
       around.extend(tile_from_world * corner);
     }
-    if (facet.texture != nullptr && facet.part.volume() < 1) {
+    if (facet.texture != nullptr && !IsWhole(facet.part)) {
       around = around.intersection(BoxOf(facet.part, *facet.texture, tile_from_world));
     }
     if (!around.isEmpty()) box.extend(around);
@@ -69,7 +69,7 @@ TileFrame FrameOf(const std::vector<TiledFacet>& facets, const Eigen::Vector3d& 
 // The part of a facet's picture that a tile has, in the size that it has there.
 Image ReadPart(const TiledFacet& facet, const fs::path& folder, const ImageSize& size) {
   const TexturedFacet& texture = *facet.texture;
-  if (facet.part.volume() == 1) return ReadScaled(folder / texture.image, size);
+  if (IsWhole(facet.part)) return ReadScaled(folder / texture.image, size);
   const ImageSize full = SizeOf(facet.part, {texture.width_px, texture.height_px});
   const double scale = static_cast<double>(size.width_px) / full.width_px;
   const Image whole = ReadScaled(
@@ -139,7 +139,7 @@ std::string TileGlb(const ModelTile& tile, const TileFrame& frame, const Texture
   for (size_t i = 0; i < tile.facets.size(); ++i) {
     const auto& [facet, texture, building, part] = tile.facets[i];
     GlbMesh mesh = GlbMeshOf(*facet, texture, glb_from_world, texture == nullptr ? 0 : 1);
-    if (texture != nullptr && part.volume() < 1) {
+    if (texture != nullptr && !IsWhole(part)) {
       for (GlbPrimitive& primitive : mesh.primitives) primitive = ClippedTo(part, primitive);
       std::erase_if(mesh.primitives, [](const GlbPrimitive& p) { return p.indices.empty(); });
     }
