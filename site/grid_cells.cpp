@@ -97,6 +97,12 @@ std::vector<GridCell> CellsNear(const Polygon& polygon, double size_m, double re
   return out;
 }
 
+std::vector<GridCell> CellsNearLine(const Segment2d& line, double size_m, double reach_m) {
+  std::vector<GridCell> out;
+  AddCellsNear(line, size_m, reach_m, out);
+  return out;
+}
+
 Eigen::Vector2d MainAxis(const Polygon& polygon) {
   Eigen::Vector2d best = Eigen::Vector2d::UnitX();
   if (polygon.rings.empty()) return best;

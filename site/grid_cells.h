@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "site/site.h"
+#include "survey/geometry2d.h"
 
 namespace stucco {
 
@@ -24,6 +25,9 @@ inline Eigen::Vector2d CenterOf(const GridCell& cell, double size_m) {
 std::vector<GridCell> CellsInside(const Polygon& polygon, double size_m);
 // The cells with their centre within `reach_m` of a border of the polygon, in ascending order.
 std::vector<GridCell> CellsNear(const Polygon& polygon, double size_m, double reach_m);
+
+// The same around a straight line.
+std::vector<GridCell> CellsNearLine(const Segment2d& line, double size_m, double reach_m);
 
 // Unit direction of the longer side of the smallest rectangle around the polygon, in the half plane
 // east (or north) of the origin.

@@ -92,15 +92,13 @@ std::vector<Sighting> SightingsFrom(const Viewpoint& place, const SurfaceView& v
     const SurfaceSample& sample = view.samples[i];
     const Eigen::Vector3d ray = place.position - sample.position;
     if (!(ray.dot(sample.normal) > kLeastCosine * ray.norm())) continue;
-    int pictures = 0;
-    bool nadir = false;
+    bool shown = false, nadir = false;
     for (const Frustum& picture : place.pictures) {
       if (!picture.Contains(sample.position)) continue;
-      ++pictures;
+      shown = true;
       nadir |= picture.forward.z() < kStraightDown;
     }
-    if (pictures == 0 || !view.model.Sees(place.position, sample.position)) continue;
-    out.push_back({i, static_cast<uint8_t>(std::min(pictures, 255)), nadir});
+    if (shown && view.model.Sees(place.position, sample.position)) out.push_back({i, nadir});
   }
   std::ranges::sort(out, {}, &Sighting::sample);
   return out;

@@ -14,11 +14,9 @@
 
 namespace stucco {
 
-// A sample that is seen from a place, in `pictures` of its pictures. Packed, as there are tens of
-// millions of them in a town.
+// A sample that is seen from a place, in one of its pictures or more.
 struct Sighting {
   uint32_t sample = 0;
-  uint8_t pictures = 0;
   bool nadir = false;  // one of them looks straight down
 };
 

@@ -61,6 +61,7 @@ struct Site {
   std::vector<Footprint> footprints;  // interiors are disjoint, except parts above others
   std::vector<Facade> facades;        // by footprint, then ring, then edge
   std::vector<Polygon> no_fly;        // disjoint
+  std::vector<Polygon> closed_off;    // what these part from home: nothing flies there either
   Polygon area;                       // grids of views stay inside it
   Eigen::Vector3d home = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> take_off;  // other places where a flight may start; may be empty

@@ -36,16 +36,6 @@ int FootprintOf(const PlannedFacade& facade, const Site& site, const ByBuilding&
   return found == end ? -1 : found->second;
 }
 
-// A plan lists the rings of its no-fly polygons one after the other.
-std::vector<Polygon> PolygonsOf(const std::vector<Ring>& rings) {
-  std::vector<Polygon> polygons;
-  for (const Ring& ring : rings) {
-    if (polygons.empty() || SignedArea(ring) > 0) polygons.emplace_back();
-    polygons.back().rings.push_back(ring);
-  }
-  return polygons;
-}
-
 void AddFacades(const Plan& plan, const ByBuilding& footprints, Site& site) {
   for (const PlannedFacade& facade : plan.facades) {
     const int footprint = FootprintOf(facade, site, footprints);

@@ -160,6 +160,9 @@ void SampleGround(const Site& site, const SampleOptions& options, std::vector<Su
     const double ground = site.terrain.HeightAt(CenterOf(inside.front(), size));
     if (footprint.z_m.from_m <= ground + kStandsOnGround_m) Append(built, inside);
   }
+  for (const Segment2d& line : options.ground_along) {
+    Append(near, CellsNearLine(line, size, options.ground_reach_m));
+  }
   std::ranges::sort(near);
   near.erase(std::unique(near.begin(), near.end()), near.end());
   for (const GridCell& cell : Without(near, std::move(built))) {

@@ -27,8 +27,10 @@ struct SampleOptions {
   bool never_farther = false;  // than `spacing_m` from each other on a wall; else about as far
   int fewest_rows = 2;         // of a wall
   double ground_reach_m = 20;  // ground counts as far as this from the buildings
-  bool area_only = true;       // with GroundRule::kTerrain; false: obstacles and what is around too
-  double off_surface_m = 0;    // lifts samples off, so that their own surface cannot hide them
+  std::vector<Segment2d> ground_along =
+      {};                    // with GroundRule::kTerrain ground counts near these too
+  bool area_only = true;     // with GroundRule::kTerrain; false: obstacles and what is around too
+  double off_surface_m = 0;  // lifts samples off, so that their own surface cannot hide them
   std::optional<Eigen::AlignedBox2d> within = {};  // nothing: everywhere
 };
 

@@ -59,6 +59,15 @@ double Area(const Polygon& polygon) {
   return area;
 }
 
+std::vector<Polygon> PolygonsOf(const std::vector<Ring>& rings) {
+  std::vector<Polygon> polygons;
+  for (const Ring& ring : rings) {
+    if (polygons.empty() || SignedArea(ring) > 0) polygons.emplace_back();
+    polygons.back().rings.push_back(ring);
+  }
+  return polygons;
+}
+
 Eigen::AlignedBox2d BoundsOf(const Polygon& polygon) {
   Eigen::AlignedBox2d bounds;
   if (polygon.rings.empty()) return bounds;

@@ -36,6 +36,8 @@ inline Eigen::Vector2d OutwardsOf(const Segment2d& edge) {
 
 double SignedArea(const Ring& ring);  // positive when counter-clockwise
 double Area(const Polygon& polygon);
+// Rings one after the other, holes (clockwise) behind the outer ring that they are in.
+std::vector<Polygon> PolygonsOf(const std::vector<Ring>& rings);
 // Of the outer ring; empty without one.
 Eigen::AlignedBox2d BoundsOf(const Polygon& polygon);
 // By crossings: points on the boundary may count either way.

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "plan/map/clean.h"
+#include "plan/map/closed_off.h"
 #include "plan/map/home.h"
 #include "plan/map/internal/ogr.h"
 #include "plan/map/internal/outlines.h"
@@ -163,7 +164,25 @@ Located Locate(const SiteInputs& inputs, const PlanOptions& options, double marg
   return located;
 }
 
-void MarkArea(const SiteInputs& inputs, const std::vector<Polygon>& area, Site& site) {
+// Buildings that the border of the area cuts are captured whole.
+void NoteCut(const std::vector<Polygon>& area, const Site& site, RepairLog& repairs) {
+  constexpr double kOutside_m2 = 1;
+  std::set<std::string> cut;
+  for (const Footprint& footprint : site.footprints) {
+    double outside = 0;
+    if (footprint.in_area) {
+      for (const Polygon& part : internal::Difference(footprint.outline, area))
+        outside += Area(part);
+    }
+    if (outside > kOutside_m2) cut.insert(footprint.building);
+  }
+  for (const std::string& building : cut) {
+    repairs.Add(building, "the border of the area cuts it; captured whole");
+  }
+}
+
+void MarkArea(const SiteInputs& inputs, const std::vector<Polygon>& area, Site& site,
+              RepairLog& repairs) {
   if (!inputs.area_of_interest) return;
   std::set<std::string> touched;
   for (const Footprint& footprint : site.footprints) {
@@ -177,6 +196,7 @@ void MarkArea(const SiteInputs& inputs, const std::vector<Polygon>& area, Site& 
     footprint.in_area = touched.contains(footprint.building);
   }
   if (touched.empty()) FailNotInArea(inputs);
+  NoteCut(area, site, repairs);
 }
 
 // Around the buildings to capture: an area of interest says which those are, not that the fields
@@ -234,7 +254,7 @@ Site ReadSite(const SiteInputs& inputs, const PlanOptions& options) {
                 fmt::format("{}: has no building of a usable size", inputs.map.string()),
                 "check the coordinate system of the map: its outlines enclose no area");
   }
-  MarkArea(inputs, located.area_of_interest, site);
+  MarkArea(inputs, located.area_of_interest, site, repairs);
   std::vector<MapObstacle> obstacles;
   if (inputs.obstacles) {
     obstacles = ReadObstacles(*inputs.obstacles, options, site.origin, repairs);
@@ -253,6 +273,7 @@ Site ReadSite(const SiteInputs& inputs, const PlanOptions& options) {
   site.home = inputs.home
                   ? CheckedHome(site, PlanFromGeodetic(site.origin, ParseHome(*inputs.home)))
                   : DefaultHome(site);
+  CloseOff(site);
   // Drones count heights from where they take off: a home too high would have them fly too low.
   site.home.z() = ground.HeightAt(site.home.head<2>());
   constexpr size_t kMostTakeOffPlaces = 15;

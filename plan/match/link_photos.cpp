@@ -8,6 +8,7 @@
 
 #include "plan/match/facade_cover.h"
 #include "plan/match/link_candidates.h"
+#include "plan/match/link_chains.h"
 #include "plan/match/linked_photos.h"
 #include "survey/error.h"
 #include "survey/parallel.h"
@@ -202,6 +203,7 @@ LinkReport AddLinkPhotos(const MatchSetting& setting, const Obstacles& obstacles
   Linker linker(obstacles, photos, progress);
   linker.ServeLonePhotos();
   linker.TieParts();
+  if (AddChains(obstacles, photos) > 0) linker.TieParts();
   progress.Advance();
   return ReportOf(hovers);
 }

@@ -29,7 +29,9 @@ class LinkedPhotos {
   int threads() const { return threads_; }
   std::span<const Hover> hovers() const { return hovers_; }
   const MatchGraph& graph() const { return photos_.graph; }
-  const std::vector<Ties>& ties() const { return ties_; }                // by photo
+  std::span<const Segment2d> corridors() const { return photos_.corridors; }
+  double half_width() const { return photos_.view.field.half_width; }  // of photos at a depth of 1
+  const std::vector<Ties>& ties() const { return ties_; }              // by photo
   std::span<const PhotoPlace> places() const { return photos_.places; }  // by photo
   const PhotoPlace& PlaceOf(uint32_t photo) const { return photos_.places[photo]; }
   uint32_t HoverOf(uint32_t photo) const { return PlaceOf(photo).hover; }

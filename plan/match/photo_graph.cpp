@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "plan/match/corridors.h"
 #include "site/surface_samples.h"
 #include "survey/parallel.h"
 
@@ -15,6 +16,8 @@ namespace {
 constexpr double kSpacing_m = 2.5;
 // Fields and streets match as well as what is to be captured.
 constexpr double kGroundReach_m = 40;
+// Twice that of ground joins what stands nearer, less what the grid of samples leaves out.
+constexpr double kGap_m = 1.5 * kGroundReach_m;
 // Heights above the ground; what is farther away than this is too small in a photo to count.
 constexpr double kReachOfAltitude = 4;
 constexpr double kLeastReach_m = 100;
@@ -33,9 +36,11 @@ Eigen::AlignedBox2d Surroundings(const Site& site, std::span<const Hover> hovers
 }  // namespace
 
 PhotoGraph::PhotoGraph(const MatchSetting& setting, std::span<const Hover> hovers)
-    : view(setting.site, setting.camera.Field(),
+    : corridors(CorridorsOf(setting.site, kGap_m)),
+      view(setting.site, setting.camera.Field(),
            SampleSurface(setting.site, {.spacing_m = kSpacing_m,
                                         .ground_reach_m = kGroundReach_m,
+                                        .ground_along = corridors,
                                         .area_only = false,
                                         .within = Surroundings(setting.site, hovers)}),
            ReachOf(setting.site)),

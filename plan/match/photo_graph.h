@@ -28,6 +28,7 @@ struct PhotoPlace {
 
 // The match graph of hovers, with what it is made of.
 struct PhotoGraph {
+  std::vector<Segment2d> corridors;  // between buildings far apart, whose ground counts too
   SurfaceView view;
   double patch_m2;
   std::vector<PhotoPlace> places;  // by photo: hovers in their order, of each its shots

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "plan/mission/kml.h"
+#include "survey/geometry2d.h"
 #include "survey/numbers.h"
 #include "survey/plan_frame.h"
 
@@ -42,7 +43,8 @@ struct GeoJsonWriter {
   }
 };
 
-Json Polygon(const GeoJsonWriter& writer, const std::vector<std::vector<Eigen::Vector2d>>& rings) {
+Json PolygonAt(const GeoJsonWriter& writer,
+               const std::vector<std::vector<Eigen::Vector2d>>& rings) {
   Json coordinates = Json::array();
   for (const auto& ring : rings) {
     Json corners = Json::array();
@@ -117,13 +119,13 @@ std::string PlanGeoJson(const Plan& plan) {
   GeoJsonWriter writer = {plan, ""};
   for (const PlannedFootprint& footprint : plan.footprints) {
     writer.Add(footprint.is_obstacle ? "obstacle" : "footprint", "Polygon",
-               Polygon(writer, footprint.rings_m),
+               PolygonAt(writer, footprint.rings_m),
                {{"building", footprint.building},
                 {"foot_m", Rounded(footprint.z_m.from_m)},
                 {"top_m", Rounded(footprint.z_m.to_m)}});
   }
-  for (const auto& ring : plan.no_fly_m) {
-    writer.Add("no_fly", "Polygon", Polygon(writer, {ring}), Json::object());
+  for (const Polygon& zone : PolygonsOf(plan.no_fly_m)) {
+    writer.Add("no_fly", "Polygon", PolygonAt(writer, zone.rings), Json::object());
   }
   AddFacades(writer);
   AddPaths(writer);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "plan/output/colors.h"
+#include "survey/geometry2d.h"
 #include "survey/plan_frame.h"
 
 namespace stucco::plan {
@@ -36,13 +37,13 @@ struct KmlWriter {
   }
 };
 
-void Put(pugi::xml_node parent, const char* name, const std::string& text) {
+void Write(pugi::xml_node parent, const char* name, const std::string& text) {
   parent.append_child(name).text().set(text.c_str());
 }
 
 pugi::xml_node AddFolder(pugi::xml_node parent, const std::string& name) {
   pugi::xml_node folder = parent.append_child("Folder");
-  Put(folder, "name", name);
+  Write(folder, "name", name);
   return folder;
 }
 
@@ -59,8 +60,8 @@ pugi::xml_node AddStyle(pugi::xml_node document, const std::string& id) {
 
 void AddFill(pugi::xml_node document, const std::string& id, const std::string& color) {
   pugi::xml_node style = AddStyle(document, id);
-  Put(style.append_child("LineStyle"), "color", color);
-  Put(style.append_child("PolyStyle"), "color", color);
+  Write(style.append_child("LineStyle"), "color", color);
+  Write(style.append_child("PolyStyle"), "color", color);
 }
 
 void AddStyles(pugi::xml_node document, size_t flights) {
@@ -68,13 +69,14 @@ void AddStyles(pugi::xml_node document, size_t flights) {
     const Rgb color = FlightColor(static_cast<int>(i));
     pugi::xml_node style = AddStyle(document, fmt::format("flight{}", i));
     pugi::xml_node line = style.append_child("LineStyle");
-    Put(line, "color", KmlColor(color, 255));
-    Put(line, "width", "2");
+    Write(line, "color", KmlColor(color, 255));
+    Write(line, "width", "2");
     pugi::xml_node icon = style.append_child("IconStyle");
-    Put(icon, "color", KmlColor(color, 255));
-    Put(icon, "scale", "0.5");
-    Put(icon.append_child("Icon"), "href", "http://maps.google.com/mapfiles/kml/shapes/camera.png");
-    Put(style.append_child("LabelStyle"), "scale", "0");
+    Write(icon, "color", KmlColor(color, 255));
+    Write(icon, "scale", "0.5");
+    Write(icon.append_child("Icon"), "href",
+          "http://maps.google.com/mapfiles/kml/shapes/camera.png");
+    Write(style.append_child("LabelStyle"), "scale", "0");
   }
   for (int i = 0; i <= kQualityClasses; ++i) {
     AddFill(document, fmt::format("quality{}", i),
@@ -87,8 +89,8 @@ void AddStyles(pugi::xml_node document, size_t flights) {
 pugi::xml_node AddPlacemark(pugi::xml_node folder, const std::string& name,
                             const std::string& style) {
   pugi::xml_node placemark = folder.append_child("Placemark");
-  Put(placemark, "name", name);
-  Put(placemark, "styleUrl", "#" + style);
+  Write(placemark, "name", name);
+  Write(placemark, "styleUrl", "#" + style);
   return placemark;
 }
 
@@ -98,7 +100,7 @@ pugi::xml_node AddData(pugi::xml_node placemark) {
 void AddDatum(pugi::xml_node data, const char* name, const std::string& value) {
   pugi::xml_node datum = data.append_child("Data");
   datum.append_attribute("name") = name;
-  Put(datum, "value", value);
+  Write(datum, "value", value);
 }
 
 void AddView(pugi::xml_node folder, const PlannedView& view, const KmlWriter& writer) {
@@ -113,18 +115,18 @@ void AddView(pugi::xml_node folder, const PlannedView& view, const KmlWriter& wr
   AddDatum(data, "order", fmt::format("{}", view.order));
   AddDatum(data, "facades", fmt::format("{}", fmt::join(facades, " ")));
   pugi::xml_node point = placemark.append_child("Point");
-  Put(point, "altitudeMode", writer.altitude_mode);
-  Put(point, "coordinates", writer.Coordinate(view.position_m));
+  Write(point, "altitudeMode", writer.altitude_mode);
+  Write(point, "coordinates", writer.Coordinate(view.position_m));
 }
 
 void AddHomes(pugi::xml_node document, const KmlWriter& writer) {
   const std::vector<Eigen::Vector3d> homes = writer.plan.Homes();
   for (size_t i = 0; i < homes.size(); ++i) {
     pugi::xml_node home = document.append_child("Placemark");
-    Put(home, "name", homes.size() == 1 ? "Home" : fmt::format("Home {}", i + 1));
+    Write(home, "name", homes.size() == 1 ? "Home" : fmt::format("Home {}", i + 1));
     pugi::xml_node point = home.append_child("Point");
-    Put(point, "altitudeMode", writer.altitude_mode);
-    Put(point, "coordinates", writer.Coordinate(homes[i]));
+    Write(point, "altitudeMode", writer.altitude_mode);
+    Write(point, "coordinates", writer.Coordinate(homes[i]));
   }
 }
 
@@ -133,16 +135,16 @@ void AddFlight(pugi::xml_node parent, size_t index, const KmlWriter& writer) {
   pugi::xml_node folder = AddFolder(parent, fmt::format("Flight {}", index + 1));
   pugi::xml_node path = AddPlacemark(folder, fmt::format("Path of flight {}", index + 1),
                                      fmt::format("flight{}", index));
-  Put(path, "description",
-      fmt::format("{:.0f} m, {:.1f} min, {:.0f} % of a battery", flight.length_m, flight.time_min,
-                  flight.battery_percent));
+  Write(path, "description",
+        fmt::format("{:.0f} m, {:.1f} min, {:.0f} % of a battery", flight.length_m, flight.time_min,
+                    flight.battery_percent));
   pugi::xml_node line = path.append_child("LineString");
-  Put(line, "altitudeMode", writer.altitude_mode);
+  Write(line, "altitudeMode", writer.altitude_mode);
   std::vector<std::string> points;
   for (const PlannedWaypoint& waypoint : flight.waypoints) {
     points.push_back(writer.Coordinate(waypoint.position_m));
   }
-  Put(line, "coordinates", fmt::format("{}", fmt::join(points, " ")));
+  Write(line, "coordinates", fmt::format("{}", fmt::join(points, " ")));
   for (const PlannedView& view : writer.plan.views) {
     if (static_cast<size_t>(view.flight) == index) AddView(folder, view, writer);
   }
@@ -159,15 +161,15 @@ void AddFacade(pugi::xml_node folder, const PlannedFacade& facade, const KmlWrit
   AddDatum(data, "q_c", fmt::format("{:.3f}", facade.predicted.q_c));
   AddDatum(data, "views", fmt::format("{}", facade.views.size()));
   pugi::xml_node polygon = placemark.append_child("Polygon");
-  Put(polygon, "altitudeMode", writer.altitude_mode);
+  Write(polygon, "altitudeMode", writer.altitude_mode);
   const auto corner = [](const Eigen::Vector2d& end, double z) {
     return Eigen::Vector3d(end.x(), end.y(), z);
   };
   const std::vector<Eigen::Vector3d> wall = {
       corner(facade.a_m, facade.z_m.from_m), corner(facade.b_m, facade.z_m.from_m),
       corner(facade.b_m, facade.z_m.to_m), corner(facade.a_m, facade.z_m.to_m)};
-  Put(polygon.append_child("outerBoundaryIs").append_child("LinearRing"), "coordinates",
-      writer.Ring(wall));
+  Write(polygon.append_child("outerBoundaryIs").append_child("LinearRing"), "coordinates",
+        writer.Ring(wall));
 }
 
 using Rings = std::vector<std::vector<Eigen::Vector2d>>;
@@ -175,15 +177,15 @@ using Rings = std::vector<std::vector<Eigen::Vector2d>>;
 // An outline lifted to z, with walls down to the ground.
 void AddBlock(pugi::xml_node placemark, const Rings& rings, double z, const KmlWriter& writer) {
   pugi::xml_node polygon = placemark.append_child("Polygon");
-  Put(polygon, "extrude", "1");
-  Put(polygon, "altitudeMode", writer.altitude_mode);
+  Write(polygon, "extrude", "1");
+  Write(polygon, "altitudeMode", writer.altitude_mode);
   const char* boundary = "outerBoundaryIs";
   for (const auto& ring : rings) {
     std::vector<Eigen::Vector3d> lifted;
     lifted.reserve(ring.size());
     for (const Eigen::Vector2d& corner : ring) lifted.emplace_back(corner.x(), corner.y(), z);
-    Put(polygon.append_child(boundary).append_child("LinearRing"), "coordinates",
-        writer.Ring(lifted));
+    Write(polygon.append_child(boundary).append_child("LinearRing"), "coordinates",
+          writer.Ring(lifted));
     boundary = "innerBoundaryIs";
   }
 }
@@ -200,7 +202,7 @@ std::string PlanKml(const Plan& plan) {
   pugi::xml_node kml = xml.append_child("kml");
   kml.append_attribute("xmlns") = "http://www.opengis.net/kml/2.2";
   pugi::xml_node document = kml.append_child("Document");
-  Put(document, "name", fmt::format("Flight plan ({})", plan.method));
+  Write(document, "name", fmt::format("Flight plan ({})", plan.method));
   AddStyles(document, plan.flights.size());
   AddHomes(document, writer);
   for (size_t i = 0; i < plan.flights.size(); ++i) AddFlight(document, i, writer);
@@ -212,9 +214,10 @@ std::string PlanKml(const Plan& plan) {
              footprint.z_m.to_m, writer);
   }
   pugi::xml_node no_fly = AddFolder(document, "No-fly areas");
-  for (size_t i = 0; i < plan.no_fly_m.size(); ++i) {
-    AddBlock(AddPlacemark(no_fly, fmt::format("No-fly area {}", i + 1), "nofly"),
-             {plan.no_fly_m[i]}, plan.safe_altitude_m, writer);
+  const std::vector<Polygon> zones = PolygonsOf(plan.no_fly_m);
+  for (size_t i = 0; i < zones.size(); ++i) {
+    AddBlock(AddPlacemark(no_fly, fmt::format("No-fly area {}", i + 1), "nofly"), zones[i].rings,
+             plan.safe_altitude_m, writer);
   }
   struct Text : pugi::xml_writer {
     std::string text;

@@ -22,7 +22,7 @@ enum Command {
   kDelay = 93,
   kSpeed = 178,
   kGimbal = 205,  // DO_MOUNT_CONTROL: older than the gimbal manager, and understood by more
-  kPhoto = 2000,
+  kImage = 2000,
 };
 enum Frame { kMissionFrame = 2, kRelativeToHome = 3 };
 constexpr int kPx4 = 12;
@@ -91,20 +91,31 @@ void AddStop(const MissionStop& stop, const MissionOptions& options, Items& item
       items.AddCommand(kGimbal, {Centi(view.pitch_deg), 0, 0, 0, 0, 0, kMavlinkTargeting});
     }
     items.AddCommand(kDelay, {options.pace.hold_s, -1, -1, -1});
-    items.AddCommand(kPhoto, {0, 0, 1, view.order + 1});
+    items.AddCommand(kImage, {0, 0, 1, view.order + 1});
     before = &view;
   }
 }
 
 // QGroundControl wants fences clockwise.
-Json FencePolygon(const Plan& plan, const std::vector<Eigen::Vector2d>& ring) {
+Json FencePolygon(const Plan& plan, const Ring& ring, bool inclusion) {
   std::vector<Json> corners;
   corners.reserve(ring.size());
   for (const Eigen::Vector2d& corner : ring) {
     corners.push_back(Position(GeodeticFromPlan(plan.origin, corner)));
   }
   if (SignedArea(ring) > 0) std::ranges::reverse(corners);
-  return {{"inclusion", false}, {"polygon", corners}, {"version", 1}};
+  return {{"inclusion", inclusion}, {"polygon", corners}, {"version", 1}};
+}
+
+// What a no-fly area closes in is closed to the drone as well, unless the flight takes place there:
+// fences have no holes.
+Json FenceOf(const Plan& plan, const Polygon& zone, const Eigen::Vector2d& home) {
+  for (size_t hole = 1; hole < zone.rings.size(); ++hole) {
+    if (Contains(Polygon{{zone.rings[hole]}}, home)) {
+      return FencePolygon(plan, zone.rings[hole], true);
+    }
+  }
+  return FencePolygon(plan, zone.rings.front(), false);
 }
 
 }  // namespace
@@ -120,7 +131,9 @@ std::string QGroundControlPlan(const Plan& plan, const MissionRoute& route,
   }
   items.AddCommand(kReturn, {});
   Json polygons = Json::array();
-  for (const auto& ring : plan.no_fly_m) polygons.push_back(FencePolygon(plan, ring));
+  for (const Polygon& zone : PolygonsOf(plan.no_fly_m)) {
+    polygons.push_back(FenceOf(plan, zone, route.home_m.head<2>()));
+  }
   const Json json = {
       {"fileType", "Plan"},
       {"version", 1},

@@ -11,7 +11,7 @@
 namespace stucco::plan {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr int kMostSteps = 600;
 constexpr double kWorkPerBound = 1e8;  // edges looked at, four costs each: fewer steps on big maps
 constexpr int kPatience = 8;           // steps without progress before they are halved
@@ -32,7 +32,7 @@ using Weights = std::vector<double>;  // by port
 // An edge between two hovers with its cheapest ports, weights included.
 struct Edge {
   int hover = -1;  // the other end
-  double cost = kInfinity;
+  double cost = kUnbounded;
   Port from = 0;
   Port to = 0;
 };
@@ -109,16 +109,16 @@ void CountDegrees(OneTree& tree) {
 // gives the best bound. `second` says the cheapest such edge of a leaf.
 template <typename Second>
 void AddSecondEdge(OneTree& tree, const Second& second) {
-  double dearest = -kInfinity;
+  double dearest = -kUnbounded;
   for (size_t k = 0; k < tree.degree.size(); ++k) {
     if (tree.degree[k] != 1) continue;
     const Edge edge = second(static_cast<int>(k));
-    if (!(edge.cost > dearest) || edge.cost == kInfinity) continue;
+    if (!(edge.cost > dearest) || edge.cost == kUnbounded) continue;
     dearest = edge.cost;
     tree.leaf = static_cast<int>(k);
     tree.second = edge;
   }
-  if (dearest == -kInfinity) return;
+  if (dearest == -kUnbounded) return;
   tree.cost += dearest;
   Count(tree.leaf, tree.second, tree);
 }
@@ -140,13 +140,13 @@ OneTree LeastTree(const Graph& graph, const Weights& weights) {
   const size_t n = graph.size();
   OneTree tree;
   tree.parent.assign(n, {});
-  std::vector<double> key(n, kInfinity);
+  std::vector<double> key(n, kUnbounded);
   std::vector<char> done(n);
   using Item = std::pair<double, int>;
   std::priority_queue<Item, std::vector<Item>, std::greater<>> open;
   for (size_t root = 0; root < n; ++root) {
     if (done[root]) continue;
-    if (root > 0) tree.cost = -kInfinity;  // not connected
+    if (root > 0) tree.cost = -kUnbounded;  // not connected
     open.push({0, static_cast<int>(root)});
     key[root] = 0;
     while (!open.empty()) {
@@ -207,7 +207,7 @@ Weights Ascend(const Graph& graph, double tour_cost, Weights weights, By by, dou
       std::clamp(static_cast<int>(kWorkPerBound / static_cast<double>(edges)), 60, kMostSteps);
   Weights best_weights = weights;
   std::vector<double> previous(weights.size(), 0);
-  double best = -kInfinity;
+  double best = -kUnbounded;
   int stalled = 0;
   for (int step = 0; step < steps && scale > kLeastScale; ++step) {
     const OneTree tree = LeastOneTree(graph, weights);
@@ -273,7 +273,7 @@ class AllPairs {
 OneTree LeastTreeOfAll(int n, const AllPairs& pairs) {
   OneTree tree;
   tree.parent.assign(n, {});
-  std::vector<double> key(n, kInfinity);
+  std::vector<double> key(n, kUnbounded);
   std::vector<int> open(n - 1);
   for (int k = 1; k < n; ++k) open[k - 1] = k;
   for (int at = 0; !open.empty();) {
@@ -300,10 +300,10 @@ int DearestLeaf(const OneTree& tree, std::span<const int> neighbour, const Graph
                 const Weights& weights) {
   const int n = static_cast<int>(graph.size());
   int leaf = -1;
-  double dearest = -kInfinity;
+  double dearest = -kUnbounded;
   for (int k = 0; k < n; ++k) {
     if (tree.degree[k] != 1) continue;
-    double second = kInfinity;
+    double second = kUnbounded;
     for (const Neighbour& other : graph[k]) {
       if (other.hover != neighbour[k]) {
         second = std::min(second, Cheapest(k, other, weights).cost);

@@ -22,7 +22,7 @@ struct Part {
   Order order;
 };
 
-Part Stretch(const TourProblem& problem, const Order& tour, size_t from, size_t count) {
+Part SectionOf(const TourProblem& problem, const Order& tour, size_t from, size_t count) {
   Part part;
   std::vector<int> place(problem.hovers.size(), -1);
   for (size_t k = 0; k < count; ++k) {
@@ -91,7 +91,7 @@ Order PerturbedInParts(const TourProblem& problem, const Order& start, const Tou
   std::vector<Part> stretches(parts.parts);
   ParallelFor(stretches.size(), threads, [&](size_t i) {
     const size_t count = begin_of(i + 1) - begin_of(i);
-    stretches[i] = Stretch(problem, start, parts.first + begin_of(i), count);
+    stretches[i] = SectionOf(problem, start, parts.first + begin_of(i), count);
     const auto share = static_cast<int64_t>(count) * parts.perturbations / static_cast<int64_t>(n);
     Improve(problem.space, static_cast<int>(share), stretches[i], progress);
   });

@@ -13,9 +13,7 @@
 namespace stucco::plan {
 namespace {
 
-constexpr int kShotBits = 3;
-constexpr uint32_t kMostShots = (1U << kShotBits) - 1;  // of one hover on one sample; more count so
-constexpr uint32_t kNobody = ~0U >> kShotBits;
+constexpr uint32_t kNobody = ~0U;
 // Hovers with fewer sightings are not worth a second thread.
 constexpr size_t kSightingsPerTask = 256;
 
@@ -39,10 +37,6 @@ float AngleWeight(float cosine) {
   const float at = std::clamp((2 - 2 * cosine) * kTableScale, 0.0F, static_cast<float>(kTableSize));
   const int i = static_cast<int>(at);
   return kAngleTable[i] + (at - static_cast<float>(i)) * (kAngleTable[i + 1] - kAngleTable[i]);
-}
-
-int Counted(const Sighting& sighting) {
-  return std::min<int>(sighting.pictures, kMostShots);
 }
 
 }  // namespace
@@ -73,7 +67,7 @@ void ViewGraph::AddAll(std::span<const Hover> hovers) {
   for (uint32_t hover = 0; hover < hovers.size(); ++hover) {
     for (const Sighting& sighting : sightings_[hover]) {
       Ray ray = RayTo(sighting.sample, positions_[hover]);
-      ray.hover_and_shots = hover << kShotBits | Counted(sighting);
+      ray.hover = hover;
       rays_[sighting.sample].push_back(ray);
       ++states_[sighting.sample].hovers;
       states_[sighting.sample].nadirs += sighting.nadir;
@@ -93,7 +87,7 @@ ViewGraph::Ray ViewGraph::RayTo(uint32_t sample, const Eigen::Vector3d& position
   return {unit.x(), unit.y(), unit.z(), static_cast<float>(distance), 0};
 }
 
-double ViewGraph::ShareOf(uint32_t sample, const Ray& ray, int shots, uint32_t self) const {
+double ViewGraph::ShareOf(uint32_t sample, const Ray& ray, uint32_t self) const {
   const Eigen::Vector3f normal = view_.samples[sample].normal.cast<float>();
   const auto facing = [&](const Ray& r) {
     return r.x * normal.x() + r.y * normal.y() + r.z * normal.z();
@@ -101,16 +95,13 @@ double ViewGraph::ShareOf(uint32_t sample, const Ray& ray, int shots, uint32_t s
   const float own = facing(ray);
   double sum = 0;
   for (const Ray& other : rays_[sample]) {
-    if (other.hover_and_shots >> kShotBits == self) continue;
+    if (other.hover == self) continue;
     const float cosine = ray.x * other.x + ray.y * other.y + ray.z * other.z;
     const double clear = ResolutionWeight(std::max(ray.distance_m, other.distance_m), d_max_m_) *
                          (by_scale_ ? ScaleWeight(ray.distance_m, other.distance_m) : 1);
-    const double pair = AngleWeight(cosine) * clear * std::min(own, facing(other));
-    sum += (other.hover_and_shots & kMostShots) * pair;
+    sum += AngleWeight(cosine) * clear * std::min(own, facing(other));
   }
-  const double among_themselves =
-      0.5 * (shots - 1) * kAngleTable[0] * ResolutionWeight(ray.distance_m, d_max_m_) * own;
-  return shots * (sum + among_themselves);
+  return sum;
 }
 
 void ViewGraph::Sum(uint32_t sample) {
@@ -119,7 +110,7 @@ void ViewGraph::Sum(uint32_t sample) {
   rays_[sample].reserve(rays.size());
   double sum = 0;
   for (const Ray& ray : rays) {
-    sum += ShareOf(sample, ray, static_cast<int>(ray.hover_and_shots & kMostShots), kNobody);
+    sum += ShareOf(sample, ray, kNobody);
     rays_[sample].push_back(ray);
   }
   states_[sample].reconstructability = sum;
@@ -127,7 +118,7 @@ void ViewGraph::Sum(uint32_t sample) {
 
 double ViewGraph::Share(uint32_t hover, uint32_t sighting) const {
   const Sighting& s = sightings_[hover][sighting];
-  return ShareOf(s.sample, RayTo(s.sample, positions_[hover]), Counted(s), hover);
+  return ShareOf(s.sample, RayTo(s.sample, positions_[hover]), hover);
 }
 
 std::vector<double> ViewGraph::Shares(uint32_t hover) const {
@@ -146,7 +137,7 @@ std::vector<double> ViewGraph::SharesFrom(const Eigen::Vector3d& position,
   std::vector<double> out;
   out.reserve(sightings.size());
   for (const Sighting& s : sightings) {
-    out.push_back(ShareOf(s.sample, RayTo(s.sample, position), Counted(s), kNobody));
+    out.push_back(ShareOf(s.sample, RayTo(s.sample, position), kNobody));
   }
   return out;
 }
@@ -155,8 +146,7 @@ void ViewGraph::Remove(uint32_t hover, std::span<const double> shares) {
   for (size_t i = 0; i < sightings_[hover].size(); ++i) {
     const Sighting& sighting = sightings_[hover][i];
     std::vector<Ray>& rays = rays_[sighting.sample];
-    const auto ray =
-        std::ranges::find(rays, hover, [](const Ray& r) { return r.hover_and_shots >> kShotBits; });
+    const auto ray = std::ranges::find(rays, hover, &Ray::hover);
     *ray = rays.back();
     rays.pop_back();
     SampleState& state = states_[sighting.sample];
@@ -171,7 +161,7 @@ void ViewGraph::Insert(uint32_t hover, const Eigen::Vector3d& position,
                        std::vector<Sighting> sightings, std::span<const double> shares) {
   for (size_t i = 0; i < sightings.size(); ++i) {
     Ray ray = RayTo(sightings[i].sample, position);
-    ray.hover_and_shots = hover << kShotBits | Counted(sightings[i]);
+    ray.hover = hover;
     rays_[sightings[i].sample].push_back(ray);
     SampleState& state = states_[sightings[i].sample];
     state.reconstructability += shares[i];

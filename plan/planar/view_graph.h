@@ -12,7 +12,7 @@
 
 namespace stucco::plan {
 
-// What a hover sees, `pictures` being its shots.
+// What a hover sees, in any of its shots.
 std::vector<Sighting> SightingsOf(const SurfaceView& view, const Hover& hover);
 
 // What one sample has from all hovers of a graph.
@@ -23,9 +23,11 @@ struct SampleState {
 };
 
 // Which hover sees which samples, with every sample's reconstructability kept up to date as hovers
-// come and go. Photos of one hover count one by one. The weights of the angle come from a table:
-// every term of h is within 1e-4 of plan/planar/reconstructability.h. Without `by_scale` pairs are
-// as Smith et al. have them, without w4.
+// come and go. A hover counts once for each sample, in however many of its photos that is: these
+// have no parallax, and a pair of hovers tells the same by one pair of photos or by four. The
+// weights of the angle come from a table: every term of h is within 1e-4 of
+// plan/planar/reconstructability.h. Without `by_scale` pairs are as Smith et al. have them, without
+// w4.
 class ViewGraph {
  public:
   ViewGraph(const SurfaceView& view, double d_max_m, int threads, bool by_scale = true);
@@ -63,10 +65,10 @@ class ViewGraph {
   struct Ray {
     float x, y, z;  // unit, from the sample to the hover
     float distance_m;
-    uint32_t hover_and_shots;
+    uint32_t hover;
   };
   Ray RayTo(uint32_t sample, const Eigen::Vector3d& position) const;
-  double ShareOf(uint32_t sample, const Ray& ray, int shots, uint32_t self) const;
+  double ShareOf(uint32_t sample, const Ray& ray, uint32_t self) const;
   void Sum(uint32_t sample);
 
   const SurfaceView& view_;

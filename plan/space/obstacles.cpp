@@ -42,8 +42,8 @@ Obstacles::Obstacles(const Site& site) : site_(&site), radius_m_(site.d_min_m + 
   for (const Footprint& footprint : site.footprints) {
     footprints_.Add(footprint.outline, footprint.blocked_to_m);
   }
-  for (const Polygon& polygon : site.no_fly) {
-    no_fly_.Add(polygon, std::numeric_limits<double>::infinity());
+  for (const auto* zones : {&site.no_fly, &site.closed_off}) {
+    for (const Polygon& zone : *zones) no_fly_.Add(zone, std::numeric_limits<double>::infinity());
   }
   footprints_.Index();
   no_fly_.Index();

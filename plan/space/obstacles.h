@@ -14,7 +14,8 @@ namespace stucco::plan {
 // written to never takes it over the limit.
 constexpr double kSafetyMargin_m = 1e-3;
 
-// Where the drone may be. A position is free when it is outside every no-fly polygon, at least
+// Where the drone may be. A position is free when it is outside every no-fly polygon and
+// what these part from home, at least
 // d_min (horizontally) from every footprint that is blocked at its height, and not below the lowest
 // altitude. Borders count as not free. Any number of threads may ask; nothing is allocated.
 class Obstacles {

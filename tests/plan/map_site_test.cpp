@@ -174,6 +174,10 @@ TEST_F(ReadSiteTest, AreasThatCutABuildingTakeAllOfIt) {
   EXPECT_FALSE(site.footprints[1].in_area);
   EXPECT_NEAR(Area(site.footprints[0].outline), 20 * 12, 0.1);
   EXPECT_EQ(site.facades.size(), 4u);
+  const auto cut = HasSubstr("the border of the area cuts it");
+  EXPECT_THAT(site.repairs, testing::ElementsAre(AllOf(HasSubstr("B0001"), cut)));
+  inputs_.area_of_interest = Areas("area.geojson", {Rectangle(-5, -5, 30, 30)});
+  EXPECT_THAT(Read(Row()).repairs, testing::Each(Not(cut)));
 }
 
 TEST_F(ReadSiteTest, AltitudeBelowABuildingIsRefused) {

@@ -7,6 +7,7 @@
 
 #include "plan/camera/preset.h"
 #include "plan/dipping/dipping_views.h"
+#include "plan/match/corridors.h"
 #include "plan/match/expected_matches.h"
 #include "plan/match/link_candidates.h"
 #include "plan/match/link_photos.h"
@@ -172,6 +173,84 @@ TEST(MatchWarnings, NamePartsAndSingleStops) {
               testing::ElementsAre(testing::HasSubstr("2 parts with nothing that ties them: 31 of "
                                                       "them (of B0002, B0003)"),
                                    testing::HasSubstr("single stop tie to the others: 4")));
+}
+
+// Two houses with open ground between, and what a plan without links has of them.
+struct FarHouses {
+  explicit FarHouses(double gap_m)
+      : site(MadeSite({Rectangle(-6, -5, 6, 5), Rectangle(6 + gap_m, -5, 18 + gap_m, 5)},
+                      {.safe_altitude_m = 28, .margin_m = 28, .heights_m = {6, 6}})),
+        obstacles(site) {
+    const DippingSetting dipping = MakeSetting(site, obstacles, camera, 80);
+    hovers = PlanDippingViews(dipping, SilentProgress()).hovers;
+    const auto above =
+        PlanarViews(site, camera, {.grid = {}, .d_max_m = 84}, hovers, SilentProgress());
+    hovers.insert(hovers.end(), above.begin(), above.end());
+    // Those between the houses stand in the gap of the grid's rows.
+    std::erase_if(hovers, [&](const Hover& hover) {
+      return hover.position.x() > 40 && hover.position.x() < gap_m - 28;
+    });
+  }
+  Connectivity Whole() const {
+    const PhotoGraph photos({site, camera, 2}, hovers);
+    return ConnectivityOf(TiesOf(photos, hovers, 2));
+  }
+  size_t Loose() const {
+    const PhotoGraph photos({site, camera, 2}, hovers);
+    return LooseGroups(photos.places, TiesOf(photos, hovers, 2)).size();
+  }
+
+  CameraPreset camera = FindCamera("mavic-3e");
+  Site site;
+  Obstacles obstacles;
+  std::vector<Hover> hovers;
+};
+
+TEST(LinkChains, TieWhatOpenGroundParts) {
+  FarHouses far(220);
+  ASSERT_GT(far.Whole().parts, 1);
+  const size_t before = far.hovers.size();
+  AddLinkPhotos({far.site, far.camera, 2}, far.obstacles, far.hovers, SilentProgress());
+  EXPECT_EQ(far.Whole().parts, 1);
+  EXPECT_EQ(far.Loose(), 0u);
+  int between = 0;
+  for (size_t h = before; h < far.hovers.size(); ++h) {
+    const Vector3d& position = far.hovers[h].position;
+    EXPECT_TRUE(far.obstacles.IsFree(position));
+    if (position.x() < 50 || position.x() > 180) continue;
+    ++between;
+    EXPECT_LT(std::abs(position.y()), 6);
+    EXPECT_EQ(position.z(), far.site.safe_altitude_m);
+  }
+  EXPECT_GE(between, 5);
+  EXPECT_LE(between, 12);  // one each 15 m or so
+}
+
+TEST(LinkChains, LeaveOutWhatMayNotBeFlownAndWhatIsTooFar) {
+  FarHouses far(220);
+  far.site.no_fly = {{{Rectangle(80, -200, 160, 200)}}};
+  const Obstacles obstacles(far.site);
+  AddLinkPhotos({far.site, far.camera, 2}, obstacles, far.hovers, SilentProgress());
+  EXPECT_EQ(far.Whole().parts, 2);
+  for (const Hover& hover : far.hovers) EXPECT_TRUE(obstacles.IsFree(hover.position));
+  const Site apart = MadeSite({Rectangle(0, 0, 10, 10), Rectangle(700, 0, 710, 10)},
+                              {.safe_altitude_m = 28, .heights_m = {6, 6}});
+  EXPECT_TRUE(CorridorsOf(apart, 60).empty());
+}
+
+TEST(Corridors, AreTheShortestLinesThatJoinAll) {
+  // Three groups in a row; the second is two houses 30 m apart.
+  const Site site = MadeSite({Rectangle(0, 0, 10, 10), Rectangle(110, 0, 120, 10),
+                              Rectangle(150, 0, 160, 10), Rectangle(290, 0, 300, 10)},
+                             {.safe_altitude_m = 28, .heights_m = {6, 6, 6, 6}});
+  std::vector<double> lengths;
+  for (const Segment2d& line : CorridorsOf(site, 60)) lengths.push_back((line.b - line.a).norm());
+  std::ranges::sort(lengths);
+  ASSERT_EQ(lengths.size(), 2u);
+  EXPECT_NEAR(lengths[0], 100, 5);
+  EXPECT_NEAR(lengths[1], 130, 5);
+  EXPECT_TRUE(CorridorsOf(site, 140).empty());
+  EXPECT_TRUE(CorridorsOf(MadeSite({Rectangle(0, 0, 10, 10)}), 60).empty());
 }
 
 // Two houses so far apart that no photo shows the ground of both.

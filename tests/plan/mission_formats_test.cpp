@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -198,6 +200,97 @@ TEST(QGroundControl, HasTheFrameOfAPlan) {
   for (size_t i = 0; i < items.size(); ++i) EXPECT_EQ(items[i]["doJumpId"], i + 1);
   const auto& home = json["mission"]["plannedHomePosition"];
   EXPECT_LT((test::PlanFromLonLat(plan, home[1], home[0]) - plan.home_m.head<2>()).norm(), 0.01);
+}
+
+// Fields that the developers' guide of QGroundControl documents ("Plan File Format"), by their
+// type.
+bool IsPlace(const nlohmann::json& place, size_t numbers) {
+  return place.is_array() && place.size() == numbers &&
+         std::ranges::all_of(place, [](const auto& number) { return number.is_number(); }) &&
+         std::abs(place[0].get<double>()) <= 90 && std::abs(place[1].get<double>()) <= 180;
+}
+
+void ExpectOnly(const nlohmann::json& object, const std::set<std::string>& keys) {
+  ASSERT_TRUE(object.is_object());
+  std::set<std::string> found;
+  for (const auto& [key, value] : object.items()) found.insert(key);
+  EXPECT_EQ(found, keys);
+}
+
+void ExpectSimpleItem(const nlohmann::json& item) {
+  std::set<std::string> keys = {"type", "autoContinue", "command", "doJumpId", "frame", "params"};
+  const bool has_place = item["frame"] == 3;
+  if (has_place) keys.insert({"Altitude", "AltitudeMode", "AMSLAltAboveTerrain"});
+  ExpectOnly(item, keys);
+  EXPECT_EQ(item["type"], "SimpleItem");
+  EXPECT_TRUE(item["autoContinue"].is_boolean());
+  EXPECT_TRUE(item["command"].is_number_integer());
+  EXPECT_TRUE(item["doJumpId"].is_number_integer());
+  ASSERT_EQ(item["params"].size(), 7U);
+  for (const auto& param : item["params"]) EXPECT_TRUE(param.is_number() || param.is_null());
+  if (!has_place) return;
+  EXPECT_TRUE(item["Altitude"].is_number());
+  EXPECT_EQ(item["AltitudeMode"], 1);
+  EXPECT_TRUE(item["AMSLAltAboveTerrain"].is_null());
+}
+
+TEST(QGroundControl, HoldsTheDocumentedFieldsAndNoOthers) {
+  const Plan plan = test::MakePlan();
+  for (const MissionRoute& route : MissionRoutes(plan)) {
+    const auto json = nlohmann::json::parse(QGroundControlPlan(plan, route, test::Mavic3E()));
+    ExpectOnly(json,
+               {"fileType", "version", "groundStation", "mission", "geoFence", "rallyPoints"});
+    const auto& mission = json["mission"];
+    ExpectOnly(mission, {"version", "firmwareType", "vehicleType", "cruiseSpeed", "hoverSpeed",
+                         "globalPlanAltitudeMode", "plannedHomePosition", "items"});
+    for (const char* key : {"firmwareType", "vehicleType", "globalPlanAltitudeMode"}) {
+      EXPECT_TRUE(mission[key].is_number_integer()) << key;
+    }
+    EXPECT_GT(mission["cruiseSpeed"], 0);
+    EXPECT_GT(mission["hoverSpeed"], 0);
+    EXPECT_TRUE(IsPlace(mission["plannedHomePosition"], 3));
+    ASSERT_FALSE(mission["items"].empty());
+    for (const auto& item : mission["items"]) ExpectSimpleItem(item);
+    ExpectOnly(json["geoFence"], {"version", "circles", "polygons"});
+    EXPECT_EQ(json["geoFence"]["version"], 2);
+    EXPECT_TRUE(json["geoFence"]["circles"].is_array());
+    for (const auto& fence : json["geoFence"]["polygons"]) {
+      ExpectOnly(fence, {"version", "inclusion", "polygon"});
+      EXPECT_EQ(fence["version"], 1);
+      EXPECT_GE(fence["polygon"].size(), 3U);
+      for (const auto& corner : fence["polygon"]) EXPECT_TRUE(IsPlace(corner, 2));
+    }
+    ExpectOnly(json["rallyPoints"], {"version", "points"});
+  }
+}
+
+// A fence has no holes: one that the flight takes place in is a fence to stay within.
+TEST(QGroundControl, StaysWithinTheHoleThatItFliesIn) {
+  Plan plan = test::MakePlan();
+  const Eigen::Vector2d home = MissionRoutes(plan)[0].home_m.head<2>();
+  const auto square = [](const Eigen::Vector2d& middle, double half) {
+    return Ring{middle + Eigen::Vector2d(-half, -half), middle + Eigen::Vector2d(half, -half),
+                middle + Eigen::Vector2d(half, half), middle + Eigen::Vector2d(-half, half)};
+  };
+  const auto hole = [&](const Eigen::Vector2d& middle, double half) {
+    Ring ring = square(middle, half);
+    std::ranges::reverse(ring);
+    return ring;
+  };
+  const Eigen::Vector2d far(900, 900);
+  plan.no_fly_m = {square(home, 300), hole(home, 200), square(far, 50), hole(far, 20)};
+  const auto json =
+      nlohmann::json::parse(QGroundControlPlan(plan, MissionRoutes(plan)[0], test::Mavic3E()));
+  const auto& fences = json["geoFence"]["polygons"];
+  ASSERT_EQ(fences.size(), 2U);
+  const auto half_width = [&](const nlohmann::json& fence, const Eigen::Vector2d& middle) {
+    const auto& corner = fence["polygon"][0];
+    return (test::PlanFromLonLat(plan, corner[1], corner[0]) - middle).cwiseAbs().maxCoeff();
+  };
+  EXPECT_EQ(fences[0]["inclusion"], true);
+  EXPECT_NEAR(half_width(fences[0], home), 200, 0.1);
+  EXPECT_EQ(fences[1]["inclusion"], false);
+  EXPECT_NEAR(half_width(fences[1], far), 50, 0.1);
 }
 
 TEST(QGroundControl, FencesNoFlyAreasClockwise) {

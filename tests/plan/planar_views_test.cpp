@@ -52,7 +52,7 @@ TEST(RemoveRedundant, LeavesWhatIsRequiredAndNothingThatCouldGo) {
   const Site site = TownOfThree();
   const SurfaceView view = ViewOf(site);
   const std::vector<Hover> grid = GridHovers(site, FindCamera("mavic-3e"), Options().grid);
-  const double tau = 10 * GoodPair(26, kFarthestView);
+  const double tau = 6 * GoodPair(26, kFarthestView);
   ViewGraph graph(view, kFarthestView, 1);
   graph.AddAll(grid);
   const auto requirements = RequirementsOf(graph, view.samples, tau);
@@ -115,7 +115,7 @@ TEST(PlanarViews, KeepCoverageWithFarFewerHovers) {
   EXPECT_GT(views.size(), 4U);
   const auto before = StatesWith(view, grid);
   const auto after = StatesWith(view, views);
-  const double tau = 10 * GoodPair(26, kFarthestView);
+  const double tau = 6 * GoodPair(26, kFarthestView);
   // The planner's samples are others than these, so that single points may fall a little short.
   int short_of = 0, seen = 0;
   for (size_t s = 0; s < before.size(); ++s) {
@@ -258,7 +258,7 @@ TEST(PlanarViews, FollowTheTerrain) {
 TEST(MoveHovers, GainsWithoutLosing) {
   const Site site = TownOfThree();
   const SurfaceView view = ViewOf(site);
-  const double tau = 10 * GoodPair(26, kFarthestView);
+  const double tau = 6 * GoodPair(26, kFarthestView);
   std::vector<Hover> grid = GridHovers(site, FindCamera("mavic-3e"), Options().grid);
   ViewGraph graph(view, kFarthestView, 1);
   graph.AddAll(grid);

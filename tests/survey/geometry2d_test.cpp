@@ -55,6 +55,16 @@ TEST(Geometry2d, HolesAreOutside) {
   EXPECT_TRUE(Contains(polygon.rings[1], {4, 4}));
 }
 
+TEST(Geometry2d, RingsOneAfterTheOtherArePolygons) {
+  const Ring outer = {{0, 0}, {9, 0}, {9, 9}, {0, 9}}, hole = {{1, 1}, {1, 2}, {2, 2}, {2, 1}};
+  const Ring other = {{20, 0}, {21, 0}, {21, 1}};
+  const std::vector<Polygon> polygons = PolygonsOf({outer, hole, hole, other});
+  ASSERT_EQ(polygons.size(), 2u);
+  EXPECT_EQ(polygons[0].rings.size(), 3u);
+  EXPECT_EQ(polygons[1].rings.size(), 1u);
+  EXPECT_TRUE(PolygonsOf({}).empty());
+}
+
 TEST(Geometry2d, DistanceToASegment) {
   const Segment2d s{{0, 0}, {10, 0}};
   EXPECT_EQ(Distance(s, {5, 3}), 3);

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "site/site.h"
+
+namespace stucco::plan {
+
+// Finds what no-fly polygons part from Site::home (Site::closed_off): photos there would be
+// planned, and tied to others, for nothing. What holds buildings of the site is named in
+// Site::warnings.
+void CloseOff(Site& site);
+
+}  // namespace stucco::plan
