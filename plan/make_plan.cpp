@@ -243,6 +243,8 @@ PlanResult MakePlan(const Site& site, const PlanOptions& options, int threads, P
   result.stats.matches = matches;
   const bool links_tried = options.links && options.method == "cocapture";
   std::ranges::move(MatchWarnings(matches, links_tried), std::back_inserter(result.stats.warnings));
+  std::ranges::move(CoverageWarnings(result.coverage, options.gsd_m),
+                    std::back_inserter(result.stats.warnings));
   return result;
 }
 

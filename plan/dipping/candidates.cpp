@@ -26,8 +26,7 @@ constexpr double kWallStepM = 1;        // between the rays' starting points on 
 constexpr double kClearOfLineM = 0.05;  // how far beyond the border of the zone a point is put
 constexpr size_t kBlock = 64;           // points looked at as one piece of work
 
-// Points of a lattice inside the convex hull of nothing but the area's bounding box; those outside
-// the area are dropped by the caller.
+// Points of a lattice over the area's bounding box.
 std::vector<Vector2d> GridPoints(const Site& site) {
   Vector2d low = Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Ring& ring : site.area.rings) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -285,8 +286,21 @@ class Optimiser {
 
   struct BetterTurn {
     double turn = 0;
-    std::vector<WallView> views;
+    std::vector<WallView> views;  // by user
   };
+
+  // By how much less the points of a facade cost to hover at with these views of it.
+  double SavedBy(int facade, const std::vector<WallView>& views) const {
+    std::map<int, DippingPoint> turned;
+    for (size_t k = 0; k < views.size(); ++k) {
+      const User& user = users_[facade][k];
+      const auto point = turned.try_emplace(user.point, points_[user.point]).first;
+      point->second.views[user.view] = views[k];
+    }
+    double saved = 0;
+    for (const auto& [index, point] : turned) saved += CostOf(points_[index]) - CostOf(point);
+    return saved;
+  }
 
   std::optional<BetterTurn> FindBetterTurn(int facade) const {
     if (users_[facade].empty()) return std::nullopt;
@@ -299,16 +313,31 @@ class Optimiser {
       std::optional<std::vector<WallView>> views = Turned(facade, turn);
       if (!views) continue;
       const Quality after = QualityWith(facade, *views);
-      const double gain = after.value - before.value;
-      if (gain > best_gain && after.covered >= before.covered - kNoLoss) {
-        best_gain = gain;
-        best = BetterTurn{turn, std::move(*views)};
-      }
+      if (after.value < before.value - kNoLoss || after.covered < before.covered - kNoLoss)
+        continue;
+      const double saved = SavedBy(facade, *views);
+      const double gain = after.value - before.value + saved;
+      if (saved < -kNoLoss || gain <= best_gain) continue;
+      best_gain = gain;
+      best = BetterTurn{turn, std::move(*views)};
     }
     return best;
   }
 
-  // The direction of a facade influences only its own quality, so that all can turn at once.
+  // Turns a facade; its points are `turned` then.
+  void Turn(int facade, BetterTurn better, std::set<int>& turned) {
+    looked_at_[facade] = step_;
+    changed_at_[facade] = step_;
+    turns_[facade] = better.turn;
+    for (size_t k = 0; k < users_[facade].size(); ++k) {
+      const User& user = users_[facade][k];
+      points_[user.point].views[user.view] = std::move(better.views[k]);
+      turned.insert(user.point);
+    }
+  }
+
+  // The direction of a facade influences its own quality and what its points cost: all are looked
+  // at at once, and again where another one has turned at a point of theirs.
   int AdjustTurns() {
     ++step_;
     std::vector<std::optional<BetterTurn>> better(level_.facades.size());
@@ -316,21 +345,20 @@ class Optimiser {
       const int facade = level_.facades[i];
       if (changed_at_[facade] >= looked_at_[facade]) better[i] = FindBetterTurn(facade);
     });
-    int turned = 0;
+    int count = 0;
+    std::set<int> turned;
     for (size_t i = 0; i < better.size(); ++i) {
       const int facade = level_.facades[i];
       looked_at_[facade] = step_ + 1;
+      const bool again = better[i] && std::ranges::any_of(users_[facade], [&](const User& user) {
+                           return turned.contains(user.point);
+                         });
+      if (again) better[i] = FindBetterTurn(facade);
       if (!better[i]) continue;
-      looked_at_[facade] = step_;
-      changed_at_[facade] = step_;
-      turns_[facade] = better[i]->turn;
-      for (size_t k = 0; k < users_[facade].size(); ++k) {
-        const User& user = users_[facade][k];
-        points_[user.point].views[user.view] = std::move(better[i]->views[k]);
-      }
-      ++turned;
+      Turn(facade, std::move(*better[i]), turned);
+      ++count;
     }
-    return turned;
+    return count;
   }
 
   // Views whose whole part other views of the facade see too; the lowest score first.

@@ -18,9 +18,10 @@ struct OptimiseReport {
 
 // Paper, section 4.3: adjusts points, then directions of facades, and removes redundant views, one
 // at a time, until nothing changes. A change is accepted when it dominates: the hovering cost of
-// the point does not rise, the quality of none of its facades falls, one of them improves, and no
-// part of a wall is lost. Points without a facade in common do not influence each other and are
-// adjusted at the same time; the result does not depend on the number of threads.
+// the points does not rise, the quality of none of their facades falls, one of these improves, and
+// no wall is covered over less of its length. Points without a facade in common do not influence
+// each other and are adjusted at the same time; the result does not depend on the number of
+// threads.
 OptimiseReport OptimiseViews(const Level& level, const DippingSetting& setting,
                              std::vector<double>& turns, std::vector<DippingPoint>& points);
 

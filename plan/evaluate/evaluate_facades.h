@@ -18,8 +18,7 @@ std::vector<uint32_t> MeantCells(const FacadeSight& sight, int facade, const See
 // Gives photos a target wherever they see walls that none is meant for yet, as a texturing step
 // would choose them: per facade, the photo with the best view-facade quality (eq. 2) weighted by
 // the part it newly covers, until none covers more. The target is the box around that part. Facades
-// that existing targets cover are left alone. So it serves the baselines, which plan no views for
-// facades, and what dipping views leave over.
+// that existing targets cover are left alone. So it serves what dipping views leave over.
 void AssignViews(const Site& site, const CameraPreset& camera, double d_max_m,
                  std::vector<Hover>& hovers, int threads);
 

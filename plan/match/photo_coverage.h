@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "site/surface_samples.h"
@@ -30,5 +31,9 @@ struct PhotoCoverage {
 // A pixel's size on a surface is the square root of the area that it covers there: it grows with
 // the distance and, unlike a distance over a focal length, with the slant.
 PhotoCoverage CoverageOf(const PhotoGraph& photos, const PlannedCamera& camera);
+
+// What to warn of where a good part of the walls is shown in larger pixels than asked for: what
+// nothing dips to is as far away as the photos from above are. At most one line.
+std::vector<std::string> CoverageWarnings(const PhotoCoverage& coverage, double asked_m);
 
 }  // namespace stucco::plan

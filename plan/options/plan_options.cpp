@@ -38,7 +38,7 @@ void Describe(OptionTable& table, PlanOptions& options) {
             "Step down a wall, as a share of the height of the wall in one photo");
   table.Add(
       "reconstructability", options.reconstructability, 0, 100,
-      "Least reconstructability that thinning out leaves at every point of the surface; 0: ten "
+      "Least reconstructability that thinning out leaves at every point of the surface; 0: six "
       "times that of one good pair of photos");
   table.Add("links", options.links,
             "Add photos between those that would not match by themselves (method cocapture)");

@@ -26,7 +26,7 @@ struct PlanOptions {
   double position_error_m = 2;    // of the drone, in every direction
   double margin_m = 0;            // how far views go beyond the buildings; 0: as H
   double vertical_step = 0.8;     // k_d of the paper
-  double reconstructability = 0;  // tau_r; 0: ten times that of one good pair
+  double reconstructability = 0;  // tau_r; 0: six times that of one good pair
   bool links = true;              // photos between those that would not match
   double battery_percent = 80;    // used up per flight at most
   double wind_m_per_s = 3;        // that flights are reckoned with

@@ -30,9 +30,6 @@ constexpr double kFinest_m = 3.5;
 constexpr double kCoarsest_m = 8;
 // Ground counts up to this many d_min from the buildings.
 constexpr double kGroundReach = 2;
-// The ground in the middle of a tilted photo still counts as covered where it is beyond d_max: from
-// a high ceiling there is nothing better.
-constexpr double kReachOfAltitude = 1.5;
 constexpr int kMostRounds = 5;  // of moves and removals; the last ones gain next to nothing
 // Of the mean grid step, for a move.
 constexpr double kMoveOfGrid = 0.5;
@@ -46,16 +43,9 @@ double SpacingOf(const PlanarOptions& options, const GridStep& step) {
   return std::clamp(kSpacingOfGrid * MeanStep(step), kFinest_m, kCoarsest_m);
 }
 
-double TauOf(const Site& site, const PlanarOptions& options, Progress& progress) {
+double TauOf(const Site& site, const PlanarOptions& options) {
   if (options.tau_r > 0) return options.tau_r;
-  const double tau = kGoodPairs * GoodPair(site.safe_altitude_m, options.d_max_m);
-  if (!(tau > 0)) {
-    progress.Warn(fmt::format(
-        "views from the safe altitude of {:.0f} m are beyond d_max = {:.0f} m: their photos are "
-        "coarser than asked for, and only coverage decides which of them stay",
-        site.safe_altitude_m, options.d_max_m));
-  }
-  return tau;
+  return kGoodPairs * GoodPair(site.safe_altitude_m, options.d_max_m);
 }
 
 // The grid less what was removed.
@@ -83,6 +73,16 @@ std::vector<Hover> Joined(std::vector<Hover> a, std::span<const Hover> b) {
   return a;
 }
 
+// With all its photos, where it stood.
+void PutBack(const Hover& hover, std::vector<Hover>& hovers) {
+  const auto there = std::ranges::find(hovers, hover.position, &Hover::position);
+  if (there == hovers.end()) {
+    hovers.push_back(hover);
+  } else {
+    there->shots = hover.shots;
+  }
+}
+
 double Square(double value) {
   return value * value;
 }
@@ -98,7 +98,7 @@ std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
   const SurfaceView view(site, camera.Field(),
                          SampleSurface(site, {.spacing_m = SpacingOf(options, step),
                                               .ground_reach_m = kGroundReach * site.d_min_m}),
-                         std::max(options.d_max_m, kReachOfAltitude * site.safe_altitude_m));
+                         options.d_max_m);
   // First, so that nothing counts on them.
   std::vector<Hover> grid = full;
   const size_t idle = DropIdleShots(view, Square(SpacingOf(options, step)), options.threads, grid);
@@ -111,7 +111,7 @@ std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
   graph.AddAll(Joined(grid, dipping));
   progress.Advance();
 
-  const double tau = TauOf(site, options, progress);
+  const double tau = TauOf(site, options);
   const Obstacles obstacles(site);
   const std::vector<Requirement> requirements = RequirementsOf(graph, view.samples, tau);
   ThinOut(graph,
@@ -128,7 +128,7 @@ std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
   const auto lost =
       HoversForLostWalls(FacadeSight(site, camera, options.d_max_m, full),
                          FacadeSight(site, camera, options.d_max_m, kept), options.threads);
-  for (const uint32_t hover : lost) out.push_back(full[hover]);
+  for (const uint32_t hover : lost) PutBack(full[hover], out);
   return out;
 }
 

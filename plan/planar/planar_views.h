@@ -15,9 +15,8 @@ namespace stucco::plan {
 
 struct PlanarOptions {
   GridOptions grid;
-  double d_max_m = 0;  // farthest surface that a view counts for
-  // Least reconstructability that removal leaves; 0: ten good pairs at the safe altitude, the
-  // target of Zhou et al. (2020).
+  double d_max_m = 0;  // farthest surface that a view counts for; beyond the safe altitude
+  // Least reconstructability that removal leaves; 0: six good pairs at the safe altitude.
   double tau_r = 0;
   double sample_spacing_m = 0;  // 0: three quarters of the grid, from 3.5 to 8 m
   int threads = 1;

@@ -7,7 +7,8 @@
 namespace stucco::plan {
 
 // How well a point of a surface can be reconstructed from the photos that see it. Paper: Smith et
-// al., "Aerial Path Planning for Urban Scene Reconstruction" (2018), as docs/planning.md writes it.
+// al., "Aerial Path Planning for Urban Scene Reconstruction" (2018): h sums w1 w2 w3 cos(t) over
+// pairs of places, t the flatter of the two rays' angles with the normal; w4 is ours.
 
 // w1: enough parallax between two rays at this angle. Half at pi/16.
 double ParallaxWeight(double angle_rad);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,6 +66,25 @@ TEST_F(Coverage, TheBackIsNotShown) {
     EXPECT_EQ(place.gsd_m, 0);
   }
   EXPECT_GT(backs, 0);
+}
+
+PhotoCoverage Walls(int fine, int coarse, SurfaceKind kind = SurfaceKind::kWall) {
+  PhotoCoverage coverage;
+  for (int i = 0; i < fine + coarse; ++i) {
+    coverage.places.push_back({.kind = kind, .photos = 1, .gsd_m = i < fine ? 0.021 : 0.034});
+  }
+  return coverage;
+}
+
+TEST(CoverageWarnings, NameWhatIsCoarserThanAskedFor) {
+  EXPECT_TRUE(CoverageWarnings({}, 0.02).empty());
+  EXPECT_TRUE(CoverageWarnings(Walls(99, 1), 0.02).empty());
+  EXPECT_TRUE(CoverageWarnings(Walls(10, 90, SurfaceKind::kGround), 0.02).empty());
+  PhotoCoverage walls = Walls(75, 25);
+  walls.places.push_back({.kind = SurfaceKind::kWall});  // shown by none
+  EXPECT_THAT(CoverageWarnings(walls, 0.02),
+              testing::ElementsAre(
+                  testing::HasSubstr("2.0 cm asked for on 25 % of the walls (up to 3.4 cm)")));
 }
 
 }  // namespace

@@ -315,14 +315,16 @@ TEST(MoveHovers, GainsWithoutLosing) {
   EXPECT_EQ(changed, moved);
 }
 
-TEST(PlanarViews, FromBeyondTheLargestDistanceStillCover) {
-  Site site = TownOfThree();
-  PlanarOptions options = Options();
-  options.d_max_m = 20;  // the ceiling is at 26 m
-  stucco::test::Listener listener;
-  const auto views = PlanarViews(site, FindCamera("mavic-3e"), options, {}, listener);
-  EXPECT_NE(testing::PrintToString(listener.warnings).find("d_max"), std::string::npos);
-  EXPECT_GT(views.size(), 4U);
+// A photo comes back to the hover that lost it, not to a second one beside.
+TEST(PlanarViews, NoTwoHoversAreInOnePlace) {
+  std::vector<Ring> row;
+  for (int i = 0; i < 5; ++i) row.push_back(Rectangle(12 * i, 0, 12 * i + 10, 14));
+  const Site site =
+      MadeSite(row, {.safe_altitude_m = 28, .margin_m = 28, .heights_m = {12, 18, 9, 15, 11}});
+  const auto views = PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, SilentProgress());
+  for (size_t i = 0; i < views.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) EXPECT_NE(views[i].position, views[k].position);
+  }
 }
 
 TEST(PlanarViews, StopWhenAsked) {
