@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "calib/adjust/adjust.h"
+#include "calib/results/record_findings.h"
 #include "calib/results/summarize_photos.h"
 #include "survey/degree.h"
 
@@ -52,34 +53,6 @@ CalibratedRecords SummarizeRecords(const RecordErrors& errors) {
   return result;
 }
 
-// Sentences for what a user should look after.
-void AddFindings(const CalibratedRecords& records, Calibration& result) {
-  constexpr double kMuchYaw_deg = 2;
-  constexpr double kMuchMount_deg = 1;
-  constexpr double kMuchShift_m = 1;
-  for (size_t f = 0; f < records.flights.size(); ++f) {
-    const CalibratedFlight& flight = records.flights[f];
-    const double shift =
-        std::hypot(flight.shift_m[0], std::hypot(flight.shift_m[1], flight.shift_m[2]));
-    if (std::abs(flight.yaw_deg) > kMuchYaw_deg) {
-      result.findings.push_back(
-          fmt::format("flight {}: its recorded yaw is {:.1f} degrees off; calibrate the compass",
-                      f + 1, std::abs(flight.yaw_deg)));
-    }
-    if (shift > kMuchShift_m) {
-      result.findings.push_back(
-          fmt::format("flight {}: its positions are shifted by {:.1f} m against those of the "
-                      "other flights, which was taken into account",
-                      f + 1, shift));
-    }
-  }
-  if (records.mount_deg > kMuchMount_deg) {
-    result.findings.push_back(fmt::format(
-        "the camera looks {:.1f} degrees beside what the gimbal says; calibrate the gimbal",
-        records.mount_deg));
-  }
-}
-
 }  // namespace
 
 Calibration Summarize(const SummaryInput& input) {
@@ -102,7 +75,7 @@ Calibration Summarize(const SummaryInput& input) {
   result.parts = SummarizeParts(input);
   if (input.records != nullptr) {
     result.records = SummarizeRecords(*input.records);
-    AddFindings(result.records, result);
+    result.findings = RecordFindings(result.records, result.photos);
   }
   for (const auto& [photo, why] : input.unregistered) {
     result.unposed.push_back({input.scene.photos[photo].name, why});

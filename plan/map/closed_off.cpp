@@ -11,6 +11,7 @@
 #include <string>
 
 #include "plan/map/internal/ogr.h"
+#include "survey/error.h"
 #include "survey/geometry2d.h"
 
 namespace stucco::plan {
@@ -60,12 +61,17 @@ void CloseOff(Site& site) {
   for (const Polygon& part : internal::Union(parted)) {
     std::ranges::move(internal::Difference(part, site.no_fly), std::back_inserter(site.closed_off));
   }
-  std::set<std::string> buildings;
+  std::set<std::string> all, buildings;
   for (const Footprint& footprint : site.footprints) {
     if (!footprint.in_area || footprint.is_obstacle) continue;
+    all.insert(footprint.building);
     if (MeetsAny(footprint.outline, site.closed_off)) buildings.insert(footprint.building);
   }
   if (buildings.empty()) return;
+  if (buildings == all) {
+    throw Error(ErrorKind::kBadInput, "no-fly polygons leave no way from home to any building",
+                "give another home point (--home), or correct the no-fly polygons");
+  }
   site.warnings.push_back(fmt::format(
       "no-fly polygons leave no way from home to {}: nothing is planned there. Another home "
       "(--home), or flights of their own, may capture them",

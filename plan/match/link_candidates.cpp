@@ -26,7 +26,9 @@ constexpr double kAside_deg[] = {12, 22, 30};
 constexpr int kWaysAside = 8;
 // The middle of what a photo shows is no point that all of it is seen from under one angle.
 constexpr double kSpare = 0.95;
+// Gimbals tilt down to straight below and up by 20 to 35 degrees.
 constexpr double kSteepest = -89 * kRadians;
+constexpr double kHighest = 20 * kRadians;
 // A place nearer to the photo shows what it shows from where it does.
 constexpr double kApart_m = 2;
 // Sights are in single precision.
@@ -84,7 +86,7 @@ double LinkCost(LinkPlace place) {
 Shot LinkShot(const Vector3d& way) {
   const Vector3d ray = way.normalized();
   return {.yaw_rad = std::atan2(ray.x(), ray.y()),
-          .pitch_rad = std::max(kSteepest, std::asin(std::clamp(ray.z(), -1.0, 1.0))),
+          .pitch_rad = std::clamp(std::asin(std::clamp(ray.z(), -1.0, 1.0)), kSteepest, kHighest),
           .kind = ViewKind::kLink,
           .targets = {}};
 }

@@ -32,7 +32,7 @@ enum class LinkPlace {
 // What a link photo costs, in photos, with the stop that it takes there.
 double LinkCost(LinkPlace place);
 
-// A link photo in this direction.
+// A link photo in this direction, as far as gimbals tilt.
 Shot LinkShot(const Eigen::Vector3d& way);
 
 struct LinkCandidate {

@@ -5,6 +5,7 @@
 
 #include "plan/map/closed_off.h"
 #include "plan/space/obstacles.h"
+#include "tests/plan/made_map.h"
 #include "tests/site/made_site.h"
 
 namespace stucco::plan {
@@ -59,6 +60,13 @@ TEST_F(ClosedOff, ZonesInAHoleStayThemselves) {
   double area = 0;
   for (const Polygon& part : site_.closed_off) area += Area(part);
   EXPECT_NEAR(area, 70 * 65 - 100, 1e-6);
+}
+
+TEST_F(ClosedOff, ASiteThatNothingReachesIsRefused) {
+  site_.no_fly = {{{Rectangle(-60, -60, 200, 80), Reversed(Rectangle(-50, -50, 190, 70))}}};
+  site_.home = {300, 0, 0};
+  EXPECT_THAT(Complaint([&] { CloseOff(site_); }),
+              testing::AllOf(HasSubstr("no way from home to any building"), HasSubstr("--home")));
 }
 
 TEST_F(ClosedOff, NothingWithoutHoles) {

@@ -295,6 +295,13 @@ TEST_F(House, CandidatesAreFreeAndNearInDirectionAndScale) {
   EXPECT_TRUE(LinkCandidates({}, obstacles_, hovers_, 0).empty());
 }
 
+TEST(LinkShot, LooksNoHigherAndNoSteeperThanGimbalsTilt) {
+  constexpr double kDegree = 0.0174533;
+  EXPECT_NEAR(LinkShot({0, 3, -1}).pitch_rad, -18.43 * kDegree, 1e-3);
+  EXPECT_NEAR(LinkShot({0, 1, 2}).pitch_rad, 20 * kDegree, 1e-6);
+  EXPECT_NEAR(LinkShot({0, 0, -1}).pitch_rad, -89 * kDegree, 1e-6);
+}
+
 // Above a photo that is taken at the height of flight nothing may be.
 TEST_F(House, BesideAPhotoAtTheCeilingAreCandidatesAtItsHeight) {
   const Gaze gaze{{0, 0, 6}, Vector3d::UnitZ(), site_.safe_altitude_m - 6};
