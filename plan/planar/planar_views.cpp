@@ -93,7 +93,7 @@ std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
                                const PlanarOptions& options, std::span<const Hover> dipping,
                                Progress& progress) {
   const std::vector<Hover> full = GridHovers(site, camera, options.grid);
-  if (full.empty()) return full;
+  if (full.empty()) return {};
   const GridStep step = StepOf(site, camera, options.grid);
   const SurfaceView view(site, camera.Field(),
                          SampleSurface(site, {.spacing_m = SpacingOf(options, step),
