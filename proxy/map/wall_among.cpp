@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "proxy/map/wall_among.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include "proxy/planes/densest.h"
 
 namespace stucco {
 namespace {
+
+// With so many hits where a wall peaks tells more than the mean of all that stereo makes of it.
+constexpr size_t kEnoughHits = 200;
 
 // How likely a wall is that far from where it is expected, but for a factor.
 double Likelihood(double distance, const ExpectedWall& expected) {
@@ -38,6 +43,65 @@ std::span<const WallHit> BestStrip(std::span<const WallHit> hits, double width,
   return strip;
 }
 
+double MeanOf(std::span<const WallHit> hits) {
+  double sum = 0;
+  for (const WallHit& hit : hits) sum += hit.distance;
+  return sum / static_cast<double>(hits.size());
+}
+
+// Where hits peak, in strips of this width around places a centimetre apart.
+class Peaks {
+ public:
+  explicit Peaks(std::span<const WallHit> hits) : hits_(hits), from_(hits.front().distance) {
+    const auto places = 1 + static_cast<size_t>((hits.back().distance - from_) / kStep_m);
+    for (size_t i = 0; i < places; ++i) {
+      counts_.push_back(static_cast<double>(Strip(i).size()));
+    }
+  }
+
+  // Windows stand behind their wall, and there may be more of them: the outermost peak within their
+  // depth of the highest one, if it is a peak of its own. The mean of what is there.
+  double OfWall() const {
+    const size_t highest = std::ranges::max_element(counts_) - counts_.begin();
+    size_t wall = highest;
+    double valley = counts_[highest];
+    const size_t end =
+        std::min(counts_.size(), highest + 1 + static_cast<size_t>(kReveal_m / kStep_m));
+    for (size_t i = highest + 1; i < end; ++i) {
+      valley = std::min(valley, counts_[i]);
+      if (counts_[i] >= kLeastWall * counts_[highest] && valley <= kValley * counts_[i] &&
+          IsHighest(i))
+        wall = i;
+    }
+    return MeanOf(Strip(wall));
+  }
+
+ private:
+  static constexpr double kStep_m = 0.01;
+  static constexpr double kHalf_m = 0.02;
+  static constexpr size_t kAround = 3;  // steps that a peak is the highest within
+  static constexpr double kReveal_m = 0.16;
+  static constexpr double kLeastWall = 0.25;  // of the windows' hits
+  static constexpr double kValley = 0.6;
+
+  std::span<const WallHit> Strip(size_t place) const {
+    const double at = from_ + kStep_m * static_cast<double>(place);
+    const auto begin = std::ranges::lower_bound(hits_, at - kHalf_m, {}, &WallHit::distance);
+    const auto end = std::ranges::upper_bound(hits_, at + kHalf_m, {}, &WallHit::distance);
+    return {begin, end};
+  }
+  bool IsHighest(size_t place) const {
+    const size_t first = place - std::min(place, kAround);
+    const size_t last = std::min(counts_.size(), place + kAround + 1);
+    return std::ranges::all_of(std::span(counts_).subspan(first, last - first),
+                               [&](double count) { return count <= counts_[place]; });
+  }
+
+  std::span<const WallHit> hits_;
+  double from_;
+  std::vector<double> counts_;
+};
+
 }  // namespace
 
 std::optional<double> WallAmong(std::span<const WallHit> hits, double level_of_detail,
@@ -51,9 +115,11 @@ std::optional<double> WallAmong(std::span<const WallHit> hits, double level_of_d
   const double area = kCellArea_m2 * static_cast<double>(cells.size());
   if (area < std::max(kLeastArea_m2, kLeastPerMetre_m * length)) return std::nullopt;
   const auto flat = BestStrip(near, kFlat_m, expected);
-  double sum = 0;
-  for (const WallHit& hit : flat) sum += hit.distance;
-  return sum / static_cast<double>(flat.size());
+  if (flat.size() < kEnoughHits) return MeanOf(flat);
+  // What the strip holds, and what windows that it has found may have before them.
+  const double end = flat.back().distance + kFlat_m;
+  const auto last = std::ranges::upper_bound(near, end, {}, &WallHit::distance);
+  return Peaks({flat.begin(), last}).OfWall();
 }
 
 }  // namespace stucco

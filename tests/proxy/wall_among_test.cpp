@@ -44,6 +44,30 @@ TEST(WallAmong, ManyPointsOutvoteTheOtherWalls) {
   EXPECT_NEAR(*WallAmong(hits, kDetail_m, {.distance = 0, .sigma = 0.15}, kLength_m), 0.8, 0.02);
 }
 
+// Stereo runs from a wall into its windows, ten centimetres behind: a strip that holds all of a
+// wall holds half of what lies between.
+TEST(WallAmong, IsWhereAWallPeaksBesideItsWindows) {
+  std::vector<WallHit> hits;
+  for (int k = 0; k < 600; ++k) hits.push_back({-0.10 + 0.10 * k / 600, {k % 20, k / 20 % 10}});
+  Add(-0.10, 500, hits);
+  for (const double at : {-0.02, -0.01, 0.0, 0.0, 0.01, 0.02}) {
+    for (int k = 0; k < 200; ++k) hits.push_back({at + 0.01 * k / 200, {k % 20, k / 20 % 10}});
+  }
+  std::ranges::sort(hits, {}, &WallHit::distance);
+  EXPECT_NEAR(*WallAmong(hits, kDetail_m, {}, kLength_m), 0.005, 0.01);
+}
+
+TEST(WallAmong, IsBeforeItsWindowsWhereTheseAreMore) {
+  std::vector<WallHit> hits;
+  Add(-0.13, 1000, hits);
+  Add(0, 400, hits);
+  EXPECT_NEAR(*WallAmong(hits, kDetail_m, {}, kLength_m), 0, 0.015);
+  std::vector<WallHit> few;  // a sill or two before a plain wall
+  Add(-0.13, 1000, few);
+  Add(0, 100, few);
+  EXPECT_NEAR(*WallAmong(few, kDetail_m, {}, kLength_m), -0.13, 0.015);
+}
+
 TEST(WallAmong, NeedsEnoughOfAWall) {
   std::vector<WallHit> hits;
   Add(0, 5, hits);
