@@ -54,12 +54,12 @@ void AddElsewhere(std::span<const CalibratedPhoto> photos, std::vector<std::stri
   if (elsewhere.empty()) return;
   std::ranges::stable_sort(elsewhere, std::ranges::greater{}, &CalibratedPhoto::prior_residual_m);
   std::vector<std::string> names;
-  for (size_t i = 0; i < std::min(elsewhere.size(), kMostNamed); ++i)
+  for (size_t i = 0; i < std::min(elsewhere.size(), kMostNamed); ++i) {
     names.push_back(elsewhere[i]->path);
+  }
   out.push_back(
       fmt::format("{} of {} recorded positions are not where the photos were taken, by up to "
-                  "{:.0f} m ({}{}); they "
-                  "were not used",
+                  "{:.0f} m ({}{}); they were not used",
                   elsewhere.size(), recorded, elsewhere.front()->prior_residual_m,
                   fmt::join(names, ", "), elsewhere.size() > kMostNamed ? " ..." : ""));
 }

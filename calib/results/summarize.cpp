@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/results/summarize.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include "calib/adjust/adjust.h"
 #include "calib/results/record_findings.h"

@@ -313,8 +313,8 @@ class Optimiser {
       std::optional<std::vector<WallView>> views = Turned(facade, turn);
       if (!views) continue;
       const Quality after = QualityWith(facade, *views);
-      if (after.value < before.value - kNoLoss || after.covered < before.covered - kNoLoss)
-        continue;
+      if (after.value < before.value - kNoLoss) continue;
+      if (after.covered < before.covered - kNoLoss) continue;
       const double saved = SavedBy(facade, *views);
       const double gain = after.value - before.value + saved;
       if (saved < -kNoLoss || gain <= best_gain) continue;

@@ -39,8 +39,9 @@ std::vector<Polygon> PartedBy(const Polygon& zone, const Site& site) {
   std::vector<Polygon> parted;
   for (size_t hole = 1; hole < zone.rings.size(); ++hole) {
     const Polygon pocket = FilledHole(zone, hole);
-    if (Contains(pocket, site.home.head<2>()))
-      return {internal::Difference(BoxAround(site), {pocket})};
+    if (Contains(pocket, site.home.head<2>())) {
+      return internal::Difference(BoxAround(site), {pocket});
+    }
     parted.push_back(pocket);
   }
   return parted;
@@ -55,8 +56,9 @@ bool MeetsAny(const Polygon& outline, const std::vector<Polygon>& areas) {
 
 void CloseOff(Site& site) {
   std::vector<Polygon> parted;
-  for (const Polygon& zone : site.no_fly)
+  for (const Polygon& zone : site.no_fly) {
     std::ranges::move(PartedBy(zone, site), std::back_inserter(parted));
+  }
   if (parted.empty()) return;
   for (const Polygon& part : internal::Union(parted)) {
     std::ranges::move(internal::Difference(part, site.no_fly), std::back_inserter(site.closed_off));

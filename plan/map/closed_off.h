@@ -7,8 +7,8 @@
 namespace stucco::plan {
 
 // Finds what no-fly polygons part from Site::home (Site::closed_off): photos there would be
-// planned, and tied to others, for nothing. What holds buildings of the site is named in
-// Site::warnings.
+// planned, and tied to others, for nothing. Buildings there are named in Site::warnings; where that
+// is all of them, throws Error (kBadInput).
 void CloseOff(Site& site);
 
 }  // namespace stucco::plan

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plan/match/corridors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>

@@ -63,4 +63,13 @@ std::vector<uint32_t> HoversForLostWalls(const FacadeSight& full, const FacadeSi
   return Cover(std::move(all), full.hovers().size());
 }
 
+void PutBack(const Hover& hover, std::vector<Hover>& hovers) {
+  const auto there = std::ranges::find(hovers, hover.position, &Hover::position);
+  if (there == hovers.end()) {
+    hovers.push_back(hover);
+  } else {
+    there->shots = hover.shots;
+  }
+}
+
 }  // namespace stucco::plan

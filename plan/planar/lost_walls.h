@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "plan/camera/hover.h"
 #include "plan/evaluate/facade_sight.h"
 
 namespace stucco::plan {
@@ -15,5 +16,9 @@ namespace stucco::plan {
 // missing first. Indices into the hovers of `full`, ascending. Both are of the same site.
 std::vector<uint32_t> HoversForLostWalls(const FacadeSight& full, const FacadeSight& kept,
                                          int threads);
+
+// Adds a hover to others with all its photos: to the one that stands there, if there is one, which
+// may have lost some.
+void PutBack(const Hover& hover, std::vector<Hover>& hovers);
 
 }  // namespace stucco::plan

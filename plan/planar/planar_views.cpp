@@ -73,16 +73,6 @@ std::vector<Hover> Joined(std::vector<Hover> a, std::span<const Hover> b) {
   return a;
 }
 
-// With all its photos, where it stood.
-void PutBack(const Hover& hover, std::vector<Hover>& hovers) {
-  const auto there = std::ranges::find(hovers, hover.position, &Hover::position);
-  if (there == hovers.end()) {
-    hovers.push_back(hover);
-  } else {
-    there->shots = hover.shots;
-  }
-}
-
 double Square(double value) {
   return value * value;
 }

