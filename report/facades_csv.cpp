@@ -23,6 +23,7 @@ std::string Number(bool known, double value) {
 std::string Findings(const FacetRow& row) {
   std::string text;
   for (const Finding& finding : row.findings) text += (text.empty() ? "" : "; ") + finding.text;
+  if (!row.lost_views.empty()) text += (text.empty() ? "" : "; ") + row.lost_views;
   return text;
 }
 

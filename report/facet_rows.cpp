@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "report/planned_photos.h"
 #include "survey/facet_picture.h"
 #include "survey/median.h"
 #include "survey/numbers.h"
@@ -202,12 +203,15 @@ std::vector<FacetRow> ListFacets(const SurveyData& data) {
 
 void JoinPlan(const SurveyData& data, std::vector<FacetRow>& rows) {
   if (!data.plan) return;
+  const LostViews lost = FindLostViews(data);
   std::map<std::string, const PlannedFacade*> facades;
   for (const PlannedFacade& facade : data.plan->facades) facades[facade.id] = &facade;
   for (FacetRow& row : rows) {
     if (row.facet == nullptr || row.facet->planned_facades.empty()) continue;
     const auto found = facades.find(row.facet->planned_facades.front());
-    if (found != facades.end()) row.planned = found->second;
+    if (found == facades.end()) continue;
+    row.planned = found->second;
+    row.lost_views = LostViewsText(*row.planned, lost);
   }
 }
 

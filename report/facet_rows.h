@@ -43,6 +43,7 @@ struct FacetRow {
   bool exempt = false;   // nothing of it to speak of can be seen, so it has no verdict
   Verdict verdict = Verdict::kUnknown;
   std::vector<Finding> findings;  // amber and red ones, worst first
+  std::string lost_views;         // which of its planned photos cannot serve, and why; may be empty
 
   // For people: the plan's id of the facade, which its parts share, else its own.
   const std::string& Name() const { return planned != nullptr ? planned->id : id; }

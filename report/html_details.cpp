@@ -158,11 +158,14 @@ std::string Links(const FacetRow& row) {
 }
 
 std::string Findings(const FacetRow& row) {
-  if (row.findings.empty()) return "";
+  if (row.findings.empty() && row.lost_views.empty()) return "";
   std::string html = "<ul class=\"findings\">";
   for (const Finding& finding : row.findings) {
     html +=
         fmt::format("<li class=\"{}\">{}</li>", Name(finding.verdict), EscapeHtml(finding.text));
+  }
+  if (!row.lost_views.empty()) {
+    html += fmt::format("<li class=\"unknown\">{}</li>", EscapeHtml(row.lost_views));
   }
   return html + "</ul>";
 }

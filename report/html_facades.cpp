@@ -34,7 +34,11 @@ std::string VerdictCell(const FacetRow& row, size_t rank) {
       fmt::format("<td class=\"verdict-cell\" data-label=\"Verdict\" data-sort=\"{}\">{}", rank,
                   VerdictBadge(row.verdict));
   if (!row.findings.empty()) {
-    html += fmt::format(" <span class=\"reason\">{}</span>", EscapeHtml(row.findings.front().text));
+    // A lost photo explains what is worse than asked; why it is lost stands with the details.
+    const bool explains = !row.exempt && !row.lost_views.empty();
+    html +=
+        fmt::format(" <span class=\"reason\">{}{}</span>", EscapeHtml(row.findings.front().text),
+                    explains ? "; planned photos are lost" : "");
   }
   return html + "</td>";
 }

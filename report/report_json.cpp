@@ -57,14 +57,16 @@ Json FacadeJson(const SurveyData& data, const FacetRow& row) {
   const Facet* facet = row.facet;
   const TexturedFacet* texture = row.texture;
   const bool painted = row.IsPainted();
-  Json json = {{"id", CleanUtf8(row.id)},
-               {"building", CleanUtf8(row.building)},
-               {"facade", CleanUtf8(facet != nullptr ? FacadeName(*facet) : row.id)},
-               {"class", CityGmlName(row.facet_class)},
-               {"verdict", VerdictJson(row.verdict)},
-               {"findings", FindingsJson(row)},
-               {"planned", row.planned ? QualityJson(row.planned->predicted) : Json(nullptr)},
-               {"achieved", painted ? QualityJson(*texture) : Json(nullptr)}};
+  Json json = {
+      {"id", CleanUtf8(row.id)},
+      {"building", CleanUtf8(row.building)},
+      {"facade", CleanUtf8(facet != nullptr ? FacadeName(*facet) : row.id)},
+      {"class", CityGmlName(row.facet_class)},
+      {"verdict", VerdictJson(row.verdict)},
+      {"findings", FindingsJson(row)},
+      {"lost_views", row.lost_views.empty() ? Json(nullptr) : Json(CleanUtf8(row.lost_views))},
+      {"planned", row.planned ? QualityJson(row.planned->predicted) : Json(nullptr)},
+      {"achieved", painted ? QualityJson(*texture) : Json(nullptr)}};
   json["gsd_m"] = painted && texture->gsd_m > 0 ? Json(texture->gsd_m) : Json(nullptr);
   json["gsd_ratio"] = row.gsd_ratio > 0 ? Json(row.gsd_ratio) : Json(nullptr);
   json["photos"] = texture != nullptr ? TextsJson(texture->photos) : Json::array();

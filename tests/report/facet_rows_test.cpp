@@ -86,6 +86,58 @@ TEST(MakeFacetRows, PartsOfAPlannedFacadeKnowIt) {
   EXPECT_THAT(MissingFacades(data, rows), testing::ElementsAre("B0007/F00"));
 }
 
+// Five views of one facade: taken, not taken, broken, without a pose, known by its record alone.
+SurveyData WallsWithLostViews() {
+  SurveyData data = PlannedWalls();
+  data.plan->facades[1].views = {"h0v0", "h1v0", "h2v0", "h3v0", "h4v0"};
+  data.captures.emplace();
+  for (const char* id : {"h0v0", "h1v0", "h2v0", "h3v0", "h4v0"}) {
+    const bool taken = std::string(id) != "h1v0";
+    const std::string path = std::string(id) + ".jpg";
+    data.captures->views.push_back({id, taken ? "captured" : "missing", taken ? path : ""});
+    if (!taken) continue;
+    CapturedPhoto photo;
+    photo.path = path;
+    photo.usable = true;
+    data.captures->photos.push_back(photo);
+  }
+  data.captures->photos[1].usable = false;
+  data.captures->photos[1].why = "is cut off";
+  data.calibration.emplace();
+  data.calibration->unposed = {{"h3v0.jpg", "3 inliers"}};
+  data.calibration->photos.resize(2);
+  data.calibration->photos[0].path = "h0v0.jpg";
+  data.calibration->photos[1].path = "h4v0.jpg";
+  data.calibration->photos[1].state = PhotoState::kRecordOnly;
+  return data;
+}
+
+TEST(MakeFacetRows, LostPhotosOfThePlanAreNamedAndNoVerdict) {
+  SurveyData data = WallsWithLostViews();
+  const auto rows = MakeFacetRows(data, {});
+  EXPECT_EQ(rows[0].lost_views,
+            "4 of its 5 planned photos are lost: h1v0 was not taken; h2v0 cannot be used: is cut "
+            "off; h3v0 has no pose: 3 inliers; h4v0 has no sure pose (record-only)");
+  EXPECT_EQ(rows[0].verdict, Verdict::kGreen);
+  EXPECT_EQ(rows[1].lost_views, rows[0].lost_views);  // parts of one facade
+  EXPECT_EQ(rows[2].lost_views, "");
+  data.plan->facades[1].views = {"h0v0"};
+  EXPECT_EQ(FirstRow(data).lost_views, "");
+  data.plan->facades[1].views = {"h1v0"};
+  EXPECT_EQ(FirstRow(data).lost_views, "its one planned photo is lost: h1v0 was not taken");
+  // Photos that were never held against a plan say nothing about it.
+  data.captures->views.clear();
+  EXPECT_EQ(FirstRow(data).lost_views, "");
+}
+
+TEST(MakeFacetRows, BeforeCalibrationNoPhotoLacksAPose) {
+  SurveyData data = WallsWithLostViews();
+  data.calibration.reset();
+  EXPECT_EQ(FirstRow(data).lost_views,
+            "2 of its 5 planned photos are lost: h1v0 was not taken; h2v0 cannot be used: is cut "
+            "off");
+}
+
 TEST(MakeFacetRows, AFacadeThatAWallSpansBesidesIsNotMissing) {
   SurveyData data = PlannedWalls();
   data.proxy->buildings[0].facets[1].planned_facades.push_back("B0007/F00");

@@ -146,6 +146,34 @@ TEST_F(Report, NamesFacadesAsThePlanDoes) {
   EXPECT_EQ(Json()["facades"][0]["planned"]["q_u"], 0.73);
 }
 
+TEST_F(Report, SaysWhichPlannedPhotosAFacadeLacks) {
+  MadeSurvey made = MakeSurvey();
+  made.proxy.buildings[0].facets[0].planned_facades = {"B0007/F00"};
+  made.textures.facets[0].painted = 0.1;  // so there is something to explain
+  made.captures.views = {{"h7v0", "missing", ""}};
+  WriteSurvey(made, folder_.path());
+  Plan plan;
+  plan.crs = "+proj=tmerc";
+  PlannedFacade facade;
+  facade.id = "B0007/F00";
+  facade.b_m = {8, 0};
+  facade.views = {"h7v0"};
+  plan.facades.push_back(facade);
+  PlannedView view;
+  view.id = "h7v0";
+  view.targets.push_back({"B0007/F00", {0, 8}, {0, 5}});
+  plan.views.push_back(view);
+  std::filesystem::create_directories(folder_.path() / "plan");
+  WritePlan(plan, folder_.path() / kPlanFile);
+  Run();
+  const std::string lost = "its one planned photo is lost: h7v0 was not taken";
+  const std::string page = Content(Page());
+  EXPECT_EQ(CountOf(page, "; planned photos are lost</span>"), 1U);  // in the table
+  EXPECT_EQ(CountOf(page, lost), 1U);                                // over the facade's page
+  EXPECT_EQ(Json()["facades"][0]["lost_views"], lost);
+  EXPECT_TRUE(Json()["facades"][1]["lost_views"].is_null());
+}
+
 TEST_F(Report, APlanThatCannotBeReadChangesNothing) {
   WriteSurvey(MakeSurvey(), folder_.path());
   Run();
