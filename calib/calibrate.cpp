@@ -29,9 +29,11 @@
 #include "calib/parts/take_apart.h"
 #include "calib/parts/weak_pose.h"
 #include "calib/place_photos.h"
+#include "calib/records/align_to_map.h"
 #include "calib/records/georeference.h"
 #include "calib/records/records.h"
 #include "calib/results/photos_csv.h"
+#include "calib/results/record_findings.h"
 #include "calib/results/summarize.h"
 #include "calib/results/summarize_photos.h"
 #include "calib/results/write_results.h"
@@ -307,6 +309,37 @@ std::vector<int> NoteUnregistered(const OnRepeatingWalls& repeating,
   return ambiguous;
 }
 
+// Where the walls of the plan's map show the scene. Nothing where no positions place it, or where
+// these are the plan's.
+std::optional<MapAlignment> FindOnMap(const Guidance& guidance, const std::optional<Plan>& plan,
+                                      const Georef& georef, const Scene& scene) {
+  if (!plan || !guidance.views || georef.frame != "enu" || georef.source == "plan") return {};
+  std::vector<Eigen::Vector3d> points;
+  for (const SceneTrack& track : scene.tracks) {
+    if (track.position) points.push_back(*track.position);
+  }
+  return AlignToWalls(points, WallsInScene(*plan, georef, guidance.views->poses, scene));
+}
+
+CalibratedMap Summary(const MapAlignment& alignment, bool moved) {
+  CalibratedMap map;
+  map.shift_m = {alignment.shift_m.x(), alignment.shift_m.y()};
+  map.turn_deg = alignment.turn_rad / kRadians;
+  map.sigma_m = alignment.sigma_m;
+  map.walls = alignment.walls;
+  map.moved = moved;
+  return map;
+}
+
+// Moves what lies in the frame of the positions onto the map.
+void MoveAll(const MapAlignment& alignment, std::vector<PoseRecord>& records, SceneParts& parts,
+             Scene& scene) {
+  MoveToMap(alignment, records, scene);
+  for (ScenePart& part : parts.others) {
+    if (part.place) Transform(alignment.map_from_scene, part.scene);
+  }
+}
+
 }  // namespace
 
 void RunCalib(const CalibOptions& options, StageContext& context) {
@@ -340,7 +373,7 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   const ControlOutcome held = UseGroundControl(
       {control, surveyed_sigma_m, mapper, placed.records, georeference.georef, context},
       georeference, scene);
-  const std::vector<PoseRecord>& records =
+  std::vector<PoseRecord> records =
       held.placed_records.empty() ? placed.records : held.placed_records;
   const RecordErrors* errors = georeference.records ? &*georeference.records : nullptr;
   const std::optional<Plan> plan = PlanOfSurvey(context);
@@ -348,6 +381,14 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
                                georeference.sigmas, scene);
   TakeWeak(repeating, georeference.sigmas.poses, scene, parts);
   georeference.residuals = MeasurePriors(scene, georeference.prior_outliers);
+  const auto on_map = FindOnMap(guidance, plan, georeference.georef, scene);
+  georeference.georef.on_map = on_map && options.georef == "map" && !held.georef;
+  if (georeference.georef.on_map) MoveAll(*on_map, records, parts, scene);
+  if (!on_map && options.georef == "map") {
+    context.progress->Warn(
+        "calib.georef is map, but the walls of the map are not found in the "
+        "model: it stays where positions put it");
+  }
   std::map<int, std::string> unregistered =
       Unregistered(mapper, pairs, scene, parts, georeference.taken);
   const std::vector<int> ambiguous =
@@ -365,6 +406,10 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
                              .ambiguous = ambiguous};
   Calibration calibration = Summarize(summary);
   calibration.findings.insert(calibration.findings.begin(), findings.begin(), findings.end());
+  if (on_map) {
+    calibration.map = Summary(*on_map, georeference.georef.on_map);
+    std::ranges::move(MapFindings(*calibration.map), std::back_inserter(calibration.findings));
+  }
   if (errors != nullptr) {
     std::ranges::move(SummarizeRecordOnly(summary, records, *errors),
                       std::back_inserter(calibration.photos));

@@ -91,10 +91,11 @@ std::string GeorefText(const PageContent& page) {
   }
   if (data.georef->frame == "enu") {
     return fmt::format(
-        "Lengths are metres; east, north and up are known from {}. Origin: latitude {:.7f}, "
+        "Lengths are metres; east, north and up are known from {}{}. Origin: latitude {:.7f}, "
         "longitude {:.7f}, height {:.2f} m.",
-        PositionsOf(*data.georef), data.georef->origin_latitude_deg,
-        data.georef->origin_longitude_deg, data.georef->origin_height_m);
+        PositionsOf(*data.georef), data.georef->on_map ? ", moved onto the map's walls" : "",
+        data.georef->origin_latitude_deg, data.georef->origin_longitude_deg,
+        data.georef->origin_height_m);
   }
   return "Lengths are metres.";
 }

@@ -227,7 +227,8 @@ Json GeorefJson(const SurveyData& data) {
   const Georef& georef = *data.georef;
   Json json = {{"frame", CleanUtf8(georef.frame)},
                {"metric", georef.metric},
-               {"source", CleanUtf8(georef.source)}};
+               {"source", CleanUtf8(georef.source)},
+               {"on_map", georef.on_map}};
   if (georef.frame == "enu") {
     json["origin"] = {{"latitude_deg", georef.origin_latitude_deg},
                       {"longitude_deg", georef.origin_longitude_deg},

@@ -154,6 +154,15 @@ static void Fields(Archive& archive, T& camera) {
   archive.Optional("held", camera.held);
 }
 
+template <typename Archive, internal::Is<CalibratedMap> T>
+static void Fields(Archive& archive, T& map) {
+  archive.Required("shift_m", map.shift_m);
+  archive.Required("turn_deg", map.turn_deg);
+  archive.Required("sigma_m", map.sigma_m);
+  archive.Required("walls", map.walls);
+  archive.Required("moved", map.moved);
+}
+
 template <typename Archive, internal::Is<Calibration> T>
 static void Fields(Archive& archive, T& calibration) {
   archive.Required("photos_total", calibration.photos_total);
@@ -173,6 +182,7 @@ static void Fields(Archive& archive, T& calibration) {
   archive.Optional("ground_control", calibration.ground_control);
   archive.Optional("control_rms", calibration.control_rms);
   archive.Optional("check_rms", calibration.check_rms);
+  archive.Optional("map", calibration.map);
   archive.Optional("findings", calibration.findings);
 }
 

@@ -83,6 +83,15 @@ struct CalibratedRecords {
   double mount_deg = 0;       // angle between what the gimbal says and where the camera looks
 };
 
+// Where the walls of the plan's map show the model that positions place.
+struct CalibratedMap {
+  std::vector<double> shift_m = {0, 0};  // east, north: from the positions' model to the map's
+  double turn_deg = 0;                   // likewise, counter-clockwise from above
+  double sigma_m = 0;                    // one standard deviation of the shift
+  int walls = 0;                         // on which it was measured
+  bool moved = false;                    // the model was moved by it (calib.georef = "map")
+};
+
 struct UnposedPhoto {
   std::string path;
   std::string why;
@@ -141,6 +150,7 @@ struct Calibration {
   std::vector<CalibratedPoint> ground_control;    // as in the file
   std::optional<CalibratedPointSet> control_rms;  // of those used
   std::optional<CalibratedPointSet> check_rms;
+  std::optional<CalibratedMap> map;   // nothing without a plan, or where its walls are not found
   std::vector<std::string> findings;  // "6 photos were taken from one point (rotation only) ..."
 };
 

@@ -99,6 +99,7 @@ static void Fields(Archive& archive, T& georef) {
   archive.Optional("up_sigma_deg", georef.up_sigma_deg);
   archive.Required("metric", georef.metric);
   archive.Optional("source", georef.source);
+  archive.Optional("on_map", georef.on_map);
 }
 
 Georef ReadGeoref(const std::filesystem::path& path) {

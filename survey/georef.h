@@ -26,6 +26,7 @@ struct Georef {
   bool metric = false;  // lengths are metres
   // "gcp", "rtk", "gps", "plan", "gimbal", "none"; "file": an imported model said so itself.
   std::string source;
+  bool on_map = false;  // moved, level, onto the walls of the plan's map
 };
 
 // calib/georef.json. Throws Error (kBadInput).

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/matching/known_poses.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -10,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "calib/records/align_to_map.h"
 #include "calib/scene/hovers.h"
 #include "survey/median.h"
 
@@ -21,59 +21,6 @@ constexpr int kEnoughObservations = 100;
 // Of poses that many observations hold.
 constexpr double kKnownSigma_m = 0.05;
 constexpr double kKnownSigma_rad = 0.1 * std::numbers::pi / 180;
-constexpr size_t kMostPoints = 20000;
-constexpr double kMostOffset_m = 6;
-constexpr double kStep_m = 0.5;
-constexpr double kOnWall_m = 0.4;
-constexpr double kOffGround_m = 1;  // and roofs: what lies there may belong to them
-constexpr size_t kLeastOnWalls = 100;
-constexpr int kRounds = 5;
-
-// A point near the plane of a wall.
-struct NearWall {
-  Eigen::Vector2d normal = Eigen::Vector2d::UnitX();
-  double distance_m = 0;  // before the wall
-};
-
-std::vector<NearWall> PointsNearWalls(std::span<const Eigen::Vector3d> points,
-                                      std::span<const PlannedFacade> walls) {
-  std::vector<NearWall> near;
-  const size_t step = points.size() / kMostPoints + 1;
-  for (size_t i = 0; i < points.size(); i += step) {
-    const Eigen::Vector3d& p = points[i];
-    for (const PlannedFacade& wall : walls) {
-      if (p.z() < wall.z_m.from_m + kOffGround_m || p.z() > wall.z_m.to_m - kOffGround_m) continue;
-      const Eigen::Vector2d from = p.head<2>() - wall.a_m;
-      const double along = from.dot(wall.along());
-      const double distance = from.dot(wall.outwards());
-      if (along < 0 || along > wall.length_m() || std::abs(distance) > kMostOffset_m) continue;
-      near.push_back({wall.outwards(), distance});
-    }
-  }
-  return near;
-}
-
-size_t NumOnWalls(const std::vector<NearWall>& points, const Eigen::Vector2d& shift) {
-  return std::ranges::count_if(points, [&](const NearWall& point) {
-    return std::abs(point.distance_m + point.normal.dot(shift)) < kOnWall_m;
-  });
-}
-
-// Least squares over the points that are on walls after the shift.
-Eigen::Vector2d Refined(const std::vector<NearWall>& points, Eigen::Vector2d shift) {
-  for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix2d normals = 1e-3 * Eigen::Matrix2d::Identity();
-    Eigen::Vector2d right = Eigen::Vector2d::Zero();
-    for (const NearWall& point : points) {
-      const double off = point.distance_m + point.normal.dot(shift);
-      if (std::abs(off) > kOnWall_m) continue;
-      normals += point.normal * point.normal.transpose();
-      right -= off * point.normal;
-    }
-    shift += normals.ldlt().solve(right);
-  }
-  return shift;
-}
 
 // By photo: many points hold it, and what it shows does not repeat itself.
 std::vector<bool> FindWitnesses(const OnRepeatingWalls& repeating, const Scene& scene) {
@@ -160,25 +107,6 @@ Eigen::Vector3d PlanFromRecords(const ExpectedViews& views,
 }
 
 }  // namespace
-
-Eigen::Vector2d ShiftOntoWalls(std::span<const Eigen::Vector3d> points,
-                               std::span<const PlannedFacade> walls) {
-  const std::vector<NearWall> near = PointsNearWalls(points, walls);
-  const int steps = static_cast<int>(kMostOffset_m / kStep_m);
-  Eigen::Vector2d best = Eigen::Vector2d::Zero();
-  size_t most = std::max(kLeastOnWalls, NumOnWalls(near, best));
-  for (int x = -steps; x <= steps; ++x) {
-    for (int y = -steps; y <= steps; ++y) {
-      const Eigen::Vector2d shift = kStep_m * Eigen::Vector2d(x, y);
-      const size_t count = NumOnWalls(near, shift);
-      if (count <= most) continue;
-      most = count;
-      best = shift;
-    }
-  }
-  if (NumOnWalls(near, best) < kLeastOnWalls) return Eigen::Vector2d::Zero();
-  return Refined(near, best);
-}
 
 std::vector<std::optional<KnownPose>> KnowPoses(const KnowInput& input, const Scene& scene) {
   assert(input.guidance.views && input.records.size() == scene.photos.size());

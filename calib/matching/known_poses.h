@@ -2,16 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "calib/matching/guidance.h"
 #include "calib/matching/repeating_walls.h"
 #include "calib/records/records.h"
 #include "calib/scene/scene.h"
-#include "survey/plan.h"
 #include "survey/pose.h"
 
 namespace stucco {
@@ -37,11 +34,5 @@ struct KnowInput {
 // they like: of theirs only points count that such as show something else see too. Requires a scene
 // in the frame of the records, whose priors were corrected (ApplyRecords).
 std::vector<std::optional<KnownPose>> KnowPoses(const KnowInput& input, const Scene& scene);
-
-// The level shift, metres, that brings most points onto walls: receivers and maps are off against
-// each other by metres. The best of a grid of 6 m each way, refined by medians; zero where hardly
-// any point lies on a wall then.
-Eigen::Vector2d ShiftOntoWalls(std::span<const Eigen::Vector3d> points,
-                               std::span<const PlannedFacade> walls);
 
 }  // namespace stucco

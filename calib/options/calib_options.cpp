@@ -23,6 +23,10 @@ void Describe(OptionTable& table, CalibOptions& options) {
             "Calibrate the principal point and tangential distortion too.");
   table.Add("use_positions", options.use_positions,
             "Use the positions in the photos (GPS, RTK) for scale, direction and adjustment.");
+  table.Add("georef", options.georef, {"positions", "map"},
+            "What says where the model lies: the photos' positions, or the walls of the map that "
+            "the flight was planned on, onto which it is then moved (level; ground control counts "
+            "more than both). How far apart the two are is in calibration.json either way.");
   table.Add("min_angle_deg", options.min_angle_deg, 0.1, 30,
             "Points seen under a smaller angle are dropped, degrees.");
   table.Add(

@@ -17,6 +17,7 @@ struct CalibOptions {
   std::string camera_model = "OPENCV";
   bool refine_principal_point = true;
   bool use_positions = true;
+  std::string georef = "positions";
   double min_angle_deg = 1.5;
   bool fast_adjustment = false;
   std::string ground_control;

@@ -21,6 +21,9 @@ constexpr int kEnoughPhotos = 8;  // that a flight's deviation is its own
 // Positions that lie so far off are named whatever their flight scatters by.
 constexpr double kElsewhere_m = 3;
 constexpr size_t kMostNamed = 4;
+// What maps are off by themselves.
+constexpr double kMuchOffMap_m = 0.3;
+constexpr double kSureSigmas = 3;
 
 void AddFlight(const CalibratedFlight& flight, size_t number, std::vector<std::string>& out) {
   const double shift =
@@ -65,6 +68,18 @@ void AddElsewhere(std::span<const CalibratedPhoto> photos, std::vector<std::stri
 }
 
 }  // namespace
+
+std::vector<std::string> MapFindings(const CalibratedMap& map) {
+  const double shift = std::hypot(map.shift_m[0], map.shift_m[1]);
+  const std::string where = fmt::format(
+      "{:.2f} m from where the photos' positions put the model ({:.2f} m east, {:.2f} m north, "
+      "{:.2f} degrees; {} walls, good to {:.2f} m)",
+      shift, map.shift_m[0], map.shift_m[1], map.turn_deg, map.walls, map.sigma_m);
+  if (map.moved) return {"the model was moved onto the map, whose walls are " + where};
+  if (shift < std::max(kMuchOffMap_m, kSureSigmas * map.sigma_m)) return {};
+  return {"the map's walls are " + where +
+          "; where the map is known better, set calib.georef to map"};
+}
 
 std::vector<std::string> RecordFindings(const CalibratedRecords& records,
                                         std::span<const CalibratedPhoto> photos) {

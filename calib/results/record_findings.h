@@ -15,4 +15,8 @@ namespace stucco {
 std::vector<std::string> RecordFindings(const CalibratedRecords& records,
                                         std::span<const CalibratedPhoto> photos);
 
+// Sentences on how far positions and map are apart; none where that is within what both are good
+// to.
+std::vector<std::string> MapFindings(const CalibratedMap& map);
+
 }  // namespace stucco

@@ -12,38 +12,7 @@
 namespace stucco::test {
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-// On both houses' walls and, a tenth of them, anywhere before these.
-std::vector<Vector3d> PointsOnWalls(const Vector2d& off) {
-  std::vector<Vector3d> points;
-  Random random(3);
-  for (const PlannedFacade& wall : TwoHouses().facades) {
-    for (int i = 0; i < 100; ++i) {
-      Vector2d level = wall.a_m + random.Uniform(0, wall.length_m()) * wall.along();
-      if (i % 10 == 0) level += random.Uniform(0, 5) * wall.outwards();
-      level += off;
-      points.emplace_back(level.x(), level.y(), random.Uniform(0, 12));
-    }
-  }
-  return points;
-}
-
-TEST(ShiftOntoWalls, BringsPointsBack) {
-  const std::vector<PlannedFacade> walls = TwoHouses().facades;
-  for (const Vector2d& off : {Vector2d(1.3, -0.7), Vector2d(-4.1, 3.2), Vector2d(0, 0)}) {
-    const Vector2d shift = ShiftOntoWalls(PointsOnWalls(off), walls);
-    EXPECT_LT((shift + off).norm(), 0.1);
-  }
-}
-
-TEST(ShiftOntoWalls, LeavesPointsThatLieOnNone) {
-  std::vector<Vector3d> points = PointsOnWalls({0, 0});
-  for (Vector3d& point : points) point.x() += 200;
-  EXPECT_EQ(ShiftOntoWalls(points, TwoHouses().facades), Vector2d(0, 0));
-  EXPECT_EQ(ShiftOntoWalls({}, TwoHouses().facades), Vector2d(0, 0));
-}
 
 class KnowPosesTest : public testing::Test {
  protected:

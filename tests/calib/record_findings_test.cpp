@@ -70,5 +70,23 @@ TEST(RecordFindings, NameGimbals) {
                           HasSubstr("angles scatter by 2.0 degrees")));
 }
 
+TEST(MapFindings, SayHowFarMapAndPositionsAreApart) {
+  CalibratedMap map;
+  map.shift_m = {0.9, -1.2};
+  map.sigma_m = 0.05;
+  map.walls = 21;
+  EXPECT_THAT(MapFindings(map), ElementsAre(AllOf(HasSubstr("1.50 m"), HasSubstr("-1.20 m north"),
+                                                  HasSubstr("calib.georef"))));
+  map.moved = true;
+  EXPECT_THAT(MapFindings(map), ElementsAre(HasSubstr("was moved onto the map")));
+  // What maps are off by themselves, or what was not measured surely, is not worth a word.
+  map.moved = false;
+  map.sigma_m = 0.6;
+  EXPECT_THAT(MapFindings(map), IsEmpty());
+  map.sigma_m = 0.05;
+  map.shift_m = {0.1, 0.2};
+  EXPECT_THAT(MapFindings(map), IsEmpty());
+}
+
 }  // namespace
 }  // namespace stucco

@@ -11,7 +11,7 @@
 namespace stucco::test {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kStartDegree = std::numbers::pi / 180;
 
 class FromRecords : public testing::Test {
  protected:
@@ -47,18 +47,18 @@ TEST_F(FromRecords, PlacesEveryPhotoAtOnce) {
 }
 
 TEST_F(FromRecords, FindsACompassThatIsOff) {
-  const RecordsStart start = Run(MakeRecords(truth_, {.yaw_rad = {25 * kDegree}}));
+  const RecordsStart start = Run(MakeRecords(truth_, {.yaw_rad = {25 * kStartDegree}}));
   ASSERT_TRUE(start.usable) << start.why_not;
   EXPECT_EQ(start.num_registered, 24);
   EXPECT_LT(ComparePoses(scene_, truth_).position_m, 0.02);
   // The frame is that of the positions, not of the compass.
   EXPECT_LT(scene_.photos[0].pose->rotation.angularDistance(truth_.photos[0].pose->rotation),
-            3 * kDegree);
+            3 * kStartDegree);
 }
 
 TEST_F(FromRecords, LivesWithRoughGimbals) {
   const RecordsStart start =
-      Run(MakeRecords(truth_, {.position_sigma_m = 1, .attitude_sigma_rad = 2 * kDegree}));
+      Run(MakeRecords(truth_, {.position_sigma_m = 1, .attitude_sigma_rad = 2 * kStartDegree}));
   ASSERT_TRUE(start.usable) << start.why_not;
   EXPECT_GE(start.num_registered, 22);
   EXPECT_LT(ComparePoses(scene_, truth_).position_m, 0.02);
