@@ -28,11 +28,11 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 constexpr double kNear_m = 0.2;
 constexpr double kHeightStep_m = 0.5;
-constexpr size_t kHeights = 5;      // tried
-constexpr double kReach_m = 6;      // of shifts
-constexpr double kStep_m = 1.5;     // between them
-constexpr double kFar_m = 1.5;      // farther points count as so far
-constexpr size_t kFewPoints = 400;  // for the first look
+constexpr size_t kHeights = 5;       // tried
+constexpr double kShiftReach_m = 6;  // of shifts
+constexpr double kStep_m = 1.5;      // between them
+constexpr double kFar_m = 1.5;       // farther points count as so far
+constexpr size_t kFewPoints = 400;   // for the first look
 constexpr int kRounds = 25;
 constexpr double kLastFar_m = 0.1;  // panes lie farther behind their wall
 constexpr size_t kStarts = 3;
@@ -154,8 +154,8 @@ class Fitter {
     std::vector<std::pair<double, UprightMove>> starts;
     for (const double height : Heights()) {
       std::pair<double, UprightMove> best(std::numeric_limits<double>::infinity(), still);
-      for (double x = -kReach_m; x <= kReach_m; x += kStep_m) {
-        for (double y = -kReach_m; y <= kReach_m; y += kStep_m) {
+      for (double x = -kShiftReach_m; x <= kShiftReach_m; x += kStep_m) {
+        for (double y = -kShiftReach_m; y <= kShiftReach_m; y += kStep_m) {
           UprightMove move = still;
           move.shift = {x, y, height};
           const double misfit = Misfit(move, few, kFar_m);

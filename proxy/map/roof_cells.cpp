@@ -12,6 +12,7 @@
 #include "proxy/map/cell_labels.h"
 #include "proxy/map/eaves.h"
 #include "proxy/map/open_ground.h"
+#include "proxy/map/roof_patches.h"
 #include "survey/median.h"
 
 namespace stucco {
@@ -426,8 +427,17 @@ RoofCells LabelRoof(const FittedBuilding& building, const RoofEvidence& evidence
       if (IsBuried(roof, k, face_of_cell[c], building.ground)) problem.data[c][k] = kForbidden;
     }
   }
-  const std::vector<int> labels = CheapestCellLabels(problem);
+  std::vector<int> labels = CheapestCellLabels(problem);
   const int none = static_cast<int>(roof.roofs.size());
+  TidyPatches({.arrangement = roof.arrangement,
+               .lines = roof.lines,
+               .face_of_cell = face_of_cell,
+               .cell_of_face = numbers.cell_of_face,
+               .problem = problem,
+               .roofs = roof.roofs,
+               .axis = roof.lines.front().direction,
+               .level_of_detail = tolerances.level_of_detail},
+              labels);
   for (size_t c = 0; c < labels.size(); ++c) {
     roof.labels[face_of_cell[c]] = labels[c] == none ? -1 : labels[c];
   }

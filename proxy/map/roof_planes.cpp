@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -130,6 +131,25 @@ void LayOnRoof(const Samples& samples, Plane& plane) {
   plane.offset = MeanOfDensest(offsets, kFlat_m);
 }
 
+// Gives a step the direction of a wall that it is nearly parallel to: what stands on a roof is
+// small, so that its own direction is not known to a degree.
+void TurnAlong(std::span<const Plane> walls, const Samples& samples, Plane& step) {
+  constexpr double kNearly = 0.9976;  // cosine of four degrees
+  double most = kNearly;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  for (const Plane& wall : walls) {
+    const double alike = wall.normal.dot(step.normal);
+    if (std::abs(alike) <= most) continue;
+    most = std::abs(alike);
+    direction = std::copysign(1.0, alike) * wall.normal;
+  }
+  if (direction.isZero() || step.points.empty()) return;
+  double offset = 0;
+  for (const int i : step.points) offset += direction.dot(samples.positions[i]);
+  step.normal = direction;
+  step.offset = offset / static_cast<double>(step.points.size());
+}
+
 }  // namespace
 
 Samples SubsetOf(const Samples& samples, const std::vector<int>& indices) {
@@ -187,8 +207,10 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
   std::stable_sort(planes.begin(), planes.end(),
                    [](const Plane& a, const Plane& b) { return a.area > b.area; });
   evidence.planes = std::move(planes);
-  evidence.steps = Detect(SubsetOf(upright, steps), tolerances, options);
+  const Samples on_steps = SubsetOf(upright, steps);
+  evidence.steps = Detect(on_steps, tolerances, options);
   std::erase_if(evidence.steps, [](const Plane& plane) { return !LooksLikeWall(plane.normal); });
+  for (Plane& step : evidence.steps) TurnAlong(walls, on_steps, step);
   return evidence;
 }
 

@@ -1,0 +1,301 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "proxy/map/roof_patches.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace stucco {
+namespace {
+
+constexpr size_t kRectangleCorners = 4;
+constexpr double kLeastSide = 4;  // of a patch, levels of detail
+constexpr double kLow_m = 0.6;
+constexpr double kSmall_m2 = 6;
+constexpr double kReach = 3;     // a rectangle may go so many levels of detail beyond its patch
+constexpr double kCorner = 1.5;  // what a corner less is worth, times the level of detail squared
+
+// Connected cells of one label.
+struct Patch {
+  std::vector<int> cells;  // ascending
+  int label = 0;
+  int around = -1;         // the label that most of its border meets; -1: there is no other
+  bool at_border = false;  // of the footprint
+};
+
+// A line across the patch, and on which side of it the cells that matter lie.
+struct Side {
+  double at = 0;             // along the direction across it
+  std::vector<bool> beyond;  // by cell that matters: farther along that direction
+};
+
+class Tidier {
+ public:
+  Tidier(const PatchInput& input, std::vector<int>& labels)
+      : input_(input), labels_(labels), none_(static_cast<int>(input.roofs.size())) {
+    const CellProblem& problem = input.problem;
+    links_of_cell_.resize(problem.data.size());
+    for (size_t l = 0; l < problem.links.size(); ++l) {
+      links_of_cell_[problem.links[l].a].push_back(l);
+      links_of_cell_[problem.links[l].b].push_back(l);
+    }
+    at_border_.assign(problem.data.size(), false);
+    for (const Arrangement::Edge& edge : input.arrangement.edges) {
+      const int left = CellOf(edge.left);
+      const int right = CellOf(edge.right);
+      if (left >= 0 && right >= 0) length_of_link_.push_back(LengthOf(edge));
+      if (left >= 0 && right < 0) at_border_[left] = true;
+      if (right >= 0 && left < 0) at_border_[right] = true;
+    }
+    assert(length_of_link_.size() == problem.links.size());
+  }
+
+  void Run() {
+    std::vector<bool> done(labels_.size(), false);
+    for (size_t cell = 0; cell < labels_.size(); ++cell) {
+      if (done[cell]) continue;
+      const Patch patch = PatchAt(static_cast<int>(cell));
+      for (const int c : patch.cells) done[c] = true;
+      if (patch.around < 0 || patch.around == none_ || patch.label == none_) continue;
+      if (IsSlight(patch)) {
+        for (const int c : patch.cells) labels_[c] = patch.around;
+      } else if (!patch.at_border) {
+        Square(patch);
+      }
+    }
+  }
+
+ private:
+  double LengthOf(const Arrangement::Edge& edge) const {
+    return (input_.arrangement.vertices[edge.to] - input_.arrangement.vertices[edge.from]).norm();
+  }
+
+  int CellOf(int face) const { return face < 0 ? -1 : input_.cell_of_face[face]; }
+
+  Eigen::Vector2d MiddleOf(int cell) const {
+    const auto& face = input_.arrangement.faces[input_.face_of_cell[cell]];
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const int v : face) sum += input_.arrangement.vertices[v];
+    return sum / static_cast<double>(face.size());
+  }
+
+  int Other(size_t link, int cell) const {
+    const CellProblem::Link& ends = input_.problem.links[link];
+    return ends.a == cell ? ends.b : ends.a;
+  }
+
+  Patch PatchAt(int start) const {
+    Patch patch;
+    patch.label = labels_[start];
+    std::vector<bool> reached(labels_.size(), false);
+    std::vector<int> open = {start};
+    reached[start] = true;
+    std::map<int, double> border_m;  // by label beyond it
+    while (!open.empty()) {
+      const int cell = open.back();
+      open.pop_back();
+      patch.cells.push_back(cell);
+      patch.at_border = patch.at_border || at_border_[cell];
+      for (const size_t link : links_of_cell_[cell]) {
+        const int next = Other(link, cell);
+        if (labels_[next] != patch.label) {
+          border_m[labels_[next]] += length_of_link_[link];
+        } else if (!reached[next]) {
+          reached[next] = true;
+          open.push_back(next);
+        }
+      }
+    }
+    std::ranges::sort(patch.cells);
+    if (border_m.empty()) return patch;
+    patch.around =
+        std::ranges::max_element(border_m, {}, [](const auto& b) { return b.second; })->first;
+    return patch;
+  }
+
+  double AreaOf(const Patch& patch) const {
+    double area = 0;
+    for (const int cell : patch.cells) {
+      area += SignedArea(RingOf(input_.arrangement, input_.face_of_cell[cell]));
+    }
+    return area;
+  }
+
+  bool IsSlight(const Patch& patch) const {
+    const double area = AreaOf(patch);
+    if (area < std::pow(kLeastSide * input_.level_of_detail, 2)) return true;
+    if (area > kSmall_m2) return false;
+    double step = 0;
+    for (const int cell : patch.cells) {
+      for (const int v : input_.arrangement.faces[input_.face_of_cell[cell]]) {
+        const Eigen::Vector2d& p = input_.arrangement.vertices[v];
+        step = std::max(
+            step, std::abs(input_.roofs[patch.label].At(p) - input_.roofs[patch.around].At(p)));
+      }
+    }
+    return step < kLow_m;
+  }
+
+  // Corners of what cells of this label make of `cells`.
+  size_t CornersOf(const std::vector<int>& cells, const std::vector<int>& labels, int label) const {
+    std::vector<bool> inside(input_.arrangement.faces.size(), false);
+    for (const int cell : cells) {
+      inside[input_.face_of_cell[cell]] = labels[cell] == label;
+    }
+    size_t corners = 0;
+    for (const Polygon& polygon : UnionOf(input_.arrangement, inside)) {
+      for (const Ring& ring : polygon.rings) corners += ring.size();
+    }
+    return corners;
+  }
+
+  // What the labels cost on these cells and where they meet others.
+  double CostOf(const std::vector<int>& cells, const std::vector<int>& labels) const {
+    const CellProblem& problem = input_.problem;
+    std::vector<size_t> links;
+    double cost = 0;
+    for (const int cell : cells) {
+      cost += problem.data[cell][labels[cell]];
+      links.insert(links.end(), links_of_cell_[cell].begin(), links_of_cell_[cell].end());
+    }
+    std::ranges::sort(links);
+    links.erase(std::unique(links.begin(), links.end()), links.end());
+    for (const size_t link : links) {
+      cost += problem.border(link, labels[problem.links[link].a], labels[problem.links[link].b]);
+    }
+    return cost;
+  }
+
+  // Along one direction: the patch and what lies within reach of it.
+  struct Span {
+    double from = std::numeric_limits<double>::infinity();
+    double to = -std::numeric_limits<double>::infinity();
+  };
+
+  Span SpanOf(const Patch& patch, const Eigen::Vector2d& direction) const {
+    Span span;
+    for (const int cell : patch.cells) {
+      for (const int v : input_.arrangement.faces[input_.face_of_cell[cell]]) {
+        const double at = direction.dot(input_.arrangement.vertices[v]);
+        span.from = std::min(span.from, at);
+        span.to = std::max(span.to, at);
+      }
+    }
+    span.from -= kReach * input_.level_of_detail;
+    span.to += kReach * input_.level_of_detail;
+    return span;
+  }
+
+  // Lines across `direction` within the span, nearest the beginning first.
+  std::vector<Side> SidesAcross(const Eigen::Vector2d& direction, const Span& span,
+                                const Eigen::Vector2d& middle,
+                                const std::vector<int>& cells) const {
+    constexpr double kAlong = 0.02;  // sine of the angle to the axis
+    std::vector<Side> sides;
+    for (const CutLine& line : input_.lines) {
+      if (std::abs(line.direction.dot(direction)) > kAlong) continue;
+      Eigen::Vector2d normal(line.direction.y(), -line.direction.x());
+      if (normal.dot(direction) < 0) normal = -normal;
+      const double before = normal.dot(line.point - middle);
+      Side side;
+      side.at = direction.dot(middle) + before;
+      if (side.at < span.from || side.at > span.to) continue;
+      for (const int cell : cells) {
+        side.beyond.push_back(normal.dot(MiddleOf(cell) - line.point) > 0);
+      }
+      sides.push_back(std::move(side));
+    }
+    std::ranges::stable_sort(sides, {}, &Side::at);
+    return sides;
+  }
+
+  std::vector<int> CellsWithin(const Span& along, const Span& across,
+                               const std::array<Eigen::Vector2d, 2>& axes) const {
+    std::vector<int> cells;
+    for (size_t cell = 0; cell < labels_.size(); ++cell) {
+      const Eigen::Vector2d middle = MiddleOf(static_cast<int>(cell));
+      const double u = axes[0].dot(middle);
+      const double v = axes[1].dot(middle);
+      if (u < along.from || u > along.to || v < across.from || v > across.to) continue;
+      cells.push_back(static_cast<int>(cell));
+    }
+    return cells;
+  }
+
+  // The patch within the rectangle, and nowhere else.
+  std::vector<int> Squared(const Patch& patch, const std::vector<int>& cells,
+                           const std::array<const Side*, 4>& sides) const {
+    std::vector<int> labels = labels_;
+    for (const int cell : patch.cells) labels[cell] = patch.around;
+    for (size_t i = 0; i < cells.size(); ++i) {
+      const bool inside = sides[0]->beyond[i] && !sides[1]->beyond[i] && sides[2]->beyond[i] &&
+                          !sides[3]->beyond[i];
+      if (inside && labels[cells[i]] != none_) labels[cells[i]] = patch.label;
+    }
+    return labels;
+  }
+
+  void Square(const Patch& patch) {
+    const size_t corners = CornersOf(patch.cells, labels_, patch.label);
+    if (corners <= kRectangleCorners) return;
+    const Eigen::Vector2d u = input_.axis;
+    const std::array<Eigen::Vector2d, 2> axes = {u, Eigen::Vector2d(-u.y(), u.x())};
+    const Span along = SpanOf(patch, axes[0]);
+    const Span across = SpanOf(patch, axes[1]);
+    const std::vector<int> cells = CellsWithin(along, across, axes);
+    const Eigen::Vector2d middle =
+        axes[0] * ((along.from + along.to) / 2) + axes[1] * ((across.from + across.to) / 2);
+    const std::vector<Side> us = SidesAcross(axes[0], along, middle, cells);
+    const std::vector<Side> vs = SidesAcross(axes[1], across, middle, cells);
+    double least = std::numeric_limits<double>::infinity();
+    std::vector<int> best;
+    ForEachRectangle(us, vs, [&](const std::array<const Side*, 4>& sides) {
+      std::vector<int> labels = Squared(patch, cells, sides);
+      const double cost = CostOf(cells, labels);
+      if (cost >= least) return;
+      least = cost;
+      best = std::move(labels);
+    });
+    if (best.empty()) return;
+    const size_t left = CornersOf(cells, best, patch.label);
+    if (left == 0 || left >= corners) return;
+    const double saved =
+        kCorner * std::pow(input_.level_of_detail, 2) * static_cast<double>(corners - left);
+    if (least < CostOf(cells, labels_) + saved) labels_ = std::move(best);
+  }
+
+  template <typename Visit>
+  static void ForEachRectangle(const std::vector<Side>& us, const std::vector<Side>& vs,
+                               const Visit& visit) {
+    for (size_t a = 0; a < us.size(); ++a) {
+      for (size_t b = a + 1; b < us.size(); ++b) {
+        for (size_t c = 0; c < vs.size(); ++c) {
+          for (size_t d = c + 1; d < vs.size(); ++d) visit({&us[a], &us[b], &vs[c], &vs[d]});
+        }
+      }
+    }
+  }
+
+  const PatchInput& input_;
+  std::vector<int>& labels_;
+  const int none_;  // the label of no roof
+  std::vector<std::vector<size_t>> links_of_cell_;
+  std::vector<double> length_of_link_;
+  std::vector<bool> at_border_;
+};
+
+}  // namespace
+
+void TidyPatches(const PatchInput& input, std::vector<int>& labels) {
+  assert(labels.size() == input.problem.data.size());
+  Tidier(input, labels).Run();
+}
+
+}  // namespace stucco
