@@ -9,6 +9,7 @@
 
 #include "proxy/abstract.h"
 #include "proxy/map/facade_ids.h"
+#include "proxy/output/elevations.h"
 #include "proxy/output/proxy_files.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
@@ -84,6 +85,7 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
   }
   NameAfterPlan(input.plan, input.georef, progress, proxy);
   WriteProxyFiles(proxy, context.out);
+  WriteElevations(input.cloud, proxy, context.out / "elevations");
   progress.Advance();
 }
 

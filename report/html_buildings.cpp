@@ -7,6 +7,7 @@
 #include "report/internal/html_sections.h"
 #include "survey/escape.h"
 #include "survey/numbers.h"
+#include "survey/survey_folder.h"
 
 namespace stucco::internal {
 namespace {
@@ -39,17 +40,24 @@ Surface SurfaceOf(const Building& building) {
   return out;
 }
 
-std::string Row(const Building& building) {
+// A link to its elevation, where there is one.
+std::string ElevationLink(const Building& building, const SurveyData& data) {
+  if (!data.elevations.contains(building.id)) return "";
+  return fmt::format("<a href=\"../{}/{}\">elevation</a>", kElevationsFolder,
+                     UrlPath(ElevationFile(building)));
+}
+
+std::string Row(const Building& building, const SurveyData& data) {
   const Surface surface = SurfaceOf(building);
   return fmt::format(
       "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td>"
-      "<td>{}</td><td>{}</td></tr>",
+      "<td>{}</td><td>{}</td><td>{}</td></tr>",
       IsolatedHtml(building.id), surface.facets,
       surface.area > 0 ? Percent(surface.seen / surface.area) : "-",
       building.source == "map"    ? "on the map"
       : building.source == "file" ? "of another program"
                                   : "found in the photos",
-      FormOf(building));
+      FormOf(building), ElevationLink(building, data));
 }
 
 std::string MapFindings(const Proxy& proxy) {
@@ -75,7 +83,7 @@ std::string BuildingsSection(const PageContent& page) {
     if (building.id == "G0") continue;
     ++buildings;
     closed += building.watertight ? 1 : 0;
-    rows += Row(building);
+    rows += Row(building, page.data);
   }
   if (buildings == 0) return "";
   return fmt::format(
@@ -83,7 +91,8 @@ std::string BuildingsSection(const PageContent& page) {
       "<p>{} of {} closed.</p><details{}><summary>All of them</summary><div class=\"scroll\">"
       "<table class=\"plain\"><thead><tr><th scope=\"col\">Building</th>"
       "<th scope=\"col\" class=\"num\">Facets</th><th scope=\"col\" class=\"num\">Surface with "
-      "points</th><th scope=\"col\"></th><th scope=\"col\">Model</th></tr></thead><tbody>{}"
+      "points</th><th scope=\"col\"></th><th scope=\"col\">Model</th>"
+      "<th scope=\"col\" title=\"points before and behind its planes\"></th></tr></thead><tbody>{}"
       "</tbody></table></div></details>{}</section>",
       closed, Count(buildings, "building", "buildings"), buildings <= 12 ? " open" : "", rows,
       MapFindings(*page.data.proxy));

@@ -49,6 +49,17 @@ bool IsMetric(const SurveyData& data) {
   return (!data.georef || data.georef->metric) && (!data.proxy || data.proxy->metric);
 }
 
+std::set<std::string> FindElevations(const fs::path& survey, const Proxy& proxy) {
+  std::set<std::string> found;
+  for (const Building& building : proxy.buildings) {
+    std::error_code ignored;
+    if (fs::exists(survey / kElevationsFolder / ElevationFile(building), ignored)) {
+      found.insert(building.id);
+    }
+  }
+  return found;
+}
+
 // Without a pipeline that knows, a stage is done when its result is there.
 std::vector<StageStatus> GuessedStatuses(const fs::path& survey) {
   const std::pair<const char*, const char*> results[] = {{"ingest", kCapturesFile},
@@ -82,6 +93,7 @@ SurveyData LoadSurvey(const fs::path& survey, const std::vector<StageStatus>& st
   data.georef = Load<Georef>(survey, "calib", kGeorefFile, ReadGeoref, data.damaged);
   data.photos = LoadPhotos(survey, data.captures.value_or(Captures()), data.damaged);
   data.proxy = Load<Proxy>(survey, "proxy", kFacetsFile, ReadProxy, data.damaged);
+  if (data.proxy) data.elevations = FindElevations(survey, *data.proxy);
   data.textures = Load<TextureSet>(survey, "texture", kTexturesFile, ReadTextureSet, data.damaged);
   data.metric = IsMetric(data);
   data.statuses = statuses.empty() ? GuessedStatuses(survey) : statuses;

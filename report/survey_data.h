@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,8 @@ struct SurveyData {
   std::optional<Georef> georef;
   std::optional<Proxy> proxy;
   std::optional<TextureSet> textures;
-  std::vector<SurveyPhoto> photos;  // whose poses are known
+  std::set<std::string> elevations;  // buildings, by id, of which there is an elevation
+  std::vector<SurveyPhoto> photos;   // whose poses are known
   std::vector<DamagedFile> damaged;
   std::vector<StageStatus> statuses;  // of the stages before the report, in their order
   bool metric = false;                // lengths are metres

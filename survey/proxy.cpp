@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -103,6 +104,12 @@ std::string CityGmlName(FacetClass facet_class) {
       return "OuterFloorSurface";
   }
   throw std::logic_error("unknown facet class");
+}
+
+std::string ElevationFile(const Building& building) {
+  std::string name = building.id;
+  std::ranges::replace(name, '/', '_');
+  return name + ".png";
 }
 
 const std::string& FacadeName(const Facet& facet) {

@@ -49,6 +49,9 @@ struct Building {
   std::vector<Facet> facets;
 };
 
+// The name of a building's picture in kElevationsFolder: "B0001.png"; '/' becomes '_'.
+std::string ElevationFile(const Building& building);
+
 // The ground is a building of its own with id "G0" holding kGround facets.
 struct Proxy {
   std::vector<Building> buildings;

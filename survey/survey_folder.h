@@ -17,6 +17,7 @@ inline constexpr char kGeorefFile[] = "calib/georef.json";
 inline constexpr char kCalibrationFile[] = "calib/calibration.json";
 inline constexpr char kCloudFile[] = "dense/cloud.ply";
 inline constexpr char kFacetsFile[] = "proxy/facets.json";
+inline constexpr char kElevationsFolder[] = "proxy/elevations";
 inline constexpr char kTexturesFile[] = "texture/textures.json";
 inline constexpr char kReportFile[] = "report/report.html";
 inline constexpr char kEpochsFolder[] = "epochs";

@@ -4,32 +4,20 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
-#include <boost/geometry/index/rtree.hpp>
 #include <cmath>
-#include <iterator>
-#include <utility>
 #include <vector>
 
+#include "proxy/cloud/near_facets.h"
 #include "survey/geometry2d.h"
 
 namespace stucco {
 namespace {
 
-namespace bg = boost::geometry;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using Place = bg::model::point<double, 3, bg::cs::cartesian>;
-using Box = bg::model::box<Place>;
-using Entry = std::pair<Box, size_t>;
 
 constexpr size_t kMostPoints = 3'000'000;
 constexpr double kCellsOfSide = 100;
-
-Place PlaceOf(const Vector3d& p) {
-  return {p.x(), p.y(), p.z()};
-}
 
 // What lies on a facet, in cells of its plane.
 class FacetCells {
@@ -99,36 +87,20 @@ class FacetCells {
   double squares_ = 0;
 };
 
-Entry EntryOf(const Facet& facet, double reach, size_t index) {
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& p : facet.outer) box.extend(p);
-  const Vector3d margin = Vector3d::Constant(reach);
-  return {{PlaceOf(box.min() - margin), PlaceOf(box.max() + margin)}, index};
-}
-
 }  // namespace
 
 void MeasureSupport(const PointStream& cloud, double reach, double cell, Proxy& proxy) {
   std::vector<Facet*> facets;
   std::vector<FacetCells> cells;
-  std::vector<Entry> entries;
   for (Building& building : proxy.buildings) {
     for (Facet& facet : building.facets) {
-      entries.push_back(EntryOf(facet, reach, facets.size()));
       facets.push_back(&facet);
       cells.emplace_back(facet, cell);
     }
   }
-  const bg::index::rtree<Entry, bg::index::rstar<16>> boxes(entries);
-  const size_t step = cloud.count / kMostPoints + 1;
-  size_t number = 0;
-  std::vector<Entry> near;
-  cloud.for_each([&](const CloudPoint& point) {
-    if (number++ % step != 0) return;
-    near.clear();
-    const Place place = PlaceOf(point.position);
-    boxes.query(bg::index::intersects(Box(place, place)), std::back_inserter(near));
-    for (const Entry& entry : near) cells[entry.second].Add(point.position, reach);
+  const std::vector<const Facet*> fixed(facets.begin(), facets.end());
+  ForEachPointNear(cloud, fixed, reach, kMostPoints, [&](size_t facet, const CloudPoint& point) {
+    cells[facet].Add(point.position, reach);
   });
   for (size_t i = 0; i < facets.size(); ++i) cells[i].Write(*facets[i]);
 }

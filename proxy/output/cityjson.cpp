@@ -103,11 +103,12 @@ Json SemanticsOf(const Facet& facet, const Eigen::Vector3d& up) {
   Json surface = {{"type", ceiling ? "OuterCeilingSurface" : CityGmlName(facet.facet_class)}};
   surface["id"] = facet.id;
   surface["facade"] = FacadeName(facet);
-  Json others = Json::array();
+  // Attributes of surfaces are single values.
+  std::string others;
   for (size_t i = 1; i < facet.planned_facades.size(); ++i) {
-    others.push_back(facet.planned_facades[i]);
+    others += (others.empty() ? "" : " ") + facet.planned_facades[i];
   }
-  surface["other_facades"] = std::move(others);
+  if (!others.empty()) surface["other_facades"] = others;
   surface["area"] = facet.area;
   surface["rms"] = facet.rms;
   surface["seen"] = facet.seen;

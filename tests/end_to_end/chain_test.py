@@ -7,6 +7,8 @@ import json
 import math
 import shutil
 import statistics
+import subprocess
+import sys
 import unittest
 
 import sample_plan
@@ -169,6 +171,10 @@ class Chain(stucco.TestCase):
         self.assertGreater(len(textures), 6)
         for texture in textures:
             self.assertTrue((out.parent / texture["image"]).is_file(), texture)
+        checker = stucco.ROOT / "bench/check_cityjson.py"
+        written = [out, self.finished / "proxy/proxy.city.json"]
+        self.check(subprocess.run([sys.executable, "-B", checker, *written], capture_output=True,
+                                  text=True, check=False))
 
     def test_everything_is_measured(self):
         for stage in self.first["stages"]:

@@ -85,6 +85,18 @@ TEST(CityJsonText, HasBuildingsPartsAndSemantics) {
   EXPECT_EQ(city["CityObjects"]["G0"]["type"], "LandUse");
 }
 
+TEST(CityJsonText, FurtherFacadesOfAWallAreOneText) {
+  Proxy model = Model(false);
+  const auto wall_of = [](const Proxy& written) {
+    const auto city = nlohmann::json::parse(CityJsonText(written));
+    return city["CityObjects"]["B0001-1"]["geometry"][0]["semantics"]["surfaces"][0];
+  };
+  EXPECT_FALSE(wall_of(model).contains("other_facades"));
+  model.buildings[0].facets[0].planned_facades = {"B0001/F00", "B0002/F03", "B0003/F01"};
+  EXPECT_EQ(wall_of(model)["facade"], "B0001/F00");
+  EXPECT_EQ(wall_of(model)["other_facades"], "B0002/F03 B0003/F01");
+}
+
 TEST(CityJsonText, VerticesComeBackThroughTheTransform) {
   const auto city = nlohmann::json::parse(CityJsonText(Model(false)));
   const int index = city["CityObjects"]["B0001-1"]["geometry"][0]["boundaries"][0][0][1];

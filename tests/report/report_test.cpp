@@ -146,6 +146,21 @@ TEST_F(Report, NamesFacadesAsThePlanDoes) {
   EXPECT_EQ(Json()["facades"][0]["planned"]["q_u"], 0.73);
 }
 
+TEST_F(Report, LinksTheElevationsThatAreThere) {
+  const MadeSurvey made = MakeSurvey();
+  WriteSurvey(made, folder_.path());
+  Run();
+  EXPECT_FALSE(Has(Content(Page()), "elevations/"));
+  const Building& building = made.proxy.buildings[1];
+  const auto folder = folder_.path() / kElevationsFolder;
+  std::filesystem::create_directories(folder);
+  WriteFile(folder / ElevationFile(building), "a picture");
+  Run();
+  EXPECT_EQ(CountOf(Content(Page()), "\"../proxy/elevations/" + ElevationFile(building) + "\""),
+            1U);
+  EXPECT_EQ(CountOf(Content(Page()), "../proxy/elevations/"), 1U);
+}
+
 TEST_F(Report, SaysWhichPlannedPhotosAFacadeLacks) {
   MadeSurvey made = MakeSurvey();
   made.proxy.buildings[0].facets[0].planned_facades = {"B0007/F00"};
