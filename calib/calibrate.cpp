@@ -340,6 +340,32 @@ void MoveAll(const MapAlignment& alignment, std::vector<PoseRecord>& records, Sc
   }
 }
 
+struct MapUse {
+  const Guidance& guidance;
+  const std::optional<Plan>& plan;
+  bool move = false;  // onto the map, where it shows the scene
+  const StageContext& context;
+};
+
+// Where the map shows the scene; nothing where it does not.
+std::optional<CalibratedMap> PlaceOnMap(const MapUse& use, Georef& georef,
+                                        std::vector<PoseRecord>& records, SceneParts& parts,
+                                        Scene& scene) {
+  const auto found = FindOnMap(use.guidance, use.plan, georef, scene);
+  if (!found) {
+    if (use.move) {
+      use.context.progress->Warn(
+          "calib.georef is map, but the walls of the map are not found in the model: it stays "
+          "where "
+          "positions put it");
+    }
+    return std::nullopt;
+  }
+  georef.on_map = use.move;
+  if (use.move) MoveAll(*found, records, parts, scene);
+  return Summary(*found, use.move);
+}
+
 }  // namespace
 
 void RunCalib(const CalibOptions& options, StageContext& context) {
@@ -381,14 +407,9 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
                                georeference.sigmas, scene);
   TakeWeak(repeating, georeference.sigmas.poses, scene, parts);
   georeference.residuals = MeasurePriors(scene, georeference.prior_outliers);
-  const auto on_map = FindOnMap(guidance, plan, georeference.georef, scene);
-  georeference.georef.on_map = on_map && options.georef == "map" && !held.georef;
-  if (georeference.georef.on_map) MoveAll(*on_map, records, parts, scene);
-  if (!on_map && options.georef == "map") {
-    context.progress->Warn(
-        "calib.georef is map, but the walls of the map are not found in the "
-        "model: it stays where positions put it");
-  }
+  const std::optional<CalibratedMap> on_map =
+      PlaceOnMap({guidance, plan, options.georef == "map" && !held.georef, context},
+                 georeference.georef, records, parts, scene);
   std::map<int, std::string> unregistered =
       Unregistered(mapper, pairs, scene, parts, georeference.taken);
   const std::vector<int> ambiguous =
@@ -406,9 +427,9 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
                              .ambiguous = ambiguous};
   Calibration calibration = Summarize(summary);
   calibration.findings.insert(calibration.findings.begin(), findings.begin(), findings.end());
+  calibration.map = on_map;
   if (on_map) {
-    calibration.map = Summary(*on_map, georeference.georef.on_map);
-    std::ranges::move(MapFindings(*calibration.map), std::back_inserter(calibration.findings));
+    std::ranges::move(MapFindings(*on_map), std::back_inserter(calibration.findings));
   }
   if (errors != nullptr) {
     std::ranges::move(SummarizeRecordOnly(summary, records, *errors),

@@ -176,6 +176,7 @@ class WallFit {
   // One step of Gauss and Newton. False where the walls leave the shift open.
   bool Improve(const std::vector<WallSeen>& walls) {
     std::vector<double> sizes;
+    sizes.reserve(walls.size());
     for (const WallSeen& wall : walls) sizes.push_back(std::abs(wall.distance_m));
     const double sigma = std::max(kLeastWallSigma_m, kNormalMad * *Median(std::move(sizes)));
     Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
