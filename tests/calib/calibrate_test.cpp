@@ -88,11 +88,14 @@ TEST(CalibOptions, AreAllInTheTable) {
   CalibOptions options;
   OptionTable table("calib");
   Describe(table, options);
-  EXPECT_EQ(table.options().size(), 13u);
+  EXPECT_EQ(table.options().size(), 14u);
   EXPECT_EQ(SetOption(table, "max_features", OptionValue(int64_t{500})), "");
   EXPECT_EQ(options.max_features, 500);
   EXPECT_NE(SetOption(table, "camera_model", OptionValue(std::string("FISHEYE"))), "");
   EXPECT_NE(SetOption(table, "match_ratio", OptionValue(1.5)), "");
+  EXPECT_EQ(SetOption(table, "georef", OptionValue(std::string("map"))), "");
+  EXPECT_EQ(options.georef, "map");
+  EXPECT_NE(SetOption(table, "georef", OptionValue(std::string("gps"))), "");
 }
 
 }  // namespace
