@@ -428,7 +428,7 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   Calibration calibration = Summarize(summary);
   calibration.findings.insert(calibration.findings.begin(), findings.begin(), findings.end());
   calibration.map = on_map;
-  if (on_map) {
+  if (on_map && !held.georef) {
     std::ranges::move(MapFindings(*on_map), std::back_inserter(calibration.findings));
   }
   if (errors != nullptr) {

@@ -33,7 +33,7 @@ std::vector<PlannedFacade> WallsInScene(const Plan& plan, const Georef& georef,
                                         const Scene& scene);
 
 // The level shift, metres, that brings most points onto walls. The best of a grid of 6 m each way,
-// refined by medians; zero where hardly any point lies on a wall then.
+// refined by least squares; zero where hardly any point lies on a wall then.
 Eigen::Vector2d ShiftOntoWalls(std::span<const Eigen::Vector3d> points,
                                std::span<const PlannedFacade> walls);
 

@@ -436,7 +436,8 @@ RoofCells LabelRoof(const FittedBuilding& building, const RoofEvidence& evidence
                .problem = problem,
                .roofs = roof.roofs,
                .axis = roof.lines.front().direction,
-               .level_of_detail = tolerances.level_of_detail},
+               .level_of_detail = tolerances.level_of_detail,
+               .forbidden = kForbidden},
               labels);
   for (size_t c = 0; c < labels.size(); ++c) {
     roof.labels[face_of_cell[c]] = labels[c] == none ? -1 : labels[c];

@@ -129,6 +129,10 @@ class Tidier {
   }
 
   bool IsSlight(const Patch& patch) const {
+    const bool allowed = std::ranges::all_of(patch.cells, [&](int cell) {
+      return input_.problem.data[cell][patch.around] < input_.forbidden;
+    });
+    if (!allowed) return false;
     const double area = AreaOf(patch);
     if (area < std::pow(kLeastSide * input_.level_of_detail, 2)) return true;
     if (area > kSmall_m2) return false;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct PatchInput {
   std::span<const RoofPlane> roofs;
   Eigen::Vector2d axis = Eigen::Vector2d::UnitX();  // unit: what stands on a roof stands along it
   double level_of_detail = 0.1;
+  // A label that costs so much on a cell cannot be there.
+  double forbidden = std::numeric_limits<double>::infinity();
 };
 
 // Tidies patches of cells under one roof as people would draw them; what goes becomes the roof that

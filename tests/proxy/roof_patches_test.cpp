@@ -90,7 +90,8 @@ class TidyPatchesTest : public testing::Test {
                  .cell_of_face = cell_of_face_,
                  .problem = problem,
                  .roofs = roofs_,
-                 .level_of_detail = kDetail},
+                 .level_of_detail = kDetail,
+                 .forbidden = forbidden_},
                 labels_);
   }
 
@@ -104,6 +105,7 @@ class TidyPatchesTest : public testing::Test {
 
   std::vector<RoofPlane> roofs_;
   std::vector<int> labels_;
+  double forbidden_ = 1000;
 
  private:
   std::vector<CutLine> lines_;
@@ -166,6 +168,14 @@ TEST_F(TidyPatchesTest, SmallPatchesGoHoweverHigh) {
   Put(kUpper, Box(8, 3, 8.7, 3.7));  // below four levels of detail each way
   Tidy();
   EXPECT_EQ(AreaOf(kUpper), 0);
+}
+
+TEST_F(TidyPatchesTest, NothingGoesBelowWhatItMay) {
+  Cut({8, 8.7}, {3, 3.7});
+  Put(kUpper, Box(8, 3, 8.7, 3.7));
+  forbidden_ = 0.4;  // of the 0.49 that the lower roof costs there
+  Tidy();
+  EXPECT_NEAR(AreaOf(kUpper), 0.49, 1e-9);
 }
 
 TEST_F(TidyPatchesTest, YardsStayAsTheyAre) {
