@@ -356,8 +356,7 @@ std::optional<CalibratedMap> PlaceOnMap(const MapUse& use, Georef& georef,
     if (use.move) {
       use.context.progress->Warn(
           "calib.georef is map, but the walls of the map are not found in the model: it stays "
-          "where "
-          "positions put it");
+          "where positions put it");
     }
     return std::nullopt;
   }

@@ -45,6 +45,18 @@ bool CrossEachOther(const Segment2d& s, const Segment2d& t) {
 }  // namespace
 
 // Relative to the first corner: far from the origin the products would lose digits.
+Eigen::Isometry2d LevelMotion::Transform() const {
+  Eigen::Isometry2d result = Eigen::Isometry2d::Identity();
+  result.linear() = Eigen::Rotation2Dd(turn_rad).toRotationMatrix();
+  result.translation() = center + shift - result.linear() * center;
+  return result;
+}
+
+Eigen::Vector3d LevelMotion::RowOf(const Eigen::Vector2d& n, const Eigen::Vector2d& moved) const {
+  const Eigen::Vector2d arm = moved - center - shift;
+  return {n.x(), n.y(), n.y() * arm.x() - n.x() * arm.y()};
+}
+
 double SignedArea(const Ring& ring) {
   double twice = 0;
   for (size_t i = 2; i < ring.size(); ++i) {

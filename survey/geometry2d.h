@@ -34,6 +34,18 @@ inline Eigen::Vector2d OutwardsOf(const Segment2d& edge) {
   return {along.y(), -along.x()};
 }
 
+// A turn about `center`, then a shift: rigid, by small steps of least squares.
+struct LevelMotion {
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  double turn_rad = 0;  // counter-clockwise
+
+  Eigen::Isometry2d Transform() const;
+  // By how much a place that it has moved goes along `n` for a shift by one along x and y, and for
+  // a turn by one radian.
+  Eigen::Vector3d RowOf(const Eigen::Vector2d& n, const Eigen::Vector2d& moved) const;
+};
+
 double SignedArea(const Ring& ring);  // positive when counter-clockwise
 double Area(const Polygon& polygon);
 // Rings one after the other, holes (clockwise) behind the outer ring that they are in.

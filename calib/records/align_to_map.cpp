@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "calib/records/georeference.h"
+#include "survey/geometry2d.h"
 #include "survey/median.h"
 #include "survey/plan_frame.h"
 
@@ -93,20 +94,6 @@ Vector2d Refined(const std::vector<NearWall>& points, Vector2d shift) {
   return shift;
 }
 
-// About the middle of all walls: first turns, then shifts.
-struct LevelMotion {
-  Vector2d middle = Vector2d::Zero();
-  Vector2d shift = Vector2d::Zero();
-  double turn_rad = 0;
-
-  Vector3d operator*(const Vector3d& point) const {
-    Vector3d moved = point;
-    moved.head<2>() =
-        Eigen::Rotation2Dd(turn_rad) * Vector2d(point.head<2>() - middle) + middle + shift;
-    return moved;
-  }
-};
-
 // What the points about a wall say of where it stands.
 struct WallSeen {
   Vector2d normal = Vector2d::UnitX();
@@ -123,8 +110,8 @@ class WallFit {
  public:
   WallFit(std::span<const Vector3d> points, std::span<const PlannedFacade> walls)
       : points_(points), walls_(walls), step_(points.size() / kMostPoints + 1) {
-    for (const PlannedFacade& wall : walls) motion_.middle += (wall.a_m + wall.b_m) / 2;
-    motion_.middle /= std::max<double>(1, static_cast<double>(walls.size()));
+    for (const PlannedFacade& wall : walls) motion_.center += (wall.a_m + wall.b_m) / 2;
+    motion_.center /= std::max<double>(1, static_cast<double>(walls.size()));
     motion_.shift = ShiftOntoWalls(points, walls);
   }
 
@@ -144,15 +131,17 @@ class WallFit {
     alignment.walls = static_cast<int>(seen.planes.size());
     Similarity& motion = alignment.map_from_scene;
     motion.rotation = Eigen::AngleAxisd(motion_.turn_rad, Vector3d::UnitZ());
-    motion.translation = motion_ * Vector3d::Zero();
+    motion.translation.head<2>() = motion_.Transform().translation();
     return alignment;
   }
 
  private:
   WallsSeen See() const {
+    const Eigen::Isometry2d moved = motion_.Transform();
     std::vector<std::vector<double>> about(walls_.size());
     for (size_t i = 0; i < points_.size(); i += step_) {
-      const Vector3d point = motion_ * points_[i];
+      Vector3d point = points_[i];
+      point.head<2>() = moved * point.head<2>();
       for (size_t w = 0; w < walls_.size(); ++w) {
         const auto distance = BeforeWall(walls_[w], point);
         if (distance && std::abs(*distance) < kAboutWall_m) about[w].push_back(*distance);
@@ -185,9 +174,7 @@ class WallFit {
       const double over = wall.distance_m / (kTukey * sigma);
       if (std::abs(over) >= 1) continue;
       const double weight = std::pow(1 - over * over, 2) / (sigma * sigma);
-      const Vector2d from = wall.middle - motion_.middle - motion_.shift;
-      const Vector3d row(wall.normal.x(), wall.normal.y(),
-                         wall.normal.dot(Vector2d(-from.y(), from.x())));
+      const Vector3d row = motion_.RowOf(wall.normal, wall.middle);
       normals += weight * row * row.transpose();
       right -= weight * wall.distance_m * row;
     }

@@ -88,20 +88,6 @@ std::vector<Segment2d> FacadesInCloud(const Samples& upright, const OutlineMap& 
   return facades;
 }
 
-// A rigid motion of the plane about a point, by small steps.
-struct Motion {
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();
-  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
-  double turn_rad = 0;
-
-  Eigen::Isometry2d Transform() const {
-    Eigen::Isometry2d result = Eigen::Isometry2d::Identity();
-    result.linear() = Eigen::Rotation2Dd(turn_rad).toRotationMatrix();
-    result.translation() = center + shift - result.linear() * center;
-    return result;
-  }
-};
-
 // The facade that a piece of wall may be of, and how far outside of it the piece lies.
 struct NearFacade {
   size_t facade = 0;
@@ -131,7 +117,7 @@ std::optional<NearFacade> FacadeBeside(const Segment2d& trace,
 // map may be off by themselves. Pieces of one facade are no independent witnesses: all of them
 // together weigh as much as their facade, against the prior of the turn.
 void Refine(const std::vector<Segment2d>& traces, const std::vector<Segment2d>& facades,
-            Motion& motion) {
+            LevelMotion& motion) {
   constexpr std::array kReaches_m = {2.5, 2.5, 2.0, 2.0, 1.5, 1.5, 1.5, 1.5};
   constexpr double kFacadeSigma_m = 0.5;
   constexpr double kTurnSigma_rad = 0.005;  // 0.3 degrees: GPS over a site, grid north
@@ -148,10 +134,8 @@ void Refine(const std::vector<Segment2d>& traces, const std::vector<Segment2d>& 
     for (const Segment2d& trace : traces) {
       const auto beside = FacadeBeside(trace, lines, reach);
       if (!beside) continue;
-      const Eigen::Vector2d& n = beside->outwards;
-      const Eigen::Vector2d arm = (trace.a + trace.b) / 2 - motion.center - motion.shift;
       const double weight = std::pow(1 - std::pow(beside->distance / reach, 2), 2);
-      const Eigen::Vector3d row(n.x(), n.y(), n.y() * arm.x() - n.x() * arm.y());
+      const Eigen::Vector3d row = motion.RowOf(beside->outwards, (trace.a + trace.b) / 2);
       normal += weight * row * row.transpose();
       right += weight * beside->distance * row;
       total += weight;
@@ -183,11 +167,11 @@ std::vector<Segment2d> EnoughOf(const std::vector<Segment2d>& traces) {
 }
 
 // The motion that brings the facades onto what stands upright, or nothing where they do not match.
-std::optional<Motion> MotionOnto(const std::vector<Segment2d>& traces,
-                                 const std::vector<Segment2d>& facades) {
+std::optional<LevelMotion> MotionOnto(const std::vector<Segment2d>& traces,
+                                      const std::vector<Segment2d>& facades) {
   const auto shift = FindShift(traces, facades);
   if (!shift) return std::nullopt;
-  Motion motion;
+  LevelMotion motion;
   motion.shift = *shift;
   for (const Segment2d& facade : facades) motion.center += (facade.a + facade.b) / 2;
   motion.center /= static_cast<double>(facades.size());

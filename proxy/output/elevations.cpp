@@ -27,7 +27,7 @@ using Eigen::Vector3d;
 constexpr size_t kMostPoints = 5'000'000;
 constexpr double kPointsOfCell = 3;
 constexpr double kLeastCell_m = 0.03;
-constexpr int kAround = 5;      // cells each way that speak for one without points
+constexpr int kAround = 5;      // a square of so many cells speaks for one without points
 constexpr float kEnough = 1.5;  // when they have more points than this
 constexpr double kFull_m = 0.15;
 constexpr double kReachOverFull = 4;  // what lies farther off is another thing

@@ -5,15 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "calib/mapping/wrong_poses.h"
 #include "tests/calib/made_records.h"
 
 namespace stucco::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 class ContradictingGroupsTest : public testing::Test {
  protected:

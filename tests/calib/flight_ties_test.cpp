@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "survey/degree.h"
+#include "tests/calib/made_records.h"
 #include "tests/calib/made_scene.h"
 
 namespace stucco::test {

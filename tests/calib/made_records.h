@@ -3,12 +3,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 #include <vector>
 
 #include "calib/records/records.h"
 #include "tests/calib/made_scene.h"
 
 namespace stucco::test {
+
+inline constexpr double kDegree = std::numbers::pi / 180;
 
 struct MadeRecordErrors {
   double position_sigma_m = 0.5;

@@ -5,15 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <numbers>
 
 #include "survey/attitude.h"
 #include "tests/calib/made_records.h"
 
 namespace stucco::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // Points around and below the photos, each seen by those that have it in their pictures.
 void ShowPoints(Scene& scene) {

@@ -4,14 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "tests/calib/made_records.h"
 
 namespace stucco::test {
 namespace {
-
-constexpr double kStartDegree = std::numbers::pi / 180;
 
 class FromRecords : public testing::Test {
  protected:
@@ -47,18 +43,18 @@ TEST_F(FromRecords, PlacesEveryPhotoAtOnce) {
 }
 
 TEST_F(FromRecords, FindsACompassThatIsOff) {
-  const RecordsStart start = Run(MakeRecords(truth_, {.yaw_rad = {25 * kStartDegree}}));
+  const RecordsStart start = Run(MakeRecords(truth_, {.yaw_rad = {25 * kDegree}}));
   ASSERT_TRUE(start.usable) << start.why_not;
   EXPECT_EQ(start.num_registered, 24);
   EXPECT_LT(ComparePoses(scene_, truth_).position_m, 0.02);
   // The frame is that of the positions, not of the compass.
   EXPECT_LT(scene_.photos[0].pose->rotation.angularDistance(truth_.photos[0].pose->rotation),
-            3 * kStartDegree);
+            3 * kDegree);
 }
 
 TEST_F(FromRecords, LivesWithRoughGimbals) {
   const RecordsStart start =
-      Run(MakeRecords(truth_, {.position_sigma_m = 1, .attitude_sigma_rad = 2 * kStartDegree}));
+      Run(MakeRecords(truth_, {.position_sigma_m = 1, .attitude_sigma_rad = 2 * kDegree}));
   ASSERT_TRUE(start.usable) << start.why_not;
   EXPECT_GE(start.num_registered, 22);
   EXPECT_LT(ComparePoses(scene_, truth_).position_m, 0.02);

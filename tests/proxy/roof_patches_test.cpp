@@ -95,6 +95,11 @@ class TidyPatchesTest : public testing::Test {
                 labels_);
   }
 
+  // Likewise, of a box hardly anything.
+  void TidyUnseen(const AlignedBox2d& box) {
+    Tidy([&](const Vector2d& p) { return box.contains(p) ? 0.2 : 1; });
+  }
+
   double AreaOf(int label) const {
     double area = 0;
     for (size_t c = 0; c < labels_.size(); ++c) {
@@ -119,7 +124,7 @@ TEST_F(TidyPatchesTest, AJogThatHardlyAnythingSaysGoes) {
   Cut({8, 8.5, 11}, {3, 3.5, 7});
   Put(kUpper, Box(8, 3, 11, 7));
   Put(kRoof, Box(8, 3, 8.5, 3.5));
-  Tidy([](const Vector2d& p) { return Box(8, 3, 8.5, 3.5).contains(p) ? 0.2 : 1; });
+  TidyUnseen(Box(8, 3, 8.5, 3.5));
   EXPECT_NEAR(AreaOf(kUpper), 12, 1e-9);
 }
 
@@ -135,7 +140,7 @@ TEST_F(TidyPatchesTest, AtTheBorderOfTheFootprintNothingIsSquared) {
   Cut({0.5, 3}, {3, 3.5, 7});
   Put(kUpper, Box(0, 3, 3, 7));
   Put(kRoof, Box(0, 3, 0.5, 3.5));
-  Tidy([](const Vector2d& p) { return Box(0, 3, 0.5, 3.5).contains(p) ? 0.2 : 1; });
+  TidyUnseen(Box(0, 3, 0.5, 3.5));
   EXPECT_NEAR(AreaOf(kUpper), 11.75, 1e-9);
 }
 
@@ -182,7 +187,7 @@ TEST_F(TidyPatchesTest, YardsStayAsTheyAre) {
   Cut({8, 8.5, 11}, {3, 3.5, 7});
   Put(kNone, Box(8, 3, 11, 7));
   Put(kRoof, Box(8, 3, 8.5, 3.5));
-  Tidy([](const Vector2d& p) { return Box(8, 3, 8.5, 3.5).contains(p) ? 0.2 : 1; });
+  TidyUnseen(Box(8, 3, 8.5, 3.5));
   EXPECT_NEAR(AreaOf(kNone), 11.75, 1e-9);
 }
 

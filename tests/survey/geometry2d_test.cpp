@@ -21,6 +21,22 @@ TEST(Geometry2d, CrossIsPositiveToTheLeft) {
   EXPECT_EQ(Cross({2, 1}, {4, 2}), 0);
 }
 
+TEST(Geometry2d, ALevelMotionsRowsAreItsDerivatives) {
+  const LevelMotion motion{.center = {3, -2}, .shift = {0.7, 1.1}, .turn_rad = 0.3};
+  const Eigen::Vector2d place(10, 5), n(0.6, -0.8);
+  const Eigen::Vector2d moved = motion.Transform() * place;
+  EXPECT_LT((motion.Transform() * motion.center - motion.center - motion.shift).norm(), 1e-12);
+  EXPECT_GT(Cross(place - motion.center, moved - motion.center - motion.shift), 0);  // to the left
+  const Eigen::Vector3d row = motion.RowOf(n, moved);
+  constexpr double kStep = 1e-6;
+  for (int i = 0; i < 3; ++i) {
+    LevelMotion farther = motion;
+    if (i < 2) farther.shift[i] += kStep;
+    if (i == 2) farther.turn_rad += kStep;
+    EXPECT_NEAR(row[i], n.dot(farther.Transform() * place - moved) / kStep, 1e-5);
+  }
+}
+
 TEST(Geometry2d, AreasTellTheDirectionOfARing) {
   const Polygon polygon = WithCourtyard();
   EXPECT_EQ(SignedArea(polygon.rings[0]), 80);
