@@ -11,6 +11,7 @@
 #include "calib/matching/contradictions.h"
 #include "calib/matching/known_poses.h"
 #include "calib/matching/match_again.h"
+#include "calib/matching/place_on_walls.h"
 #include "calib/records/georeference.h"
 #include "calib/scene/as_model.h"
 #include "calib/scene/tracks.h"
@@ -20,7 +21,7 @@
 namespace stucco {
 namespace {
 
-constexpr int kMostRounds = 2;
+constexpr int kMostRounds = 3;
 
 // Without tracks.
 Scene MakeScene(const CalibOptions& options, const UsablePhotos& photos,
@@ -204,12 +205,19 @@ Reconstructed PlaceInRounds(const PlaceInput& input, OnRepeatingWalls& repeating
   if (!placed.is_in_frame) return placed;
   NoteRepeating(input.guidance, repeating, input.context);
   const PhotoSet set{input.photos.captures, input.photos.usable, input.guidance};
-  int before = 0;
-  for (int round = 0; round < kMostRounds && NumRegistered(scene) > before; ++round) {
-    before = NumRegistered(scene);
+  bool go_on = true;
+  for (int round = 0; round < kMostRounds && go_on; ++round) {
+    const int before = NumRegistered(scene);
     ApplyRecords(placed.records, MeasureRecordErrors(placed.records, scene), scene);
-    const auto poses = KnowPoses({input.guidance, repeating, placed.records}, scene);
-    LookAgain({input.options, set, input.context}, input.features, SurePoses(poses), repeating);
+    const KnownPoses known = KnowPoses({input.guidance, repeating, placed.records}, scene);
+    const DetectInput detect{input.options, set, input.context};
+    LookAgain(detect, input.features, SurePoses(known.poses), repeating);
+    // Before a wall that stands elsewhere everything is off, each photo by itself.
+    auto poses = known.poses;
+    if (known.on_map) {
+      poses = PlaceOnWalls({input.options, set, input.features, repeating, poses, input.context});
+      LookAgain(detect, input.features, SurePoses(poses), repeating);
+    }
     MatchedPairs again = first;
     DropOnRepeatingWalls(repeating, static_cast<size_t>(input.mapper.min_inliers), again.verified);
     if (MatchAgain({input.options, set, input.features, repeating, poses, input.context}, again) ==
@@ -219,6 +227,8 @@ Reconstructed PlaceInRounds(const PlaceInput& input, OnRepeatingWalls& repeating
     matched = std::move(again);
     scene = start;
     placed = PlaceMatched(input, matched.verified, scene);
+    // Walls that are matched tell the map's place.
+    go_on = NumRegistered(scene) > before || !known.on_map;
   }
   return placed;
 }

@@ -77,15 +77,16 @@ std::optional<HoverPlace> PlaceOfHover(const Scene& scene, const std::vector<int
 std::optional<KnownPose> KnowPose(const ScenePhoto& photo, bool surely,
                                   const std::optional<HoverPlace>& hover) {
   if (surely) {
-    return KnownPose{*photo.pose, kKnownSigma_m, kKnownSigma_rad};
+    return KnownPose{*photo.pose, {kKnownSigma_m, kKnownSigma_m}, kKnownSigma_rad};
   }
-  const double recorded_m =
-      photo.prior ? std::max(photo.prior->sigma_horizontal_m, photo.prior->sigma_vertical_m)
-                  : std::numeric_limits<double>::infinity();
-  if (photo.attitude && hover && hover->sigma_m < recorded_m) {
+  Eigen::Vector2d recorded_m = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  if (photo.prior) recorded_m = {photo.prior->sigma_horizontal_m, photo.prior->sigma_vertical_m};
+  if (photo.attitude && hover && hover->sigma_m < recorded_m.maxCoeff()) {
     const Eigen::Quaterniond& rotation = photo.attitude->cam_from_world;
-    return KnownPose{Pose{rotation, -(rotation * hover->middle)}, hover->sigma_m,
-                     photo.attitude->sigma_rad, false};
+    return KnownPose{Pose{rotation, -(rotation * hover->middle)},
+                     {hover->sigma_m, hover->sigma_m},
+                     photo.attitude->sigma_rad,
+                     false};
   }
   const auto recorded = RecordedPose(photo);
   if (!recorded) return std::nullopt;
@@ -108,24 +109,29 @@ Eigen::Vector3d PlanFromRecords(const ExpectedViews& views,
 
 }  // namespace
 
-std::vector<std::optional<KnownPose>> KnowPoses(const KnowInput& input, const Scene& scene) {
+KnownPoses KnowPoses(const KnowInput& input, const Scene& scene) {
   assert(input.guidance.views && input.records.size() == scene.photos.size());
   Eigen::Vector3d plan_from_world = PlanFromRecords(*input.guidance.views, input.records);
   std::vector<Eigen::Vector3d> points;
   for (const SceneTrack& track : scene.tracks) {
     if (track.position) points.push_back(*track.position + plan_from_world);
   }
-  plan_from_world.head<2>() += ShiftOntoWalls(points, input.guidance.facades);
+  const auto aligned = AlignToWalls(points, input.guidance.facades);
+  plan_from_world.head<2>() +=
+      aligned ? aligned->shift_m : ShiftOntoWalls(points, input.guidance.facades);
   const std::vector<bool> surely = SurelyPosed(input.repeating, scene);
   const std::vector<std::vector<int>> mates = HoverMates(scene);
-  std::vector<std::optional<KnownPose>> known(scene.photos.size());
+  KnownPoses result;
+  result.on_map = aligned.has_value();
+  std::vector<std::optional<KnownPose>>& known = result.poses;
+  known.resize(scene.photos.size());
   for (size_t i = 0; i < known.size(); ++i) {
     known[i] = KnowPose(scene.photos[i], surely[i], PlaceOfHover(scene, mates[i], surely));
     if (!known[i]) continue;
     Pose& pose = known[i]->cam_from_plan;
     pose = Pose{pose.rotation, -(pose.rotation * (pose.Center() + plan_from_world))};
   }
-  return known;
+  return result;
 }
 
 }  // namespace stucco

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -16,9 +17,14 @@ namespace stucco {
 // Where a photo was taken, as far as a first adjustment knows.
 struct KnownPose {
   Pose cam_from_plan;
-  double sigma_m = 0;        // per axis
+  Eigen::Vector2d sigma_m;   // level, per axis, and up
   double sigma_rad = 0;      // about each axis
-  bool is_recorded = false;  // by its record, for want of a sure pose
+  bool is_recorded = false;  // by its record, for want of anything surer
+};
+
+struct KnownPoses {
+  std::vector<std::optional<KnownPose>> poses;  // by photo
+  bool on_map = false;  // points of the scene show that they lie where the map's walls do
 };
 
 struct KnowInput {
@@ -33,6 +39,6 @@ struct KnowInput {
 // hundred points hold; photos of which most shows walls that repeat themselves may hang together as
 // they like: of theirs only points count that such as show something else see too. Requires a scene
 // in the frame of the records, whose priors were corrected (ApplyRecords).
-std::vector<std::optional<KnownPose>> KnowPoses(const KnowInput& input, const Scene& scene);
+KnownPoses KnowPoses(const KnowInput& input, const Scene& scene);
 
 }  // namespace stucco

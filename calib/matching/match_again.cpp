@@ -12,6 +12,7 @@
 #include "calib/expect/project_inside.h"
 #include "calib/features/descriptors.h"
 #include "calib/features/same_place.h"
+#include "calib/matching/shown_walls.h"
 #include "calib/matching/which_bay.h"
 #include "survey/median.h"
 #include "survey/parallel.h"
@@ -23,76 +24,20 @@ namespace {
 constexpr double kWrongBay = 1e-3;
 // What relief and the map add to shifts on the wall, metres.
 constexpr double kOffWall_m = 0.2;
-constexpr size_t kLeastKeypointsOnWall = 10;
 constexpr size_t kLeastMatches = 8;
 constexpr double kAgreeingShift_m = 0.5;
 // Matches are looked for so near to where it was told that they are.
 constexpr double kTold_m = 0.4;
 
-// What a photo shows of one wall.
-struct Shown {
-  WallKeypoints on_wall;
-  std::vector<int32_t> of_photo;  // their numbers among all of the photo's keypoints
-  double distance_m = 0;          // of the middle one
-};
-
-using ShownWalls = std::map<int, Shown>;
-
-void Append(const std::vector<int16_t>& descriptors, size_t row, const OnWall& place,
-            int32_t of_photo, Shown& shown) {
-  const auto begin = descriptors.begin() + static_cast<std::ptrdiff_t>(row) * kDescriptorSize;
-  shown.on_wall.descriptors.insert(shown.on_wall.descriptors.end(), begin, begin + kDescriptorSize);
-  shown.on_wall.places.push_back(place);
-  shown.of_photo.push_back(of_photo);
-}
-
-WallView ViewOf(const AgainInput& input, int photo, int wall) {
-  return {input.set.guidance.facades[wall], {}, {}, input.poses[photo]->cam_from_plan};
-}
-
-// Of the walls that repeat themselves, by the photo's pose.
-ShownWalls ShownBy(const AgainInput& input, int photo) {
-  ShownWalls walls;
-  const std::vector<int>& wall_of = input.repeating.wall_of[photo];
-  if (!input.poses[photo] || wall_of.empty()) return walls;
-  const Camera& camera = input.set.captures.cameras[input.set.photos[photo]->camera].intrinsics;
-  const DetectInput detect{input.options, input.set, input.context};
-  const Features plain = FeaturesOfPhoto(detect, input.features, photo);
-  const std::vector<int16_t> descriptors = UnitDescriptors(plain);
-  for (size_t k = 0; k < wall_of.size(); ++k) {
-    if (wall_of[k] < 0) continue;
-    const auto place = PlaceOnWall(plain.keypoints[k], camera, ViewOf(input, photo, wall_of[k]));
-    if (place) Append(descriptors, k, *place, static_cast<int32_t>(k), walls[wall_of[k]]);
-  }
-  for (auto run = input.features.walls.lower_bound({photo, 0});
-       run != input.features.walls.end() && run->first.first == photo; ++run) {
-    const int wall = run->first.second;
-    if (!input.repeating.period_m.contains(wall)) continue;
-    const Features features = FeaturesOnWall(detect, input.features, photo, wall);
-    const std::vector<int16_t> rows = UnitDescriptors(features);
-    for (size_t k = 0; k < features.size(); ++k) {
-      const auto place = PlaceOnWall(features.keypoints[k], camera, ViewOf(input, photo, wall));
-      if (place) {
-        Append(rows, k, *place, static_cast<int32_t>(run->second.begin + k), walls[wall]);
-      }
-    }
-  }
-  std::erase_if(
-      walls, [](const auto& each) { return each.second.of_photo.size() < kLeastKeypointsOnWall; });
-  for (auto& [wall, shown] : walls) {
-    const PlannedFacade& facade = input.set.guidance.facades[wall];
-    const Eigen::Vector2d middle = (facade.a_m + facade.b_m) / 2;
-    shown.distance_m = (input.poses[photo]->cam_from_plan.Center().head<2>() - middle).norm();
-  }
-  return walls;
-}
-
 // Standard deviation of where the poses put a match of theirs on the wall, along it or up.
-double ShiftSigma(const AgainInput& input, int first, int second, double distance_m) {
+Eigen::Vector2d ShiftSigma(const AgainInput& input, int first, int second, double distance_m) {
   const KnownPose& a = *input.poses[first];
   const KnownPose& b = *input.poses[second];
-  const double places = std::hypot(a.sigma_m, b.sigma_m, kOffWall_m);
-  return std::hypot(places, distance_m * a.sigma_rad, distance_m * b.sigma_rad);
+  const double angles = distance_m * std::hypot(a.sigma_rad, b.sigma_rad);
+  const auto sigma = [&](int axis) {
+    return std::hypot(std::hypot(a.sigma_m[axis], b.sigma_m[axis]), kOffWall_m, angles);
+  };
+  return {sigma(0), sigma(1)};
 }
 
 // Takes off what does not share the shift of most, and all where the poses do not tell which bay
@@ -127,7 +72,7 @@ struct SharedWall {
   int wall = 0;
   const Shown& first;
   const Shown& second;
-  double sigma_m = 0;  // of the shift between the two
+  Eigen::Vector2d sigma_m;  // of the shift between the two, along and up
 };
 
 // Where what differs between bays tells which of them is which.
@@ -141,7 +86,7 @@ std::vector<Match> MatchTold(const AgainInput& input, int second, const SharedWa
         .has_value();
   };
   const auto told =
-      TellBay({shared.first.on_wall, shared.second.on_wall, shared.sigma_m, second_shows});
+      TellBay({shared.first.on_wall, {&shared.second.on_wall}, shared.sigma_m, second_shows});
   if (!told) return {};
   WallKeypoints moved = shared.first.on_wall;
   for (OnWall& at : moved.places) {
@@ -158,7 +103,7 @@ std::vector<Match> MatchPosed(const AgainInput& input, const SharedWall& shared)
   // No more than one of the bays lies within half a period.
   std::vector<Match> matches = MatchWithin(shared.first.on_wall, shared.second.on_wall,
                                            period_m / 2, input.options.match_ratio);
-  KeepSure(shared.first, shared.second, period_m, shared.sigma_m, matches);
+  KeepSure(shared.first, shared.second, period_m, shared.sigma_m.maxCoeff(), matches);
   return matches;
 }
 
@@ -200,7 +145,7 @@ ReadyPhotos ReadyAll(const AgainInput& input) {
                     std::vector<std::vector<Eigen::Vector2d>>(count),
                     PlacesOfAll(input.options, input.set, input.features)};
   ParallelFor(count, input.context.threads, [&](size_t i) {
-    ready.walls[i] = ShownBy(input, static_cast<int>(i));
+    ready.walls[i] = ShowWalls(input, static_cast<int>(i));
     if (!ready.walls[i].empty()) ready.pixels[i] = PixelsOf(input.features, static_cast<int>(i));
   });
   return ready;

@@ -2,22 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "calib/matching/known_poses.h"
 #include "calib/matching/match_photos.h"
+#include "calib/matching/shown_walls.h"
 
 namespace stucco {
-
-struct AgainInput {
-  const CalibOptions& options;
-  const PhotoSet& set;
-  const DetectedFeatures& features;
-  const OnRepeatingWalls& repeating;
-  const std::vector<std::optional<KnownPose>>& poses;  // by photo
-  const StageContext& context;
-};
 
 // Takes matches out that join what photos show of such walls, and pairs that fewer than
 // `least_matches` are left of: told by records that are off, some were taken for plain ones.

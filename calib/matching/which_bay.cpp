@@ -28,9 +28,12 @@ constexpr int kSmooth_cells = 5;
 // Of places that are one; relief and the keypoints' own errors.
 constexpr double kSamePlace_m = 0.2;
 constexpr double kOtherShift_m = 0.5;
-constexpr int kMostRivals = 8;
+constexpr int kMostShifts = 16;
+constexpr double kScaleWeight = 10;  // square metres of keypoints
 constexpr int kLeastVotes = 40;
 constexpr double kAhead = 4;
+// How often what is as far off as a rival may be the right one.
+constexpr double kRuledOut = 1e-3;
 
 // Keypoints of the second photo that look like one of the first.
 struct Like {
@@ -49,24 +52,23 @@ Vector2d MiddleOf(const WallKeypoints& keypoints) {
   return sum / std::max(1.0, static_cast<double>(keypoints.places.size()));
 }
 
-Likes FindLikes(const BayQuestion& question, double reach_m) {
-  const WallKeypoints& second = question.second;
-  const AlongOrder columns = SortAlong(second);
-  Likes likes(question.first.places.size());
-  std::vector<int32_t> products(second.places.size());
+void AddLikes(const WallKeypoints& first, const WallKeypoints& other, double reach_m,
+              Likes& likes) {
+  const AlongOrder columns = SortAlong(other);
+  std::vector<int32_t> products(other.places.size());
   for (size_t i = 0; i < likes.size(); ++i) {
-    const OnWall& here = question.first.places[i];
+    const OnWall& here = first.places[i];
     const auto column = [&](double at) {
       return std::lower_bound(columns.along_m.begin(), columns.along_m.end(), at) -
              columns.along_m.begin();
     };
     const auto begin = column(here.along_m - reach_m);
     const auto end = column(here.along_m + reach_m);
-    DotProducts(question.first.descriptors.data() + i * kDescriptorSize,
+    DotProducts(first.descriptors.data() + i * kDescriptorSize,
                 columns.descriptors.data() + begin * kDescriptorSize, static_cast<int>(end - begin),
                 products.data());
     for (auto c = begin; c < end; ++c) {
-      const OnWall& there = second.places[columns.index[c]];
+      const OnWall& there = other.places[columns.index[c]];
       const double size = there.scale_m / here.scale_m;
       if (std::abs(there.z_m - here.z_m) > reach_m || size > kLikeBlob || size * kLikeBlob < 1)
         continue;
@@ -74,7 +76,6 @@ Likes FindLikes(const BayQuestion& question, double reach_m) {
       if (angle < kAlike_rad) likes[i].push_back({PlaceOf(there), angle});
     }
   }
-  return likes;
 }
 
 // The most alike of those near a place.
@@ -125,104 +126,141 @@ class ShiftVotes {
   cv::Mat votes_;
 };
 
-ShiftVotes VotesAfter(const BayQuestion& question, const Likes& likes, const WallFromWall& from,
-                      double reach_m) {
-  ShiftVotes votes(reach_m);
-  for (size_t i = 0; i < likes.size(); ++i) {
-    const Vector2d place = from * PlaceOf(question.first.places[i]).homogeneous();
-    for (const Like& like : likes[i]) votes.Add(like.place - place);
-  }
-  votes.Smooth();
-  return votes;
-}
-
-WallFromWall Shifted(WallFromWall from, const Vector2d& shift) {
-  from.col(2) += shift;
-  return from;
-}
-
-// Least squares over what is near its like, held to the start's directions and scale by some
-// keypoints' weight: poses that are off by a hand before a wall draw it larger or smaller by a few
-// hundredths.
-WallFromWall Fit(const BayQuestion& question, const Likes& likes, WallFromWall from) {
+// Least squares over what is near its like: shift and scale, held to the start's by some keypoints'
+// weight. A pose that is off by a hand before a wall draws it larger or smaller by a hundredth or
+// two; angles are known far better than places.
+WallFromWall Fit(const BayQuestion& question, const Likes& likes, const Vector2d& shift) {
   const Vector2d middle = MiddleOf(question.first);
+  double scale = 1;
+  Vector2d moved = middle + shift;
   for (const double near_m : {0.5, 0.5, 0.4, 0.3, 0.2, 0.2}) {
-    Eigen::Matrix3d normals = Eigen::Vector3d(10, 10, 1e-3).asDiagonal();
-    Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
-    right.topRows<2>() = 10 * Eigen::Matrix2d::Identity();
-    right.row(2) = 1e-3 * (from * middle.homogeneous()).transpose();
+    Eigen::Matrix3d normals = Eigen::Vector3d(kScaleWeight, 1e-3, 1e-3).asDiagonal();
+    Eigen::Vector3d right(kScaleWeight, 1e-3 * moved.x(), 1e-3 * moved.y());
     for (size_t i = 0; i < likes.size(); ++i) {
-      const Vector2d at = PlaceOf(question.first.places[i]);
-      const Vector2d place = from * at.homogeneous();
+      const Vector2d at = PlaceOf(question.first.places[i]) - middle;
+      const Vector2d place = scale * at + moved;
       const Like* like = BestNear(likes[i], place, near_m);
       if (like == nullptr) continue;
-      const Eigen::Vector3d row = (at - middle).homogeneous();
       const double weight =
           1 / (1 + (like->place - place).squaredNorm() / (kSamePlace_m * kSamePlace_m / 4));
-      normals += weight * row * row.transpose();
-      right += weight * row * like->place.transpose();
+      for (const int axis : {0, 1}) {
+        Eigen::Vector3d row(at[axis], 0, 0);
+        row[axis + 1] = 1;
+        normals += weight * row * row.transpose();
+        right += weight * like->place[axis] * row;
+      }
     }
-    from = normals.ldlt().solve(right).transpose();
-    from.col(2) -= from.leftCols<2>() * middle;
+    const Eigen::Vector3d solved = normals.ldlt().solve(right);
+    scale = solved[0];
+    moved = solved.tail<2>();
   }
-  return from;
+  WallFromWall fitted;
+  fitted << scale, 0, moved.x() - scale * middle.x(), 0, scale, moved.y() - scale * middle.y();
+  return fitted;
 }
 
-// Whether keypoints side with `from` against `rival`.
-bool IsAhead(const BayQuestion& question, const Likes& likes, const WallFromWall& from,
-             const WallFromWall& rival) {
+// What a shift makes of the first photo's keypoints.
+struct BayShift {
+  WallFromWall from;
+  Vector2d shift = Vector2d::Zero();  // of those that have their like there, the mean
+  std::vector<float> angle_rad;       // by keypoint, to its like; kUnlike_rad where it has none
+  std::vector<bool> shown;            // by keypoint: whether the others show its place
+  int alike = 0;
+};
+
+BayShift Judge(const BayQuestion& question, const Likes& likes, const WallFromWall& from) {
+  BayShift judged{from, Vector2d::Zero(), {}, {}, 0};
+  judged.angle_rad.reserve(likes.size());
+  judged.shown.reserve(likes.size());
+  for (size_t i = 0; i < likes.size(); ++i) {
+    const Vector2d at = PlaceOf(question.first.places[i]);
+    const Vector2d place = from * at.homogeneous();
+    const Like* like = BestNear(likes[i], place, kSamePlace_m);
+    judged.angle_rad.push_back(static_cast<float>(like != nullptr ? like->angle_rad : kUnlike_rad));
+    judged.shown.push_back(question.others_show(place));
+    if (like == nullptr) continue;
+    ++judged.alike;
+    judged.shift += place - at;
+  }
+  judged.shift /= std::max(1, judged.alike);
+  return judged;
+}
+
+// All that many keypoints have their like at, about where the poses put these.
+std::vector<BayShift> FindShifts(const BayQuestion& question, double reach_m) {
+  Likes likes(question.first.places.size());
+  for (const WallKeypoints* other : question.others) {
+    AddLikes(question.first, *other, reach_m + kOtherShift_m, likes);
+  }
+  ShiftVotes votes(reach_m);
+  for (size_t i = 0; i < likes.size(); ++i) {
+    for (const Like& like : likes[i]) votes.Add(like.place - PlaceOf(question.first.places[i]));
+  }
+  votes.Smooth();
+  std::vector<BayShift> shifts;
+  for (int i = 0; i < kMostShifts; ++i) {
+    const auto most = votes.Most();
+    if (!most) break;
+    votes.Forget(*most);
+    BayShift found = Judge(question, likes, Fit(question, likes, *most));
+    // From near by the fit may come to the same shift.
+    const bool same = std::ranges::any_of(shifts, [&](const BayShift& each) {
+      return (each.shift - found.shift).norm() < kOtherShift_m;
+    });
+    if (!same && found.alike >= kLeastVotes / 2 && found.shift.norm() < reach_m)
+      shifts.push_back(std::move(found));
+  }
+  return shifts;
+}
+
+// Keypoints that side with one of two shifts.
+struct Sides {
   int ahead = 0;
   int behind = 0;
-  for (size_t i = 0; i < likes.size(); ++i) {
-    const Eigen::Vector3d at = PlaceOf(question.first.places[i]).homogeneous();
-    const Vector2d place = from * at;
-    const Vector2d other = rival * at;
-    if (!question.second_shows(place) || !question.second_shows(other)) continue;
-    const Like* here = BestNear(likes[i], place, kSamePlace_m);
-    const Like* there = BestNear(likes[i], other, kSamePlace_m);
-    const double nearer = (there != nullptr ? there->angle_rad : kUnlike_rad) -
-                          (here != nullptr ? here->angle_rad : kUnlike_rad);
-    ahead += nearer > kUndecided_rad;
-    behind += nearer < -kUndecided_rad;
+};
+
+Sides Compare(const BayShift& one, const BayShift& other) {
+  Sides sides;
+  for (size_t i = 0; i < one.angle_rad.size(); ++i) {
+    if (!one.shown[i] || !other.shown[i]) continue;
+    const double nearer = other.angle_rad[i] - one.angle_rad[i];
+    sides.ahead += nearer > kUndecided_rad;
+    sides.behind += nearer < -kUndecided_rad;
   }
-  return ahead >= kLeastVotes && ahead >= kAhead * behind;
+  return sides;
 }
 
-int NumAlike(const BayQuestion& question, const Likes& likes, const WallFromWall& from) {
-  int count = 0;
-  for (size_t i = 0; i < likes.size(); ++i) {
-    const Vector2d place = from * PlaceOf(question.first.places[i]).homogeneous();
-    count += BestNear(likes[i], place, kSamePlace_m) != nullptr;
-  }
-  return count;
+// In standard deviations.
+double OffBy(const BayQuestion& question, const Vector2d& shift) {
+  return shift.cwiseQuotient(question.sigma_m).norm();
+}
+
+// By the poses alone.
+bool IsRuledOut(const BayQuestion& question, const BayShift& best, const BayShift& rival) {
+  const double log_odds =
+      (std::pow(OffBy(question, rival.shift), 2) - std::pow(OffBy(question, best.shift), 2)) / 2;
+  return log_odds > -std::log(kRuledOut);
 }
 
 }  // namespace
 
 std::optional<WallFromWall> TellBay(const BayQuestion& question) {
-  const double reach_m = kReachSigmas * question.sigma_m;
-  const Likes likes = FindLikes(question, reach_m + 2 * kOtherShift_m);
-  const WallFromWall as_posed = WallFromWall::Identity();
-  const auto most = VotesAfter(question, likes, as_posed, reach_m + kOtherShift_m).Most();
-  if (!most) return std::nullopt;
-  const WallFromWall told = Fit(question, likes, Shifted(as_posed, *most));
-  const Vector2d middle = MiddleOf(question.first);
-  if ((told * middle.homogeneous() - middle).norm() > reach_m) return std::nullopt;
-  if (NumAlike(question, likes, told) < kLeastVotes) return std::nullopt;
-  // Shifts from one end of what the poses allow to the other.
-  ShiftVotes votes = VotesAfter(question, likes, told, 2 * (reach_m + kOtherShift_m));
-  votes.Forget({0, 0});
-  for (int i = 0; i < kMostRivals; ++i) {
-    const auto shift = votes.Most();
-    if (!shift) break;
-    const WallFromWall rival = Fit(question, likes, Shifted(told, *shift));
-    // From near by the fit may come back to the same shift.
-    const bool same =
-        (rival * middle.homogeneous() - told * middle.homogeneous()).norm() < kOtherShift_m;
-    if (!same && !IsAhead(question, likes, told, rival)) return std::nullopt;
-    votes.Forget(*shift);
+  std::vector<BayShift> shifts = FindShifts(question, kReachSigmas * question.sigma_m.maxCoeff());
+  std::erase_if(shifts,
+                [&](const BayShift& each) { return OffBy(question, each.shift) > kReachSigmas; });
+  if (shifts.empty()) return std::nullopt;
+  const BayShift* best = shifts.data();
+  for (const BayShift& each : shifts) {
+    const Sides sides = Compare(each, *best);
+    if (sides.ahead > sides.behind) best = &each;
   }
-  return told;
+  if (best->alike < kLeastVotes) return std::nullopt;
+  const bool told = std::ranges::all_of(shifts, [&](const BayShift& rival) {
+    if (&rival == best || IsRuledOut(question, *best, rival)) return true;
+    const Sides sides = Compare(*best, rival);
+    return sides.ahead >= kLeastVotes && sides.ahead >= kAhead * sides.behind;
+  });
+  return told ? std::optional(best->from) : std::nullopt;
 }
 
 }  // namespace stucco

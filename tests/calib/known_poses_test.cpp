@@ -38,14 +38,13 @@ class KnowPosesTest : public testing::Test {
   }
 
   std::vector<std::optional<KnownPose>> Know() const {
-    return KnowPoses({guidance_, repeating_, records_}, scene_);
+    return KnowPoses({guidance_, repeating_, records_}, scene_).poses;
   }
 
   inline static const Vector3d kEast{100, 0, 0};
   Scene scene_;
   std::vector<PoseRecord> records_;
 
- private:
   Guidance guidance_;
   OnRepeatingWalls repeating_;
 };
@@ -58,17 +57,17 @@ TEST_F(KnowPosesTest, TakesTheRecordWhereNoPoseIsSure) {
   ASSERT_EQ(known.size(), 6U);
   EXPECT_FALSE(known[3]);
   ASSERT_TRUE(known[1] && known[2]);
-  EXPECT_LT(known[1]->sigma_m, 0.1);
+  EXPECT_LT(known[1]->sigma_m.maxCoeff(), 0.1);
   EXPECT_LT((known[1]->cam_from_plan.Center() - scene_.photos[1].pose->Center() - kEast).norm(),
             1e-6);
-  EXPECT_GE(known[2]->sigma_m, scene_.photos[2].prior->sigma_horizontal_m);
+  EXPECT_GE(known[2]->sigma_m[0], scene_.photos[2].prior->sigma_horizontal_m);
   EXPECT_LT((known[2]->cam_from_plan.Center() - scene_.photos[2].prior->position - kEast).norm(),
             1e-6);
 }
 
 TEST_F(KnowPosesTest, TakesThePoseOfWhatHangsOnOthers) {
   LetRepeat({4, 5});
-  EXPECT_LT(Know()[4]->sigma_m, 0.1);
+  EXPECT_LT(Know()[4]->sigma_m.maxCoeff(), 0.1);
   EXPECT_FALSE(Know()[4]->is_recorded);
 }
 
@@ -80,7 +79,7 @@ TEST_F(KnowPosesTest, TakesThePlaceOfOthersOfTheHover) {
   const auto known = Know()[2];
   ASSERT_TRUE(known);
   EXPECT_FALSE(known->is_recorded);
-  EXPECT_LT(known->sigma_m, 0.2);
+  EXPECT_LT(known->sigma_m.maxCoeff(), 0.2);
   const Vector3d middle =
       (scene_.photos[1].pose->Center() + scene_.photos[3].pose->Center()) / 2 + kEast;
   EXPECT_LT((known->cam_from_plan.Center() - middle).norm(), 1e-6);
@@ -92,11 +91,16 @@ TEST_F(KnowPosesTest, TakesThePlaceOfOthersOfTheHover) {
   EXPECT_TRUE(Know()[2]->is_recorded);
 }
 
+TEST_F(KnowPosesTest, LieOnTheMapOnlyWherePointsShowWalls) {
+  guidance_.facades = TwoHouses().facades;
+  EXPECT_FALSE(KnowPoses({guidance_, repeating_, records_}, scene_).on_map);
+}
+
 TEST_F(KnowPosesTest, TakesTheRecordsOfPhotosThatHangOnEachOther) {
   LetRepeat({0, 1, 2, 3, 4, 5});
   for (const auto& known : Know()) {
     ASSERT_TRUE(known);
-    EXPECT_GE(known->sigma_m, scene_.photos[0].prior->sigma_horizontal_m);
+    EXPECT_GE(known->sigma_m[0], scene_.photos[0].prior->sigma_horizontal_m);
     EXPECT_TRUE(known->is_recorded);
   }
 }

@@ -4,6 +4,8 @@
 
 #include "tests/calib/expect/made_site.h"
 #include "tests/calib/made_scene.h"
+#include "tests/site/made_plan.h"
+#include "tests/survey/stage_support.h"
 
 namespace stucco::test {
 
@@ -26,6 +28,36 @@ Features SeeBays(const Pose& cam_from_plan, bool alike) {
     }
   }
   return features;
+}
+
+Pose Moved(const Pose& pose, const Eigen::Vector3d& off) {
+  return {pose.rotation, -(pose.rotation * (pose.Center() + off))};
+}
+
+BaysTest::BaysTest() {
+  captures_.cameras.push_back({"key", "Made", SiteCamera(), "option"});
+  guidance_.facades = TwoHouses().facades;
+  context_.progress = &SilentProgress();
+  context_.units = &NoUnits();
+  context_.threads = 2;
+  options_.max_image_px = 1000;
+  repeating_.period_m[0] = 3;
+}
+
+void BaysTest::Take(const Pose& cam_from_plan, bool alike) {
+  CapturedPhoto photo;
+  photo.width_px = SiteCamera().width_px;
+  photo.height_px = SiteCamera().height_px;
+  photo.camera = 0;
+  captures_.photos.push_back(photo);
+  features_.plain.push_back(SeeBays(cam_from_plan, alike));
+  repeating_.wall_of.emplace_back(features_.plain.back().size(), 0);
+}
+
+PhotoSet BaysTest::Photos() {
+  photos_.clear();
+  for (const CapturedPhoto& photo : captures_.photos) photos_.push_back(&photo);
+  return {captures_, photos_, guidance_};
 }
 
 }  // namespace stucco::test

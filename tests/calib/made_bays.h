@@ -2,7 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <vector>
+
 #include "calib/features/features.h"
+#include "calib/matching/shown_walls.h"
 #include "survey/pose.h"
 
 namespace stucco::test {
@@ -11,5 +17,27 @@ namespace stucco::test {
 // SiteCamera finds of it: 30 keypoints of each bay, `alike` to the entry in all of them or
 // different in each.
 Features SeeBays(const Pose& cam_from_plan, bool alike);
+
+// The pose `off` from there, with the same angles.
+Pose Moved(const Pose& pose, const Eigen::Vector3d& off);
+
+// Photos of that wall, which is known to repeat itself.
+class BaysTest : public testing::Test {
+ protected:
+  BaysTest();
+  void Take(const Pose& cam_from_plan, bool alike);
+  // Valid until the next is taken.
+  PhotoSet Photos();
+
+  CalibOptions options_;
+  Captures captures_;
+  Guidance guidance_;
+  DetectedFeatures features_;
+  OnRepeatingWalls repeating_;
+  StageContext context_;
+
+ private:
+  std::vector<const CapturedPhoto*> photos_;
+};
 
 }  // namespace stucco::test

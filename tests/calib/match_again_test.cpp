@@ -10,8 +10,6 @@
 
 #include "tests/calib/expect/made_site.h"
 #include "tests/calib/made_bays.h"
-#include "tests/site/made_plan.h"
-#include "tests/survey/stage_support.h"
 
 namespace stucco::test {
 namespace {
@@ -19,36 +17,19 @@ namespace {
 using Eigen::Vector3d;
 
 // Two photos of a wall whose bays all look the same, unless the test says otherwise.
-class MatchAgainTest : public testing::Test {
+class MatchAgainTest : public BaysTest {
  protected:
   MatchAgainTest() {
-    captures_.cameras.push_back({"key", "Made", SiteCamera(), "option"});
-    guidance_.facades = TwoHouses().facades;
-    context_.progress = &SilentProgress();
-    context_.units = &NoUnits();
-    context_.threads = 2;
-    options_.max_image_px = 1000;
-    repeating_.period_m[0] = 3;
-    for (const Pose& pose : truth_) {
-      CapturedPhoto photo;
-      photo.width_px = SiteCamera().width_px;
-      photo.height_px = SiteCamera().height_px;
-      photo.camera = 0;
-      captures_.photos.push_back(photo);
-      features_.plain.push_back(SeeBays(pose, true));
-      repeating_.wall_of.emplace_back(features_.plain.back().size(), 0);
-    }
-    for (const CapturedPhoto& photo : captures_.photos) photos_.push_back(&photo);
+    for (const Pose& pose : truth_) Take(pose, true);
     matched_.tried = {{0, 1, 0, 0}};
   }
 
   // With the second photo known to stand `off` from where it does.
   int Again(const Vector3d& off, double sigma_m) {
-    const Eigen::Quaterniond& rotation = truth_[1].rotation;
-    const Pose moved{rotation, -(rotation * (truth_[1].Center() + off))};
-    const PhotoSet set{captures_, photos_, guidance_};
-    const std::vector<std::optional<KnownPose>> poses = {KnownPose{truth_[0], 0.05, 1e-3},
-                                                         KnownPose{moved, sigma_m, 1e-3}};
+    const std::vector<std::optional<KnownPose>> poses = {
+        KnownPose{truth_[0], {0.05, 0.05}, 1e-3},
+        KnownPose{Moved(truth_[1], off), {sigma_m, sigma_m}, 1e-3}};
+    const PhotoSet set = Photos();
     return MatchAgain({options_, set, features_, repeating_, poses, context_}, matched_);
   }
 
@@ -70,16 +51,7 @@ class MatchAgainTest : public testing::Test {
   }
 
   std::vector<Pose> truth_ = {SitePose({8, -18, 6}, 0, 0), SitePose({13, -15, 8}, -10, -5)};
-  CalibOptions options_;
-  Captures captures_;
-  Guidance guidance_;
-  DetectedFeatures features_;
-  OnRepeatingWalls repeating_;
   MatchedPairs matched_;
-  StageContext context_;
-
- private:
-  std::vector<const CapturedPhoto*> photos_;
 };
 
 TEST_F(MatchAgainTest, JoinsTheRightBayWherePosesTellIt) {

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "calib/features/descriptors.h"
 #include "tests/calib/made_scene.h"
@@ -55,17 +57,18 @@ WallFromWall Posed(const Vector2d& shift, double scale) {
 
 // Both photos show six of the eight bays.
 std::optional<WallFromWall> Tell(const Facade& facade, const WallFromWall& second_posed,
-                                 double sigma_m) {
+                                 const Vector2d& sigma_m) {
   const WallKeypoints first = facade.See(0, 6, Posed({0, 0}, 1), 1);
   const WallKeypoints second = facade.See(2, 8, second_posed, 2);
   const double left = 2 * kBay_m + second_posed(0, 2);
-  return TellBay({first, second, sigma_m, [&](const Vector2d& place) { return place.x() > left; }});
+  return TellBay(
+      {first, {&second}, sigma_m, [&](const Vector2d& place) { return place.x() > left; }});
 }
 
 TEST(TellBay, FindsTheBayThatDiffersFromTheOthersInHalfOfItsKeypoints) {
   // Nearer to the next bay than to the right one, and two hundredths too large.
   const WallFromWall posed = Posed({-1.7, 0.6}, 1.02);
-  const auto told = Tell({20}, posed, 1);
+  const auto told = Tell({20}, posed, {1, 1});
   ASSERT_TRUE(told);
   for (const Vector2d& at : {Vector2d(6, 1), Vector2d(10, 3), Vector2d(14, 5)}) {
     EXPECT_LT((*told * at.homogeneous() - posed * at.homogeneous()).norm(), 0.05);
@@ -73,22 +76,52 @@ TEST(TellBay, FindsTheBayThatDiffersFromTheOthersInHalfOfItsKeypoints) {
 }
 
 TEST(TellBay, IsOfTwoMindsWhereBaysAreTheSame) {
-  EXPECT_FALSE(Tell({kOfBay}, Posed({-1.7, 0.6}, 1.02), 1));
-  EXPECT_FALSE(Tell({kOfBay}, Posed({0, 0}, 1), 1));
-  EXPECT_FALSE(Tell({kOfBay - 1}, Posed({0, 0}, 1), 1));  // too few to tell
+  EXPECT_FALSE(Tell({kOfBay}, Posed({-1.7, 0.6}, 1.02), {1, 1}));
+  EXPECT_FALSE(Tell({kOfBay}, Posed({0, 0}, 1), {1, 1}));
+  EXPECT_FALSE(Tell({kOfBay - 1}, Posed({0, 0}, 1), {1, 1}));  // too few to tell
 }
 
 TEST(TellBay, BelievesNoShiftThatPosesRuleOut) {
-  EXPECT_FALSE(Tell({20}, Posed({-1.7, 0.6}, 1.02), 0.3));
+  EXPECT_FALSE(Tell({20}, Posed({-1.7, 0.6}, 1.02), {0.3, 0.3}));
+}
+
+TEST(TellBay, TakesTogetherWhatOthersShow) {
+  const Facade facade{30};  // of a bay's keypoints ten differ from the next one's
+  const WallKeypoints first = facade.See(2, 6, Posed({-1.7, 0.6}, 1.02), 1);
+  const WallKeypoints west = facade.See(0, 4, Posed({0, 0}, 1), 2);
+  const WallKeypoints east = facade.See(4, 8, Posed({0, 0}, 1), 3);
+  const auto tell = [&](std::vector<const WallKeypoints*> others, double from, double to) {
+    return TellBay({first, std::move(others), {1, 1}, [&](const Vector2d& place) {
+                      return place.x() > from && place.x() < to;
+                    }});
+  };
+  EXPECT_FALSE(tell({&west}, 0, 4 * kBay_m));
+  EXPECT_FALSE(tell({&east}, 4 * kBay_m, 8 * kBay_m));
+  const auto told = tell({&west, &east}, 0, 8 * kBay_m);
+  ASSERT_TRUE(told);
+  const Vector2d back =
+      *told * (Posed({-1.7, 0.6}, 1.02) * Vector2d(10, 3).homogeneous()).homogeneous();
+  EXPECT_LT((back - Vector2d(10, 3)).norm(), 0.05);
+}
+
+TEST(TellBay, NeedNotOutvoteWhatPosesRuleOut) {
+  // The next bay looks the same, and lies six standard deviations off.
+  EXPECT_TRUE(Tell({kOfBay}, Posed({-0.1, 0.1}, 1), {0.45, 0.45}));
+}
+
+TEST(TellBay, KnowsAlongTheWallApartFromUp) {
+  const WallFromWall posed = Posed({-0.1, 0.1}, 1);
+  EXPECT_TRUE(Tell({kOfBay}, posed, {0.45, 2}));
+  EXPECT_FALSE(Tell({kOfBay}, posed, {2, 0.45}));
 }
 
 TEST(TellBay, SaysNothingOfNothing) {
   const WallKeypoints none;
   const auto everywhere = [](const Vector2d&) { return true; };
-  EXPECT_FALSE(TellBay({none, none, 1, everywhere}));
+  EXPECT_FALSE(TellBay({none, {&none}, {1, 1}, everywhere}));
   const WallKeypoints some = Facade{}.See(0, 2, Posed({0, 0}, 1), 1);
-  EXPECT_FALSE(TellBay({some, none, 1, everywhere}));
-  EXPECT_FALSE(TellBay({none, some, 1, everywhere}));
+  EXPECT_FALSE(TellBay({some, {&none}, {1, 1}, everywhere}));
+  EXPECT_FALSE(TellBay({none, {&some}, {1, 1}, everywhere}));
 }
 
 }  // namespace

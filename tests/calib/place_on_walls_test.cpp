@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calib/matching/place_on_walls.h"
+
+#include "tests/calib/expect/made_site.h"
+#include "tests/calib/made_bays.h"
+
+namespace stucco::test {
+namespace {
+
+using Eigen::Vector3d;
+using Poses = std::vector<std::optional<KnownPose>>;
+
+// One sure photo of the wall's west end; the next one, and that after it, are known by records
+// that are nearer to the next bay.
+class PlaceOnWallsTest : public BaysTest {
+ protected:
+  Poses Place(bool alike) {
+    for (const Pose& pose : truth_) Take(pose, alike);
+    const Poses known = {KnownPose{truth_[0], {0.05, 0.05}, 1e-3},
+                         KnownPose{Moved(truth_[1], kOff), {0.7, 0.7}, 1e-3, true},
+                         KnownPose{Moved(truth_[2], -kOff), {0.7, 0.7}, 1e-3, true}};
+    const PhotoSet set = Photos();
+    return PlaceOnWalls({options_, set, features_, repeating_, known, context_});
+  }
+
+  inline static const Vector3d kOff{1.8, 0.4, -0.3};
+  // Of bays 0 to 2, 1 to 4 and 3 to 5.
+  const std::vector<Pose> truth_ = {SitePose({5.5, -9, 6}, 0, 0), SitePose({9.5, -9, 6}, 0, 0),
+                                    SitePose({14, -9, 6}, 0, 0)};
+};
+
+TEST_F(PlaceOnWallsTest, GoesAlongTheWallFromWhatIsSure) {
+  const Poses placed = Place(false);
+  for (const size_t i : {1, 2}) {
+    ASSERT_TRUE(placed[i]);
+    EXPECT_FALSE(placed[i]->is_recorded) << i;
+    EXPECT_LT(placed[i]->sigma_m.maxCoeff(), 0.3);
+    EXPECT_LT((placed[i]->cam_from_plan.Center() - truth_[i].Center()).norm(), 0.05) << i;
+  }
+  EXPECT_EQ(placed[0]->sigma_m[0], 0.05);
+}
+
+TEST_F(PlaceOnWallsTest, LeavesAsRecordedWhereBaysAreTheSame) {
+  const Poses placed = Place(true);
+  for (const size_t i : {1, 2}) {
+    EXPECT_TRUE(placed[i]->is_recorded);
+    EXPECT_EQ(placed[i]->sigma_m[0], 0.7);
+  }
+}
+
+}  // namespace
+}  // namespace stucco::test
