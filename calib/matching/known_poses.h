@@ -17,9 +17,9 @@ namespace stucco {
 // Where a photo was taken, as far as a first adjustment knows.
 struct KnownPose {
   Pose cam_from_plan;
-  Eigen::Vector2d sigma_m;   // level, per axis, and up
-  double sigma_rad = 0;      // about each axis
-  bool is_recorded = false;  // by its record, for want of anything surer
+  Eigen::Vector2d sigma_m = Eigen::Vector2d::Zero();  // level, per axis, and up
+  double sigma_rad = 0;                               // about each axis
+  bool is_recorded = false;                           // by its record, for want of anything surer
 };
 
 struct KnownPoses {

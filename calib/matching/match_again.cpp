@@ -9,10 +9,8 @@
 #include <map>
 #include <utility>
 
-#include "calib/expect/project_inside.h"
 #include "calib/features/descriptors.h"
 #include "calib/features/same_place.h"
-#include "calib/matching/shown_walls.h"
 #include "calib/matching/which_bay.h"
 #include "survey/median.h"
 #include "survey/parallel.h"
@@ -22,8 +20,6 @@ namespace {
 
 // How often another bay may be the right one.
 constexpr double kWrongBay = 1e-3;
-// What relief and the map add to shifts on the wall, metres.
-constexpr double kOffWall_m = 0.2;
 constexpr size_t kLeastMatches = 8;
 constexpr double kAgreeingShift_m = 0.5;
 // Matches are looked for so near to where it was told that they are.
@@ -31,13 +27,9 @@ constexpr double kTold_m = 0.4;
 
 // Standard deviation of where the poses put a match of theirs on the wall, along it or up.
 Eigen::Vector2d ShiftSigma(const AgainInput& input, int first, int second, double distance_m) {
-  const KnownPose& a = *input.poses[first];
-  const KnownPose& b = *input.poses[second];
-  const double angles = distance_m * std::hypot(a.sigma_rad, b.sigma_rad);
-  const auto sigma = [&](int axis) {
-    return std::hypot(std::hypot(a.sigma_m[axis], b.sigma_m[axis]), kOffWall_m, angles);
-  };
-  return {sigma(0), sigma(1)};
+  const Eigen::Vector2d variances = PlaceVariances(*input.poses[first], distance_m) +
+                                    PlaceVariances(*input.poses[second], distance_m);
+  return (variances.array() + kOffWall_m * kOffWall_m).sqrt();
 }
 
 // Takes off what does not share the shift of most, and all where the poses do not tell which bay
@@ -72,18 +64,13 @@ struct SharedWall {
   int wall = 0;
   const Shown& first;
   const Shown& second;
-  Eigen::Vector2d sigma_m;  // of the shift between the two, along and up
+  Eigen::Vector2d sigma_m = Eigen::Vector2d::Zero();  // of the shift between the two, along and up
 };
 
 // Where what differs between bays tells which of them is which.
 std::vector<Match> MatchTold(const AgainInput& input, int second, const SharedWall& shared) {
-  const PlannedFacade& facade = input.set.guidance.facades[shared.wall];
-  const Camera& camera = input.set.captures.cameras[input.set.photos[second]->camera].intrinsics;
-  const Pose& pose = input.poses[second]->cam_from_plan;
   const auto second_shows = [&](const Eigen::Vector2d& place) {
-    const Eigen::Vector2d level = facade.a_m + place.x() * facade.along();
-    return ProjectInside(camera, pose * Eigen::Vector3d(level.x(), level.y(), place.y()))
-        .has_value();
+    return ShowsPlace(input, second, shared.wall, place);
   };
   const auto told =
       TellBay({shared.first.on_wall, {&shared.second.on_wall}, shared.sigma_m, second_shows});

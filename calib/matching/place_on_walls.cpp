@@ -4,11 +4,9 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "calib/expect/project_inside.h"
 #include "calib/matching/which_bay.h"
 #include "survey/parallel.h"
 
@@ -17,8 +15,6 @@ namespace {
 
 // Of a photo that was placed on a wall, per axis.
 constexpr double kPlacedSigma_m = 0.15;
-// What relief and the map add to places on the wall, metres.
-constexpr double kReliefSigma_m = 0.2;
 // A wall in as many steps at the most: each goes on by half a photo or so.
 constexpr int kMostSteps = 20;
 
@@ -91,24 +87,18 @@ class Placing {
   }
 
   std::optional<WallFromWall> TellOn(int photo, int wall, const Shown& shown) const {
-    const Eigen::Vector2d sigma_m = SigmaOn(photo, shown);
+    const Eigen::Vector2d sigma_m =
+        (PlaceVariances(*poses_[photo], shown.distance_m).array() + kOffWall_m * kOffWall_m).sqrt();
     const std::vector<int> others = OthersOn(wall, shown, sigma_m[0]);
     if (others.empty()) return std::nullopt;
     BayQuestion question{shown.on_wall, {}, sigma_m, [&](const Eigen::Vector2d& place) {
-                           return std::ranges::any_of(
-                               others, [&](int other) { return Shows(other, wall, place); });
+                           return std::ranges::any_of(others, [&](int other) {
+                             return ShowsPlace(input_, other, wall, place);
+                           });
                          }};
     question.others.reserve(others.size());
     for (const int other : others) question.others.push_back(&shown_[other].at(wall).on_wall);
     return TellBay(question);
-  }
-
-  // Of where the photo's pose puts what it shows, along the wall and up.
-  Eigen::Vector2d SigmaOn(int photo, const Shown& shown) const {
-    const KnownPose& known = *poses_[photo];
-    const double angles = shown.distance_m * known.sigma_rad;
-    return {std::hypot(known.sigma_m[0], kReliefSigma_m, angles),
-            std::hypot(known.sigma_m[1], kReliefSigma_m, angles)};
   }
 
   // Photos whose poses are sure, of the same stretch.
@@ -124,14 +114,6 @@ class Placing {
       }
     }
     return others;
-  }
-
-  bool Shows(int photo, int wall, const Eigen::Vector2d& place) const {
-    const PlannedFacade& facade = set_.guidance.facades[wall];
-    const Camera& camera = set_.captures.cameras[set_.photos[photo]->camera].intrinsics;
-    const Eigen::Vector2d level = facade.a_m + place.x() * facade.along();
-    const Eigen::Vector3d point(level.x(), level.y(), place.y());
-    return ProjectInside(camera, poses_[photo]->cam_from_plan * point).has_value();
   }
 
   // The pose, with the same angles, that puts what the photo shows where it was told to be: places

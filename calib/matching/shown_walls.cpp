@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "calib/expect/project_inside.h"
 #include "calib/features/descriptors.h"
 
 namespace stucco {
@@ -59,6 +60,19 @@ ShownWalls ShowWalls(const AgainInput& input, int photo) {
     shown.distance_m = (input.poses[photo]->cam_from_plan.Center().head<2>() - middle).norm();
   }
   return walls;
+}
+
+bool ShowsPlace(const AgainInput& input, int photo, int wall, const Eigen::Vector2d& place) {
+  const PlannedFacade& facade = input.set.guidance.facades[wall];
+  const Camera& camera = input.set.captures.cameras[input.set.photos[photo]->camera].intrinsics;
+  const Eigen::Vector2d level = facade.a_m + place.x() * facade.along();
+  const Eigen::Vector3d point(level.x(), level.y(), place.y());
+  return ProjectInside(camera, input.poses[photo]->cam_from_plan * point).has_value();
+}
+
+Eigen::Vector2d PlaceVariances(const KnownPose& pose, double distance_m) {
+  const double angles = distance_m * pose.sigma_rad;
+  return pose.sigma_m.cwiseAbs2().array() + angles * angles;
 }
 
 }  // namespace stucco

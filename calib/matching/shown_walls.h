@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -34,5 +35,15 @@ using ShownWalls = std::map<int, Shown>;
 // Of the walls that repeat themselves: the photo's own keypoints and those found in its rectified
 // pictures of walls. Nothing of walls with hardly a keypoint. Safe to ask from several threads.
 ShownWalls ShowWalls(const AgainInput& input, int photo);
+
+// Whether the photo's pose lets it show a place of the wall, along it and up.
+bool ShowsPlace(const AgainInput& input, int photo, int wall, const Eigen::Vector2d& place);
+
+// What relief and the map add to places on a wall, one standard deviation, metres.
+inline constexpr double kOffWall_m = 0.2;
+
+// Variances, along the wall and up, of where a pose puts what it shows at that distance, without
+// kOffWall_m.
+Eigen::Vector2d PlaceVariances(const KnownPose& pose, double distance_m);
 
 }  // namespace stucco

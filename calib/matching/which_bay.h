@@ -15,7 +15,8 @@ namespace stucco {
 struct BayQuestion {
   const WallKeypoints& first;
   std::vector<const WallKeypoints*> others;
-  Eigen::Vector2d sigma_m;  // of the shift between the first and the others, along the wall and up
+  // Of the shift between the first and the others, along the wall and up.
+  Eigen::Vector2d sigma_m = Eigen::Vector2d::Zero();
   std::function<bool(const Eigen::Vector2d&)> others_show;  // a place along the wall and up
 };
 
