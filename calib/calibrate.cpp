@@ -318,7 +318,7 @@ std::optional<MapAlignment> FindOnMap(const Guidance& guidance, const std::optio
   for (const SceneTrack& track : scene.tracks) {
     if (track.position) points.push_back(*track.position);
   }
-  return AlignToWalls(points, WallsInScene(*plan, georef, guidance.views->poses, scene));
+  return AlignToWalls(points, MapInScene(*plan, georef, guidance.views->poses, scene));
 }
 
 CalibratedMap Summary(const MapAlignment& alignment, bool moved) {
@@ -384,7 +384,6 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   mapper.refine_principal_point = options.refine_principal_point;
   mapper.threads = context.threads;
   mapper.adjust_threads = options.fast_adjustment ? context.threads : 1;
-  mapper.drop_hidden = repeating.period_m.empty();
   Scene scene;
   Reconstructed placed = PlacePhotos({options, mapper, photos, guidance, features, context},
                                      repeating, matched, scene);

@@ -166,13 +166,16 @@ void PlaceOnce(MapperOptions mapper, const std::vector<VerifiedPair>& pairs,
 }
 
 // Chooses what the pairs say, and gives photos poses by it. Requires a scene without tracks.
-Reconstructed PlaceMatched(const PlaceInput& input, std::vector<VerifiedPair>& pairs,
-                           Scene& scene) {
+Reconstructed PlaceMatched(const PlaceInput& input, const std::vector<bool>& may_be_bays_off,
+                           std::vector<VerifiedPair>& pairs, Scene& scene) {
   QuestionPairs(input.guidance, scene, input.context, pairs);
   AddTracks(pairs, scene);
   for (VerifiedPair& pair : pairs) ClassifyMotion(scene, input.mapper.max_error_sigmas, pair);
   Reconstructed placed =
       ReadRecordsOf(input.options, input.photos, input.guidance, input.context, scene);
+  for (size_t i = 0; i < placed.records.size(); ++i) {
+    placed.records[i].may_be_bays_off = may_be_bays_off[i];
+  }
   PlaceOnce(input.mapper, pairs, input.context, placed, scene);
   return placed;
 }
@@ -196,12 +199,21 @@ std::vector<std::optional<Pose>> SurePoses(const std::vector<std::optional<Known
   return poses;
 }
 
+// Whatever pose was looked from: a wrong one may not show the walls that made it wrong.
+void DoubtBays(const OnRepeatingWalls& repeating, std::vector<bool>& may_be_bays_off) {
+  for (size_t i = 0; i < may_be_bays_off.size(); ++i) {
+    if (repeating.IsMostOf(static_cast<int>(i))) may_be_bays_off[i] = true;
+  }
+}
+
 // Those that hang on what repeats itself are placed once others tell where they are.
 Reconstructed PlaceInRounds(const PlaceInput& input, OnRepeatingWalls& repeating,
                             MatchedPairs& matched, Scene& scene) {
   const Scene start = scene;
   const MatchedPairs first = matched;
-  Reconstructed placed = PlaceMatched(input, matched.verified, scene);
+  std::vector<bool> may_be_bays_off(scene.photos.size(), false);
+  DoubtBays(repeating, may_be_bays_off);
+  Reconstructed placed = PlaceMatched(input, may_be_bays_off, matched.verified, scene);
   if (!placed.is_in_frame) return placed;
   NoteRepeating(input.guidance, repeating, input.context);
   const PhotoSet set{input.photos.captures, input.photos.usable, input.guidance};
@@ -226,7 +238,8 @@ Reconstructed PlaceInRounds(const PlaceInput& input, OnRepeatingWalls& repeating
     }
     matched = std::move(again);
     scene = start;
-    placed = PlaceMatched(input, matched.verified, scene);
+    DoubtBays(repeating, may_be_bays_off);
+    placed = PlaceMatched(input, may_be_bays_off, matched.verified, scene);
     // Walls that are matched tell the map's place.
     go_on = NumRegistered(scene) > before || !known.on_map;
   }
@@ -240,7 +253,8 @@ Reconstructed PlacePhotos(const PlaceInput& input, OnRepeatingWalls& repeating,
   scene = MakeScene(input.options, input.photos, input.features);
   GuessFocalLengths(input.photos, matched.verified, input.context, scene);
   if (!repeating.period_m.empty()) return PlaceInRounds(input, repeating, matched, scene);
-  return PlaceMatched(input, matched.verified, scene);
+  const std::vector<bool> none(scene.photos.size(), false);
+  return PlaceMatched(input, none, matched.verified, scene);
 }
 
 }  // namespace stucco

@@ -346,7 +346,7 @@ void Settle(const MapperOptions& options, bool use_priors, const StageContext& c
     context.ThrowIfCancelled();
     CompleteTracks(options.max_error_sigmas, options.threads, scene);
     TriangulateMissing(ForTriangulation(options), options.threads, scene);
-    if (use_priors && options.drop_hidden) DropHiddenPoints(options.threads, scene);
+    if (use_priors) DropHiddenPoints(options.threads, scene);
     const AdjustReport report =
         AdjustChosen(options, ForEverything(options, use_priors, scene), scene);
     FilterScene(options, scene);

@@ -17,9 +17,6 @@ struct MapperOptions {
   double max_error_sigmas = 4;  // of reprojections, in standard deviations of the keypoints
   double min_angle_rad = 0.026;
   int min_inliers = 15;
-  // Where records hold the scene, points that cannot be seen are taken away (DropHiddenPoints).
-  // Before walls that repeat themselves they may be all that tells a pose is a bay off.
-  bool drop_hidden = true;
   int max_initial_pairs = 8;
   bool refine_principal_point = true;
   int threads = 1;         // of what gives the same with any number of them
@@ -55,8 +52,8 @@ std::map<int, std::string> ExplainUnregistered(const MapperOptions& options,
 std::vector<int> TracksToAdjust(const MapperOptions& options, const Scene& scene);
 
 // Rounds of bundle adjustment of everything, filtering and triangulating anew, until nothing
-// changes. With `use_priors` the scene must be in the frame of its priors; `drop_hidden` counts
-// then.
+// changes. With `use_priors` the scene must be in the frame of its priors, and points that cannot
+// be seen are taken away (DropHiddenPoints).
 void Settle(const MapperOptions& options, bool use_priors, const StageContext& context,
             Scene& scene);
 

@@ -261,7 +261,7 @@ void Anneal(const MapperOptions& options, const std::vector<double>& tolerances,
     MapperOptions wide = options;
     wide.max_error_sigmas = tolerance;
     TriangulateAll({tolerance, options.min_angle_rad}, options.threads, scene);
-    if (options.drop_hidden) DropHiddenPoints(options.threads, scene);
+    DropHiddenPoints(options.threads, scene);
     AdjustOptions adjust;
     adjust.use_priors = true;
     adjust.threads = options.adjust_threads;
@@ -273,7 +273,7 @@ void Anneal(const MapperOptions& options, const std::vector<double>& tolerances,
     adjust.tracks = ChooseTracks(scene, kObservations);
     Adjust(adjust, scene);
     TriangulateAll({tolerance, options.min_angle_rad}, options.threads, scene);
-    if (options.drop_hidden) DropHiddenPoints(options.threads, scene);
+    DropHiddenPoints(options.threads, scene);
     FilterScene(wide, scene);
     ApplyRecords(records, MeasureRecordErrors(records, scene), scene);
     context.progress->Advance();

@@ -26,6 +26,7 @@ constexpr double kOnPlane = 0.02;        // of the distance
 constexpr double kLeastOffPlane = 0.15;  // of the points
 constexpr int kLeastPoints = 30;
 constexpr int kEnoughPartners = 4;
+constexpr double kMostBaysOff_m = 15;
 // Matches are taken out that are this many deviations of the record from where it puts their
 // points.
 constexpr double kGateSigmas = 3.5;
@@ -47,6 +48,12 @@ double PositionSquare(const ScenePhoto& photo) {
   const double own = std::pow(kPoseSigma_m, 2);
   return error.head<2>().squaredNorm() / (std::pow(photo.prior->sigma_horizontal_m, 2) + own) +
          error.z() * error.z() / (std::pow(photo.prior->sigma_vertical_m, 2) + own);
+}
+
+// Not what lies much farther off: that is a wild position, which matches may contradict.
+bool MayBeBaysOff(const ScenePhoto& photo) {
+  return photo.may_be_bays_off &&
+         (photo.pose->Center() - photo.prior->position).head<2>().norm() < kMostBaysOff_m;
 }
 
 std::vector<Eigen::Vector3d> PointsOf(const Scene& scene, int photo) {
@@ -184,6 +191,7 @@ RecordVerdict JudgePose(const Scene& scene, int photo) {
     return attitude + position > kUnlikelySixSquare ? RecordVerdict::kContradicts
                                                     : RecordVerdict::kAgrees;
   }
+  if (MayBeBaysOff(scene.photos[photo])) return RecordVerdict::kContradicts;
   const bool holds =
       NumTrustedPartners(scene, photo) >= kEnoughPartners || SeesSeveralPlanes(scene, photo);
   return holds && attitude <= kDoubtfulSquare ? RecordVerdict::kPositionOff

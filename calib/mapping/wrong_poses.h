@@ -22,7 +22,9 @@ enum class RecordVerdict {
 // variables each and of six together, at a level of 1e-4. A position alone, with angles that agree
 // at a level of 1e-2, is not believed against a pose that four photos share points with which agree
 // with their own records, nor against one whose points lie on several planes, since what repeats
-// along one wall does not fit the others. Requires a pose in the frame of the priors.
+// along one wall does not fit the others; but a photo that may be whole bays off is judged by its
+// position, within 15 m, as its neighbours match it, windows, balconies and all, a bay off too.
+// Requires a pose in the frame of the priors.
 RecordVerdict JudgePose(const Scene& scene, int photo);
 
 // Whether a good part of the points that a photo sees lies off the plane that fits most of them.

@@ -44,6 +44,7 @@ Guidance GuideByPlan(const CalibOptions& options, const Captures& captures,
   const std::optional<Plan> plan = PlanOfSurvey(context);
   if (!plan) return guidance;
   guidance.facades = plan->facades;
+  guidance.footprints = plan->footprints;
   ExpectInput input{*plan, ExpectedPoses(*plan, photos), {}};
   for (const CapturedPhoto* photo : photos) {
     input.cameras.push_back(&captures.cameras[photo->camera].intrinsics);

@@ -21,6 +21,7 @@ namespace stucco {
 struct Guidance {
   std::optional<ExpectedViews> views;             // nothing without a plan
   std::vector<PlannedFacade> facades;             // its walls
+  std::vector<PlannedFootprint> footprints;       // its buildings and obstacles
   std::vector<std::pair<int, int>> pairs;         // that should overlap
   std::vector<WallPair> wall_pairs;               // to match on a rectified wall
   std::map<std::pair<int, int>, WallView> walls;  // of (photo, wall) in wall_pairs

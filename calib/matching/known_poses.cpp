@@ -116,9 +116,9 @@ KnownPoses KnowPoses(const KnowInput& input, const Scene& scene) {
   for (const SceneTrack& track : scene.tracks) {
     if (track.position) points.push_back(*track.position + plan_from_world);
   }
-  const auto aligned = AlignToWalls(points, input.guidance.facades);
-  plan_from_world.head<2>() +=
-      aligned ? aligned->shift_m : ShiftOntoWalls(points, input.guidance.facades);
+  const SiteMap map{input.guidance.facades, input.guidance.footprints};
+  const auto aligned = AlignToWalls(points, map);
+  plan_from_world.head<2>() += aligned ? aligned->shift_m : ShiftOntoMap(points, map);
   const std::vector<bool> surely = SurelyPosed(input.repeating, scene);
   const std::vector<std::vector<int>> mates = HoverMates(scene);
   KnownPoses result;

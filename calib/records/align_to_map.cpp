@@ -20,13 +20,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr size_t kMostGridPoints = 20000;
 constexpr size_t kMostPoints = 1000000;
-constexpr double kMostOffset_m = 6;
-constexpr double kStep_m = 0.5;
-constexpr double kOnWall_m = 0.4;
-constexpr double kOffGround_m = 1;  // and roofs: what lies there may belong to them
-constexpr size_t kLeastOnWalls = 100;
 constexpr int kWallRounds = 5;
 // Of walls one by one.
 constexpr double kAboutWall_m = 1;
@@ -39,60 +33,6 @@ constexpr double kTurnSigma_rad = 0.3 * std::numbers::pi / 180;
 constexpr double kTukey = 4.685;
 constexpr double kNormalMad = 1.4826;
 constexpr double kLeastAcross = 0.02;  // of what walls tell along their main direction
-
-// A point near the plane of a wall.
-struct NearWall {
-  Vector2d normal = Vector2d::UnitX();
-  double distance_m = 0;  // before the wall
-};
-
-// How far before the wall a point lies; nothing where it lies beside, above or below it.
-std::optional<double> BeforeWall(const PlannedFacade& wall, const Vector3d& point) {
-  if (point.z() < wall.z_m.from_m + kOffGround_m || point.z() > wall.z_m.to_m - kOffGround_m) {
-    return std::nullopt;
-  }
-  const Vector2d from = point.head<2>() - wall.a_m;
-  const double along = from.dot(wall.along());
-  if (along < 0 || along > wall.length_m()) return std::nullopt;
-  return from.dot(wall.outwards());
-}
-
-std::vector<NearWall> PointsNearWalls(std::span<const Vector3d> points,
-                                      std::span<const PlannedFacade> walls) {
-  std::vector<NearWall> near;
-  const size_t step = points.size() / kMostGridPoints + 1;
-  for (size_t i = 0; i < points.size(); i += step) {
-    for (const PlannedFacade& wall : walls) {
-      const auto distance = BeforeWall(wall, points[i]);
-      if (distance && std::abs(*distance) <= kMostOffset_m) {
-        near.push_back({wall.outwards(), *distance});
-      }
-    }
-  }
-  return near;
-}
-
-size_t NumOnWalls(const std::vector<NearWall>& points, const Vector2d& shift) {
-  return std::ranges::count_if(points, [&](const NearWall& point) {
-    return std::abs(point.distance_m + point.normal.dot(shift)) < kOnWall_m;
-  });
-}
-
-// Least squares over the points that are on walls after the shift.
-Vector2d Refined(const std::vector<NearWall>& points, Vector2d shift) {
-  for (int round = 0; round < kWallRounds; ++round) {
-    Eigen::Matrix2d normals = 1e-3 * Eigen::Matrix2d::Identity();
-    Vector2d right = Vector2d::Zero();
-    for (const NearWall& point : points) {
-      const double off = point.distance_m + point.normal.dot(shift);
-      if (std::abs(off) > kOnWall_m) continue;
-      normals += point.normal * point.normal.transpose();
-      right -= off * point.normal;
-    }
-    shift += normals.ldlt().solve(right);
-  }
-  return shift;
-}
 
 // What the points about a wall say of where it stands.
 struct WallSeen {
@@ -108,11 +48,11 @@ struct WallsSeen {
 
 class WallFit {
  public:
-  WallFit(std::span<const Vector3d> points, std::span<const PlannedFacade> walls)
-      : points_(points), walls_(walls), step_(points.size() / kMostPoints + 1) {
-    for (const PlannedFacade& wall : walls) motion_.center += (wall.a_m + wall.b_m) / 2;
-    motion_.center /= std::max<double>(1, static_cast<double>(walls.size()));
-    motion_.shift = ShiftOntoWalls(points, walls);
+  WallFit(std::span<const Vector3d> points, const SiteMap& map)
+      : points_(points), walls_(map.walls), step_(points.size() / kMostPoints + 1) {
+    for (const PlannedFacade& wall : walls_) motion_.center += (wall.a_m + wall.b_m) / 2;
+    motion_.center /= std::max<double>(1, static_cast<double>(walls_.size()));
+    motion_.shift = ShiftOntoMap(points, map);
   }
 
   std::optional<MapAlignment> Run() {
@@ -200,9 +140,8 @@ class WallFit {
 
 }  // namespace
 
-std::vector<PlannedFacade> WallsInScene(const Plan& plan, const Georef& georef,
-                                        const std::vector<std::optional<Pose>>& expected,
-                                        const Scene& scene) {
+SiteMap MapInScene(const Plan& plan, const Georef& georef,
+                   const std::vector<std::optional<Pose>>& expected, const Scene& scene) {
   assert(georef.frame == "enu" && expected.size() == scene.photos.size());
   std::vector<double> above;
   for (size_t i = 0; i < expected.size(); ++i) {
@@ -210,37 +149,25 @@ std::vector<PlannedFacade> WallsInScene(const Plan& plan, const Georef& georef,
     above.push_back(expected[i]->Center().z() - scene.photos[i].pose->Center().z());
   }
   const double plan_above = Median(std::move(above)).value_or(0);
-  std::vector<PlannedFacade> walls = plan.facades;
-  for (PlannedFacade& wall : walls) {
+  SiteMap map{plan.facades, plan.footprints};
+  for (PlannedFacade& wall : map.walls) {
     wall.a_m = EnuFromPlan(plan.origin, georef, wall.a_m);
     wall.b_m = EnuFromPlan(plan.origin, georef, wall.b_m);
     wall.z_m.from_m -= plan_above;
     wall.z_m.to_m -= plan_above;
   }
-  return walls;
-}
-
-Vector2d ShiftOntoWalls(std::span<const Vector3d> points, std::span<const PlannedFacade> walls) {
-  const std::vector<NearWall> near = PointsNearWalls(points, walls);
-  const int steps = static_cast<int>(kMostOffset_m / kStep_m);
-  Vector2d best = Vector2d::Zero();
-  size_t most = std::max(kLeastOnWalls, NumOnWalls(near, best));
-  for (int x = -steps; x <= steps; ++x) {
-    for (int y = -steps; y <= steps; ++y) {
-      const Vector2d shift = kStep_m * Vector2d(x, y);
-      const size_t count = NumOnWalls(near, shift);
-      if (count <= most) continue;
-      most = count;
-      best = shift;
+  for (PlannedFootprint& footprint : map.footprints) {
+    for (Ring& ring : footprint.rings_m) {
+      for (Vector2d& corner : ring) corner = EnuFromPlan(plan.origin, georef, corner);
     }
+    footprint.z_m.from_m -= plan_above;
+    footprint.z_m.to_m -= plan_above;
   }
-  if (NumOnWalls(near, best) < kLeastOnWalls) return Vector2d::Zero();
-  return Refined(near, best);
+  return map;
 }
 
-std::optional<MapAlignment> AlignToWalls(std::span<const Vector3d> points,
-                                         std::span<const PlannedFacade> walls) {
-  return WallFit(points, walls).Run();
+std::optional<MapAlignment> AlignToWalls(std::span<const Vector3d> points, const SiteMap& map) {
+  return WallFit(points, map).Run();
 }
 
 void MoveToMap(const MapAlignment& alignment, std::vector<PoseRecord>& records, Scene& scene) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calib/records/read_records.h"
+#include "calib/records/shift_onto_map.h"
 #include "calib/scene/scene.h"
 #include "survey/georef.h"
 #include "survey/plan.h"
@@ -25,24 +26,17 @@ struct MapAlignment {
   int walls = 0;                                      // on which it was measured
 };
 
-// The plan's facades in a survey's world frame. Heights become the survey's by the median of what
-// the photos' expected poses (cam_from_plan, by photo) are above their poses. Requires a frame
-// "enu".
-std::vector<PlannedFacade> WallsInScene(const Plan& plan, const Georef& georef,
-                                        const std::vector<std::optional<Pose>>& expected,
-                                        const Scene& scene);
+// The plan's map in a survey's world frame. Heights become the survey's by the median of what the
+// photos' expected poses (cam_from_plan, by photo) are above their poses. Requires a frame "enu".
+SiteMap MapInScene(const Plan& plan, const Georef& georef,
+                   const std::vector<std::optional<Pose>>& expected, const Scene& scene);
 
-// The level shift, metres, that brings most points onto walls. The best of a grid of 6 m each way,
-// refined by least squares; zero where hardly any point lies on a wall then.
-Eigen::Vector2d ShiftOntoWalls(std::span<const Eigen::Vector3d> points,
-                               std::span<const PlannedFacade> walls);
-
-// Shift and turn (prior: 0.3 degrees) that bring points onto walls, from ShiftOntoWalls on: the
+// Shift and turn (prior: 0.3 degrees) that bring points onto walls, from ShiftOntoMap on: the
 // middle one of the points about each wall, least squares over walls with Tukey's biweight, since a
 // wall of the map may be off by itself. Nothing where fewer than four walls, walls of one direction
 // only, or fewer than half of those with points about them show as planes: another map, or trees.
 std::optional<MapAlignment> AlignToWalls(std::span<const Eigen::Vector3d> points,
-                                         std::span<const PlannedFacade> walls);
+                                         const SiteMap& map);
 
 // Moves poses, points and the records' places and directions.
 void MoveToMap(const MapAlignment& alignment, std::vector<PoseRecord>& records, Scene& scene);

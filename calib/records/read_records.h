@@ -19,6 +19,9 @@ struct PoseRecord {
   std::optional<Eigen::Quaterniond> gimbal;  // cam_from_world
   int flight = 0;                            // receivers and compasses err alike within one
   int hover = -1;  // of the flight, as planned: photos of one stand in one place; -1: none
+  // It shows little but walls that repeat themselves, so that its pose may be whole bays off, with
+  // those of its neighbours: no witness of how positions err where there are others.
+  bool may_be_bays_off = false;
 };
 
 // Records of the scene's photos, which have the given captures and whose positions are in

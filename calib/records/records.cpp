@@ -11,13 +11,14 @@
 #include <utility>
 
 #include "calib/records/flight_ties.h"
+#include "calib/records/heading.h"
+#include "calib/records/position_witnesses.h"
 #include "survey/attitude.h"
 #include "survey/median.h"
 
 namespace stucco {
 namespace {
 
-constexpr int kEnoughForOneFlight = 8;
 constexpr int kEnoughAtAll = 4;
 constexpr double kSignificant = 3;  // of its own standard deviation
 // Receivers are no better than this among themselves, gimbals no better than they write.
@@ -35,23 +36,53 @@ double MedianOf(std::vector<double> values) {
   return Median(std::move(values)).value_or(0);
 }
 
+// By photo, cam_from_world.
+using Poses = std::vector<std::optional<Pose>>;
+
+// The scene's poses turned about up, about the middle of the photos.
+struct TurnedPoses {
+  Poses poses;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+};
+
+TurnedPoses TurnPoses(const Scene& scene, double turn_rad) {
+  TurnedPoses turned;
+  int num_posed = 0;
+  for (const ScenePhoto& photo : scene.photos) {
+    if (!photo.pose) continue;
+    turned.middle += photo.pose->Center().head<2>();
+    ++num_posed;
+  }
+  if (num_posed > 0) turned.middle /= num_posed;
+  const Eigen::Vector3d middle(turned.middle.x(), turned.middle.y(), 0);
+  const Eigen::Quaterniond rotation = AboutUp(turn_rad);
+  const Similarity turn{1, rotation, middle - rotation * middle};
+  for (const ScenePhoto& photo : scene.photos) {
+    turned.poses.push_back(photo.pose ? std::optional(Transformed(*photo.pose, turn))
+                                      : std::nullopt);
+  }
+  return turned;
+}
+
 // Positions
 
 struct PositionError {
   int flight = 0;
+  Eigen::Vector3d posed = Eigen::Vector3d::Zero();
   Eigen::Vector3d recorded_minus_posed = Eigen::Vector3d::Zero();
   Eigen::Vector3d stated = Eigen::Vector3d::Ones();  // standard deviations
 };
 
 std::vector<PositionError> PositionErrors(const std::vector<PoseRecord>& records,
-                                          const Scene& scene) {
+                                          const std::vector<bool>& tells, const Poses& poses) {
   std::vector<PositionError> errors;
   for (size_t i = 0; i < records.size(); ++i) {
-    if (!scene.photos[i].pose || !records[i].position) continue;
+    if (!tells[i]) continue;
     const PositionPrior& recorded = *records[i].position;
     errors.push_back(
         {records[i].flight,
-         recorded.position - scene.photos[i].pose->Center(),
+         poses[i]->Center(),
+         recorded.position - poses[i]->Center(),
          {recorded.sigma_horizontal_m, recorded.sigma_horizontal_m, recorded.sigma_vertical_m}});
   }
   return errors;
@@ -93,8 +124,16 @@ void SetSigmas(const std::vector<PositionError>& errors, FlightErrors& flight) {
   flight.sigma_vertical_m = std::max(kLeastPosition_m, flight.vertical_over_stated * usual.z());
 }
 
+// What positions are measured against: the shift that all flights share, and how surely the scene
+// is turned as they say, about its middle.
+struct PositionFrame {
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  double sigma_heading_rad = 0;
+};
+
 // Takes the flight's shift off its errors and measures what is left.
-void MeasureFlight(const Eigen::Vector3d& common, const FlightTie& tie,
+void MeasureFlight(const PositionFrame& frame, const FlightTie& tie,
                    std::vector<PositionError>& errors, FlightErrors& flight) {
   const Eigen::Vector3d shift = MedianShift(errors);
   for (PositionError& error : errors) error.recorded_minus_posed -= shift;
@@ -102,29 +141,32 @@ void MeasureFlight(const Eigen::Vector3d& common, const FlightTie& tie,
   // The standard deviation of a median of normal variables is 1.25 times that of the mean.
   const double own =
       1.25 * flight.sigma_horizontal_m / std::sqrt(static_cast<double>(errors.size()));
-  if ((shift - common).norm() > kSignificant * std::hypot(own, tie.position_m)) {
-    flight.shift_m = shift - common;
+  Eigen::Vector2d arm = -frame.middle;
+  for (const PositionError& error : errors) {
+    arm += error.posed.head<2>() / static_cast<double>(errors.size());
+  }
+  const double turned = frame.sigma_heading_rad * arm.norm();
+  if ((shift - frame.shift).norm() > kSignificant * std::hypot(own, tie.position_m, turned)) {
+    flight.shift_m = shift - frame.shift;
   }
 }
 
-void MeasurePositions(const std::vector<PoseRecord>& records, const Scene& scene,
+void MeasurePositions(const std::vector<PositionError>& all, PositionFrame frame,
                       const std::vector<FlightTie>& ties, std::vector<FlightErrors>& flights) {
-  const std::vector<PositionError> all = PositionErrors(records, scene);
   if (all.size() < kEnoughForOneFlight) return;
   std::vector<std::vector<PositionError>> by_flight(flights.size());
   for (const PositionError& error : all) by_flight[error.flight].push_back(error);
-  Eigen::Vector3d common = Eigen::Vector3d::Zero();
   for (const auto& of_flight : by_flight) {
     if (of_flight.empty()) continue;
-    common += static_cast<double>(of_flight.size()) / static_cast<double>(all.size()) *
-              MedianShift(of_flight);
+    frame.shift += static_cast<double>(of_flight.size()) / static_cast<double>(all.size()) *
+                   MedianShift(of_flight);
   }
   std::vector<PositionError> together;
   for (size_t f = 0; f < flights.size(); ++f) {
     if (by_flight[f].size() < kEnoughForOneFlight) {
-      for (PositionError& error : by_flight[f]) error.recorded_minus_posed -= common;
+      for (PositionError& error : by_flight[f]) error.recorded_minus_posed -= frame.shift;
     } else {
-      MeasureFlight(common, ties[f], by_flight[f], flights[f]);
+      MeasureFlight(frame, ties[f], by_flight[f], flights[f]);
     }
     together.insert(together.end(), by_flight[f].begin(), by_flight[f].end());
   }
@@ -163,11 +205,11 @@ struct AttitudePair {
 };
 
 std::vector<AttitudePair> AttitudePairs(const std::vector<PoseRecord>& records,
-                                        const Scene& scene) {
+                                        const Poses& poses) {
   std::vector<AttitudePair> pairs;
   for (size_t i = 0; i < records.size(); ++i) {
-    if (!scene.photos[i].pose || !records[i].gimbal) continue;
-    pairs.push_back({records[i].flight, scene.photos[i].pose->rotation, *records[i].gimbal});
+    if (!poses[i] || !records[i].gimbal) continue;
+    pairs.push_back({records[i].flight, poses[i]->rotation, *records[i].gimbal});
   }
   return pairs;
 }
@@ -194,17 +236,19 @@ double MedianAngle(const std::vector<double>& angles) {
   return mean + MedianOf(std::move(about));
 }
 
-// Which of the unknowns mount (3), tilt (2) and yaw of each flight (1 each) take part.
+// Which of the unknowns mount (3), turn of the scene (3: tilt and heading) and yaw of each flight
+// (1 each) take part.
 struct AttitudeUnknowns {
   bool mount = true;
   std::vector<bool> yaw;
+  double sigma_heading_rad = 0;  // of the scene, which is zero in the mean
 
+  int turn_index() const { return mount ? 3 : 0; }
   int size() const {
-    return (mount ? 3 : 0) + 2 + static_cast<int>(std::count(yaw.begin(), yaw.end(), true));
+    return turn_index() + 3 + static_cast<int>(std::count(yaw.begin(), yaw.end(), true));
   }
   int yaw_index(int flight) const {
-    return (mount ? 3 : 0) + 2 +
-           static_cast<int>(std::count(yaw.begin(), yaw.begin() + flight, true));
+    return turn_index() + 3 + static_cast<int>(std::count(yaw.begin(), yaw.begin() + flight, true));
   }
   // What is expected beforehand, all about zero, as a weight against observations of this standard
   // deviation: where all photos look down, nothing else tells a turned mount from a compass.
@@ -212,7 +256,8 @@ struct AttitudeUnknowns {
     Eigen::VectorXd sigmas(size());
     sigmas.setConstant(kExpectedYaw_rad);
     if (mount) sigmas.head<3>().setConstant(kExpectedMount_rad);
-    sigmas.segment<2>(mount ? 3 : 0).setConstant(kExpectedTilt_rad);
+    sigmas.segment<2>(turn_index()).setConstant(kExpectedTilt_rad);
+    sigmas[turn_index() + 2] = sigma_heading_rad;
     return (sigma_rad / sigmas.array()).square().matrix().asDiagonal();
   }
 };
@@ -224,11 +269,10 @@ struct AttitudeFit {
 };
 
 // Least squares with Cauchy weights (Triggs et al. 2000, section 3.3) of
-//   log(R G^-1) = mount + G (tilt, yaw):
+//   log(R G^-1) = mount + G (tilt, heading + yaw):
 // what turns with the camera and what stays with the world tell apart by the ways photos look.
 AttitudeFit FitAttitudes(const std::vector<AttitudePair>& pairs, const AttitudeUnknowns& unknowns) {
   const int size = unknowns.size();
-  const int tilt = unknowns.mount ? 3 : 0;
   AttitudeFit fit{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size), kLeastAttitude_rad};
   std::vector<Eigen::MatrixXd> rows;
   std::vector<Eigen::Vector3d> right;
@@ -236,7 +280,7 @@ AttitudeFit FitAttitudes(const std::vector<AttitudePair>& pairs, const AttitudeU
     Eigen::MatrixXd row = Eigen::MatrixXd::Zero(3, size);
     const Eigen::Matrix3d g = pair.recorded.toRotationMatrix();
     if (unknowns.mount) row.leftCols<3>().setIdentity();
-    row.middleCols<2>(tilt) = g.leftCols<2>();
+    row.middleCols<3>(unknowns.turn_index()) = g;
     if (unknowns.yaw[pair.flight]) row.col(unknowns.yaw_index(pair.flight)) = g.col(2);
     rows.push_back(row);
     right.push_back(RotationVector(pair.posed * pair.recorded.conjugate()));
@@ -266,26 +310,6 @@ AttitudeFit FitAttitudes(const std::vector<AttitudePair>& pairs, const AttitudeU
   return fit;
 }
 
-// Standard deviation of the scene's heading as its positions determine it.
-double HeadingSigma(const std::vector<PoseRecord>& records,
-                    const std::vector<FlightErrors>& flights, const Scene& scene) {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  std::vector<Eigen::Vector2d> places;
-  double variance = 0;
-  for (size_t i = 0; i < records.size(); ++i) {
-    if (!scene.photos[i].pose || !records[i].position) continue;
-    places.emplace_back(scene.photos[i].pose->Center().head<2>());
-    mean += places.back();
-    variance += std::pow(flights[records[i].flight].sigma_horizontal_m, 2);
-  }
-  if (places.size() < 2) return std::numbers::pi;
-  mean /= static_cast<double>(places.size());
-  variance /= static_cast<double>(places.size());
-  double squares = 0;
-  for (const Eigen::Vector2d& place : places) squares += (place - mean).squaredNorm();
-  return squares > 0 ? std::sqrt(variance / squares) : std::numbers::pi;
-}
-
 // With the compass's error of each flight taken off.
 AttitudeFit FitTurned(std::vector<AttitudePair> pairs, const std::vector<FlightErrors>& flights,
                       const AttitudeUnknowns& unknowns) {
@@ -296,11 +320,11 @@ AttitudeFit FitTurned(std::vector<AttitudePair> pairs, const std::vector<FlightE
 }
 
 // Any angle that a compass may be off by: what is linear in the fit is the rest.
-AttitudeUnknowns GuessYaws(const std::vector<AttitudePair>& pairs,
+AttitudeUnknowns GuessYaws(const std::vector<AttitudePair>& pairs, double sigma_heading_rad,
                            std::vector<FlightErrors>& flights) {
   std::vector<std::vector<double>> yaws(flights.size());
   for (const AttitudePair& pair : pairs) yaws[pair.flight].push_back(YawOf(pair));
-  AttitudeUnknowns unknowns{true, std::vector<bool>(flights.size(), false)};
+  AttitudeUnknowns unknowns{true, std::vector<bool>(flights.size(), false), sigma_heading_rad};
   for (size_t f = 0; f < yaws.size(); ++f) {
     if (yaws[f].empty()) continue;
     flights[f].yaw_rad = MedianAngle(yaws[f]);
@@ -309,20 +333,20 @@ AttitudeUnknowns GuessYaws(const std::vector<AttitudePair>& pairs,
   return unknowns;
 }
 
-void MeasureAttitudes(const std::vector<PoseRecord>& records, const Scene& scene,
-                      const std::vector<FlightTie>& ties, RecordErrors& errors) {
-  const std::vector<AttitudePair> pairs = AttitudePairs(records, scene);
+void MeasureAttitudes(const std::vector<PoseRecord>& records, const Poses& poses,
+                      double sigma_heading_rad, const std::vector<FlightTie>& ties,
+                      RecordErrors& errors) {
+  const std::vector<AttitudePair> pairs = AttitudePairs(records, poses);
   if (pairs.size() < kEnoughAtAll) return;
   std::vector<FlightErrors>& flights = errors.flights;
-  AttitudeUnknowns unknowns = GuessYaws(pairs, flights);
+  AttitudeUnknowns unknowns = GuessYaws(pairs, sigma_heading_rad, flights);
   AttitudeFit fit = FitTurned(pairs, flights, unknowns);
-  const double heading = HeadingSigma(records, flights, scene);
   const AttitudeUnknowns before = unknowns;
   for (size_t f = 0; f < flights.size(); ++f) {
     const int index = before.yaw[f] ? before.yaw_index(static_cast<int>(f)) : -1;
     const double yaw = flights[f].yaw_rad + (index < 0 ? 0 : fit.values[index]);
-    const double posed = std::hypot(heading, std::min(ties[f].yaw_rad, kUntiedYaw_rad));
-    const double sigma = index < 0 ? std::numbers::pi : std::hypot(posed, fit.sigmas[index]);
+    const double tied = std::min(ties[f].yaw_rad, kUntiedYaw_rad);
+    const double sigma = index < 0 ? std::numbers::pi : std::hypot(tied, fit.sigmas[index]);
     if (std::abs(yaw) >= kSignificant * sigma) continue;
     flights[f].yaw_rad = 0;
     unknowns.yaw[f] = false;
@@ -335,7 +359,7 @@ void MeasureAttitudes(const std::vector<PoseRecord>& records, const Scene& scene
     fit = FitTurned(pairs, flights, unknowns);
   }
   if (unknowns.mount) errors.mount_rad = fit.values.head<3>();
-  errors.tilt_rad.head<2>() = fit.values.segment<2>(unknowns.mount ? 3 : 0);
+  errors.tilt_rad.head<2>() = fit.values.segment<2>(unknowns.turn_index());
   errors.sigma_attitude_rad = fit.sigma_rad;
   for (size_t f = 0; f < flights.size(); ++f) {
     if (!unknowns.yaw[f]) continue;
@@ -359,8 +383,17 @@ RecordErrors MeasureRecordErrors(const std::vector<PoseRecord>& records, const S
   flight_of_photo.reserve(records.size());
   for (const PoseRecord& record : records) flight_of_photo.push_back(record.flight);
   const std::vector<FlightTie> ties = TiesOfFlights(flight_of_photo, scene);
-  MeasurePositions(records, scene, ties, errors.flights);
-  MeasureAttitudes(records, scene, ties, errors);
+  const Heading heading = HeadingByPositions(records, scene);
+  // Turned as positions say: what all flights' compasses have in common with a scene that has
+  // turned away from its records would be taken for theirs, and hold it there. Control knows
+  // better.
+  const double turn_rad = scene.control.points.size() < 2 ? heading.turn_rad : 0;
+  const TurnedPoses turned = TurnPoses(scene, turn_rad);
+  const std::vector<PositionError> positions =
+      PositionErrors(records, PositionWitnesses(records, scene), turned.poses);
+  MeasurePositions(positions, {Eigen::Vector3d::Zero(), turned.middle, heading.sigma_rad}, ties,
+                   errors.flights);
+  MeasureAttitudes(records, turned.poses, heading.sigma_rad, ties, errors);
   errors.sigma_hover_m = MeasureHovers(records, scene);
   return errors;
 }
@@ -379,6 +412,7 @@ void ApplyRecords(const std::vector<PoseRecord>& records, const RecordErrors& er
     ScenePhoto& photo = scene.photos[i];
     photo.prior = records[i].position;
     photo.hover = records[i].hover;
+    photo.may_be_bays_off = records[i].may_be_bays_off;
     photo.attitude.reset();
     const FlightErrors& flight = errors.flights[records[i].flight];
     if (photo.prior) {

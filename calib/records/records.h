@@ -46,11 +46,12 @@ struct RecordErrors {
 std::optional<double> UpSigma_rad(const RecordErrors& errors);
 
 // Variance components of the records from the photos that have poses, by medians, so that wrong
-// poses and wrong records do not count; the scene must be in the frame of the records. A shift, a
-// mount or a yaw that is no more than three of its own standard deviations is taken to be zero;
-// those of a flight's shift and yaw include how surely matches hold the flight against the others
-// (TiesOfFlights), else records would be bent to a flight that hangs on a single photo.
-// Flights with fewer than eight posed photos share the deviations of all.
+// poses and wrong records do not count; the scene must be in the frame of the records but for a
+// small turn about up, which positions tell (HeadingByPositions) where no control points do, and
+// which is nobody's error. A shift, a mount or a yaw that is no more than three of its own standard
+// deviations is taken to be zero; those of a flight's shift and yaw include how surely matches hold
+// the flight against the others (TiesOfFlights), else records would be bent to a flight that hangs
+// on a single photo. Flights with fewer than eight posed photos share the deviations of all.
 RecordErrors MeasureRecordErrors(const std::vector<PoseRecord>& records, const Scene& scene);
 
 // Makes the records, corrected and with their measured deviations, the priors of the scene's

@@ -49,6 +49,8 @@ struct ScenePhoto {
   std::optional<PositionPrior> prior;
   std::optional<AttitudePrior> attitude;
   int hover = -1;  // photos with the same number were taken from one place; -1: by itself
+  // What it shows repeats itself, so that matches may put it whole bays beside where it was taken.
+  bool may_be_bays_off = false;
 
   // Standard deviation of a keypoint. A blob's place is known to a part of its size (Zeisl et al.,
   // "Estimation of location uncertainty for scale invariant feature points", 2009), and no better

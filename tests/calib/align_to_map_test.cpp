@@ -36,6 +36,10 @@ std::vector<PlannedFacade> Walls() {
   return TwoHouses().facades;
 }
 
+SiteMap MapOf(const std::vector<PlannedFacade>& walls) {
+  return {walls, {}};
+}
+
 // Where the walls of both houses have their middle.
 const Vector2d kMiddle{10, -15};
 
@@ -47,24 +51,11 @@ std::vector<Vector3d> Moved(std::vector<Vector3d> points, const Vector2d& shift,
   return points;
 }
 
-TEST(ShiftOntoWalls, BringsPointsBack) {
-  for (const Vector2d& off : {Vector2d(1.3, -0.7), Vector2d(-4.1, 3.2), Vector2d(0, 0)}) {
-    const Vector2d shift = ShiftOntoWalls(Moved(PointsOn(Walls()), off, 0), Walls());
-    EXPECT_LT((shift + off).norm(), 0.1);
-  }
-}
-
-TEST(ShiftOntoWalls, LeavesPointsThatLieOnNone) {
-  const auto points = Moved(PointsOn(Walls()), {200, 0}, 0);
-  EXPECT_EQ(ShiftOntoWalls(points, Walls()), Vector2d(0, 0));
-  EXPECT_EQ(ShiftOntoWalls({}, Walls()), Vector2d(0, 0));
-}
-
 TEST(AlignToWalls, FindsShiftAndTurn) {
   constexpr double kTurn_rad = 0.006;
   for (const Vector2d& off : {Vector2d(1.3, -0.7), Vector2d(-4.1, 3.2), Vector2d(0, 0)}) {
     const auto points = Moved(PointsOn(Walls()), off, kTurn_rad);
-    const auto found = AlignToWalls(points, Walls());
+    const auto found = AlignToWalls(points, MapOf(Walls()));
     ASSERT_TRUE(found);
     EXPECT_EQ(found->walls, 8);
     EXPECT_NEAR(found->turn_rad, -kTurn_rad, 0.002);
@@ -83,13 +74,13 @@ TEST(AlignToWalls, AWallThatTheMapHasElsewhereMovesNothing) {
   std::vector<PlannedFacade> drawn = Walls();
   drawn[0].a_m += 0.5 * drawn[0].outwards();
   drawn[0].b_m += 0.5 * drawn[0].outwards();
-  const auto found = AlignToWalls(PointsOn(Walls()), drawn);
+  const auto found = AlignToWalls(PointsOn(Walls()), MapOf(drawn));
   ASSERT_TRUE(found);
   EXPECT_LT(found->shift_m.norm(), 0.05);
 }
 
 TEST(AlignToWalls, RefusesWhatShowsNoWalls) {
-  EXPECT_FALSE(AlignToWalls({}, Walls()));
+  EXPECT_FALSE(AlignToWalls({}, MapOf(Walls())));
   EXPECT_FALSE(AlignToWalls(PointsOn(Walls()), {}));
   // Leaves all about.
   std::vector<Vector3d> scattered;
@@ -97,14 +88,14 @@ TEST(AlignToWalls, RefusesWhatShowsNoWalls) {
   for (int i = 0; i < 20000; ++i) {
     scattered.emplace_back(random.Uniform(-10, 30), random.Uniform(-50, 20), random.Uniform(0, 12));
   }
-  EXPECT_FALSE(AlignToWalls(scattered, Walls()));
+  EXPECT_FALSE(AlignToWalls(scattered, MapOf(Walls())));
 }
 
 TEST(AlignToWalls, RefusesWallsOfOneDirection) {
   std::vector<PlannedFacade> level = Walls();
   std::erase_if(level, [](const PlannedFacade& wall) { return std::abs(wall.along().x()) < 0.5; });
   ASSERT_EQ(level.size(), 4U);  // enough in number
-  EXPECT_FALSE(AlignToWalls(PointsOn(level), level));
+  EXPECT_FALSE(AlignToWalls(PointsOn(level), MapOf(level)));
 }
 
 TEST(MoveToMap, TakesRecordsAlong) {
@@ -132,7 +123,7 @@ TEST(MoveToMap, TakesRecordsAlong) {
   }
 }
 
-TEST(WallsInScene, BringsHeightsToTheSurveys) {
+TEST(MapInScene, BringsHeightsToTheSurveys) {
   Plan plan = TwoHouses();
   plan.origin = OriginNear({50.1, 14.4});
   Georef georef;
@@ -147,11 +138,15 @@ TEST(WallsInScene, BringsHeightsToTheSurveys) {
     expected.push_back(Pose{photo.pose->rotation, -(photo.pose->rotation * above)});
   }
   expected[1].reset();
-  const auto walls = WallsInScene(plan, georef, expected, scene);
+  const SiteMap map = MapInScene(plan, georef, expected, scene);
+  const std::vector<PlannedFacade>& walls = map.walls;
   ASSERT_EQ(walls.size(), plan.facades.size());
   EXPECT_LT((walls[0].a_m - (plan.facades[0].a_m - Vector2d(100, 40))).norm(), 0.01);
   EXPECT_NEAR(walls[0].z_m.from_m, plan.facades[0].z_m.from_m - 250, 1e-9);
   EXPECT_NEAR(walls[0].z_m.to_m, plan.facades[0].z_m.to_m - 250, 1e-9);
+  const PlannedFootprint& footprint = map.footprints[0];
+  EXPECT_LT((footprint.rings_m[0][0] - walls[0].a_m).norm(), 1e-9);
+  EXPECT_EQ(footprint.z_m.from_m, walls[0].z_m.from_m);
 }
 
 }  // namespace

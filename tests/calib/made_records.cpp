@@ -4,6 +4,9 @@
 
 #include <Eigen/Geometry>
 
+#include "calib/records/georeference.h"
+#include "survey/attitude.h"
+
 namespace stucco::test {
 namespace {
 
@@ -38,6 +41,10 @@ std::vector<PoseRecord> MakeRecords(const Scene& truth, const MadeRecordErrors& 
                             .normalized();
   }
   return records;
+}
+
+void TurnAboutUp(double angle_rad, Scene& scene) {
+  Transform({1, AboutUp(angle_rad), Eigen::Vector3d::Zero()}, scene);
 }
 
 }  // namespace stucco::test

@@ -26,4 +26,7 @@ struct MadeRecordErrors {
 // flights one after the other.
 std::vector<PoseRecord> MakeRecords(const Scene& truth, const MadeRecordErrors& errors);
 
+// Poses and points, counter-clockwise as seen from above.
+void TurnAboutUp(double angle_rad, Scene& scene);
+
 }  // namespace stucco::test

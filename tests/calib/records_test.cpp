@@ -228,6 +228,67 @@ TEST(MeasureRecordErrors, IsNotMovedByWrongOnes) {
   EXPECT_LT(errors.tilt_rad.norm(), 0.1 * kDegree);
 }
 
+// Two flights side by side, each over half of the place.
+std::vector<PoseRecord> MakeTwoHalves(const Scene& scene, const MadeRecordErrors& errors) {
+  auto records = MakeRecords(scene, errors);
+  for (size_t i = 0; i < records.size(); ++i) {
+    records[i].flight = scene.photos[i].pose->Center().y() > 30 ? 1 : 0;
+  }
+  return records;
+}
+
+// A scene may turn while poses are adjusted to first matches; if all compasses were then said to be
+// off by that, records would hold it there.
+TEST(MeasureRecordErrors, TakesATurnedSceneForNobodysError) {
+  Scene scene = MakeFlight(96);
+  const auto records = MakeTwoHalves(scene, {.position_sigma_m = 0.1});
+  TurnAboutUp(0.4 * kDegree, scene);
+  const RecordErrors errors = MeasureRecordErrors(records, scene);
+  for (const FlightErrors& flight : errors.flights) {
+    EXPECT_EQ(flight.yaw_rad, 0);
+    EXPECT_EQ(flight.shift_m, Eigen::Vector3d::Zero());
+    EXPECT_LT(flight.sigma_horizontal_m, 0.14);
+  }
+}
+
+TEST(MeasureRecordErrors, MeasuresCompassesAgainstPositions) {
+  Scene scene = MakeFlight(96);
+  auto records = MakeTwoHalves(scene, {.position_sigma_m = 0.1, .yaw_rad = {3 * kDegree}});
+  TurnAboutUp(0.4 * kDegree, scene);
+  const RecordErrors errors = MeasureRecordErrors(records, scene);
+  EXPECT_NEAR(errors.flights[0].yaw_rad, 3 * kDegree, 0.1 * kDegree);
+  EXPECT_NEAR(errors.flights[1].yaw_rad, 3 * kDegree, 0.1 * kDegree);
+}
+
+TEST(MeasureRecordErrors, LetsControlPointsHoldTheScene) {
+  Scene scene = MakeFlight(96);
+  const auto records = MakeTwoHalves(scene, {.position_sigma_m = 0.1});
+  TurnAboutUp(0.4 * kDegree, scene);
+  scene.control.points.resize(3);
+  const RecordErrors errors = MeasureRecordErrors(records, scene);
+  EXPECT_NEAR(errors.flights[0].yaw_rad, -0.4 * kDegree, 0.1 * kDegree);
+  EXPECT_NEAR(errors.flights[1].yaw_rad, -0.4 * kDegree, 0.1 * kDegree);
+}
+
+// Most of a flight shows walls that repeat themselves, and hangs together a bay off.
+TEST(MeasureRecordErrors, GoesByPhotosThatCannotBeBaysOff) {
+  Scene scene = MakeFlight(96);
+  auto records = MakeTwoHalves(scene, {.position_sigma_m = 0.1});
+  for (size_t i = 0; i < records.size(); ++i) {
+    if (records[i].flight == 0 || i % 4 == 0) continue;
+    Pose& pose = *scene.photos[i].pose;
+    pose.translation = -(pose.rotation * (pose.Center() + Eigen::Vector3d(3, 0, 0)));
+    records[i].may_be_bays_off = true;
+  }
+  const RecordErrors errors = MeasureRecordErrors(records, scene);
+  EXPECT_EQ(errors.flights[1].shift_m, Eigen::Vector3d::Zero());
+  EXPECT_LT(errors.flights[1].sigma_horizontal_m, 0.15);
+  ApplyRecords(records, errors, scene);
+  EXPECT_EQ(scene.photos[95].may_be_bays_off, records[95].may_be_bays_off);
+  for (PoseRecord& record : records) record.may_be_bays_off = false;
+  EXPECT_GT(MeasureRecordErrors(records, scene).flights[1].shift_m.norm(), 1);
+}
+
 TEST(ApplyRecords, CorrectsWhatWasMeasured) {
   Scene scene = MakeFlight(96);
   const auto records =

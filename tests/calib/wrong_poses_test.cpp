@@ -107,6 +107,16 @@ TEST_F(WrongPosesTest, APositionIsDistrustedWhereThePoseIsSure) {
   EXPECT_TRUE(wrong.taken.empty());
 }
 
+// Its neighbours are matched a bay off as it is.
+TEST_F(WrongPosesTest, APositionIsBelievedWhereThePoseMayBeBaysOff) {
+  scene_.photos[5].prior->position += Eigen::Vector3d(0, 5, 0);
+  EXPECT_EQ(JudgePose(scene_, 5), RecordVerdict::kPositionOff);
+  scene_.photos[5].may_be_bays_off = true;
+  EXPECT_EQ(JudgePose(scene_, 5), RecordVerdict::kContradicts);
+  scene_.photos[5].prior->position += Eigen::Vector3d(0, 25, 0);  // so many bays it is not
+  EXPECT_EQ(JudgePose(scene_, 5), RecordVerdict::kPositionOff);
+}
+
 TEST_F(WrongPosesTest, RecordsThatContradictMostPosesAreWrongThemselves) {
   for (size_t i = 0; i < 18; ++i) {
     scene_.photos[i].attitude->cam_from_world =

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "survey/plan.h"
+
+namespace stucco {
+
+// What the map that a flight was planned on says of the site, in one frame, metres, z up.
+struct SiteMap {
+  std::vector<PlannedFacade> walls;
+  std::vector<PlannedFootprint> footprints;
+};
+
+// A point counts for a wall only this far above its foot and below its top: what lies nearer may
+// belong to ground or roof.
+inline constexpr double kOffWallEnds_m = 1;
+
+// How far before the wall a point lies; nothing where it lies beside, above or below it.
+std::optional<double> BeforeWall(const PlannedFacade& wall, const Eigen::Vector3d& point);
+
+// The level shift, metres, that brings points onto walls and, of those high above the ground, into
+// footprints: of a grid of 6 m each way the one where the two shares of what is most for each add
+// up to most, refined by least squares over the points on walls. Where few walls show, others a
+// few metres beside lie as well under the points, but not the roofs. Zero where hardly any point
+// lies on a wall then.
+Eigen::Vector2d ShiftOntoMap(std::span<const Eigen::Vector3d> points, const SiteMap& map);
+
+}  // namespace stucco
