@@ -58,7 +58,8 @@ Pose CameraPose(const PlacedPlan& placed, const Eigen::Vector3d& position_m,
 // can.
 std::optional<std::string> WhyBlocked(const SceneShape& scene, const Eigen::Vector3d& place);
 
-// The tree in whose crown a place is, of which no map knows: nothing where there is none.
-std::optional<std::string> CrownAround(const SceneShape& scene, const Eigen::Vector3d& place);
+// The tree in whose crown a place is, or whose leaves the rotors of a drone there would touch, of
+// which no map knows: nothing where there is none.
+std::optional<std::string> TreeInTheWay(const SceneShape& scene, const Eigen::Vector3d& place);
 
 }  // namespace stucco::simulate

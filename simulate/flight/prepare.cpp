@@ -65,12 +65,12 @@ std::vector<BlockedView> LoseBlockedPhotos(const SceneShape& scene, PreparedFlig
     FlownPhoto& photo = prepared.flight.photos[i];
     const Eigen::Vector3d place = photo.cam_from_world.Center();
     const auto why = WhyBlocked(scene, place);
-    const auto crown = why ? std::nullopt : CrownAround(scene, place);
-    if (!why && !crown) continue;
+    const auto tree = why ? std::nullopt : TreeInTheWay(scene, place);
+    if (!why && !tree) continue;
     photo.lost = true;
     prepared.shots[i].lost = true;
     if (prepared.shots[i].duplicate_of >= 0) continue;
-    blocked.push_back({photo.view, why ? *why : "stands in " + *crown, why.has_value()});
+    blocked.push_back({photo.view, why ? *why : "stands in " + *tree, why.has_value()});
   }
   return blocked;
 }
@@ -125,7 +125,7 @@ void AddHeldOut(const SceneShape& scene, const Camera& lens, const FlightOptions
     for (; attempt < kAttempts; ++attempt) {
       const Shot shot = HeldOutShot(prepared.plan, shots, options, number, attempt);
       const Pose pose = CameraPose(prepared.placed, shot.position_m, shot.angles);
-      if (WhyBlocked(scene, pose.Center()) || CrownAround(scene, pose.Center()) ||
+      if (WhyBlocked(scene, pose.Center()) || TreeInTheWay(scene, pose.Center()) ||
           !HasClearView(scene, pose)) {
         continue;
       }

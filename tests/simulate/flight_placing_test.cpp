@@ -190,10 +190,11 @@ TEST(Placing, CamerasInTheCrownsOfTreesAreFound) {
     }
     return hit;
   };
-  EXPECT_EQ(CrownAround(scene, crown), "occluder/tree-001");
-  EXPECT_EQ(CrownAround(scene, crown + Eigen::Vector3d(2.5, 0, 0)), "occluder/tree-001");
-  EXPECT_EQ(CrownAround(scene, crown + Eigen::Vector3d(3.1, 0, 0)), std::nullopt);
-  EXPECT_EQ(CrownAround(scene, {6, -15, 5}), std::nullopt);
+  EXPECT_EQ(TreeInTheWay(scene, crown), "occluder/tree-001");
+  EXPECT_EQ(TreeInTheWay(scene, crown + Eigen::Vector3d(2.5, 0, 0)), "occluder/tree-001");
+  EXPECT_EQ(TreeInTheWay(scene, crown + Eigen::Vector3d(3.2, 0, 0)), "occluder/tree-001");
+  EXPECT_EQ(TreeInTheWay(scene, crown + Eigen::Vector3d(3.5, 0, 0)), std::nullopt);
+  EXPECT_EQ(TreeInTheWay(scene, {6, -15, 5}), std::nullopt);
   // The views there are lost, however many they are; the plan cannot know.
   Plan plan = MadePlan(20);
   for (int i = 0; i < 6; ++i) plan.views[i].position_m = crown;
