@@ -57,6 +57,7 @@ std::vector<Arm> AboutMiddles(const std::vector<std::vector<Arm>>& flights, doub
     for (const Arm& arm : flight) mean += arm.posed;
     mean /= static_cast<double>(flight.size());
     std::vector<Eigen::Vector2d> off;
+    off.reserve(flight.size());
     for (const Arm& arm : flight) {
       off.emplace_back(arm.recorded - mean - Eigen::Rotation2Dd(turn_rad) * (arm.posed - mean));
     }
@@ -68,9 +69,9 @@ std::vector<Arm> AboutMiddles(const std::vector<std::vector<Arm>>& flights, doub
 
 }  // namespace
 
-Heading HeadingByPositions(const std::vector<PoseRecord>& records, const Scene& scene) {
+SceneHeading HeadingByPositions(const std::vector<PoseRecord>& records, const Scene& scene) {
   const std::vector<std::vector<Arm>> flights = FlightsOf(records, scene);
-  Heading heading;
+  SceneHeading heading;
   if (flights.empty()) return heading;
   for (int round = 0; round < kHeadingRounds; ++round) {
     const std::vector<Arm> arms = AboutMiddles(flights, heading.turn_rad);

@@ -11,7 +11,7 @@
 namespace stucco {
 
 // How far a scene is turned about up against its photos' recorded positions.
-struct Heading {
+struct SceneHeading {
   double turn_rad = 0;                  // that makes the scene fit, counter-clockwise from above
   double sigma_rad = std::numbers::pi;  // of the turn
 };
@@ -19,6 +19,6 @@ struct Heading {
 // By least squares with Cauchy weights, each flight about its own middle: receivers err by a shift
 // that may differ from flight to flight. Photos without a pose or a recorded position say nothing,
 // nor does a flight of a single one.
-Heading HeadingByPositions(const std::vector<PoseRecord>& records, const Scene& scene);
+SceneHeading HeadingByPositions(const std::vector<PoseRecord>& records, const Scene& scene);
 
 }  // namespace stucco

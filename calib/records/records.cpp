@@ -383,7 +383,7 @@ RecordErrors MeasureRecordErrors(const std::vector<PoseRecord>& records, const S
   flight_of_photo.reserve(records.size());
   for (const PoseRecord& record : records) flight_of_photo.push_back(record.flight);
   const std::vector<FlightTie> ties = TiesOfFlights(flight_of_photo, scene);
-  const Heading heading = HeadingByPositions(records, scene);
+  const SceneHeading heading = HeadingByPositions(records, scene);
   // Turned as positions say: what all flights' compasses have in common with a scene that has
   // turned away from its records would be taken for theirs, and hold it there. Control knows
   // better.

@@ -30,7 +30,7 @@ TEST(HeadingByPositions, IsWhatTurnsTheSceneBack) {
   for (const double turn : {0.0, 0.5, -4.0}) {
     Scene turned = scene;
     TurnAboutUp(turn * kDegree, turned);
-    const Heading heading = HeadingByPositions(records, turned);
+    const SceneHeading heading = HeadingByPositions(records, turned);
     EXPECT_LT(heading.sigma_rad, 0.12 * kDegree);
     EXPECT_NEAR(heading.turn_rad, -turn * kDegree, 3 * heading.sigma_rad);
   }
@@ -42,7 +42,7 @@ TEST(HeadingByPositions, StatesHowSureItIs) {
   constexpr int kTimes = 60;
   for (int seed = 1; seed <= kTimes; ++seed) {
     const auto records = MakeRecords(scene, {.seed = static_cast<uint32_t>(seed)});
-    const Heading heading = HeadingByPositions(records, scene);
+    const SceneHeading heading = HeadingByPositions(records, scene);
     squares += std::pow(heading.turn_rad / heading.sigma_rad, 2);
   }
   EXPECT_GT(std::sqrt(squares / kTimes), 0.7);
@@ -57,7 +57,7 @@ TEST(HeadingByPositions, IsNotTurnedByShiftsOfFlightsOrWildPositions) {
     records[i].position->position.x() += i < 50 ? 3 : -3;
     if (i % 5 == 0) records[i].position->position += Eigen::Vector3d(30, -10, 3);
   }
-  const Heading heading = HeadingByPositions(records, scene);
+  const SceneHeading heading = HeadingByPositions(records, scene);
   EXPECT_LT(heading.sigma_rad, 0.3 * kDegree);
   EXPECT_NEAR(heading.turn_rad, 0, 3 * heading.sigma_rad);
 }
