@@ -42,10 +42,15 @@ std::vector<std::vector<Arm>> FlightsOf(const std::vector<PoseRecord>& records,
     flights[records[i].flight].push_back(
         {scene.photos[i].pose->Center().head<2>(), records[i].position->position.head<2>()});
   }
-  std::vector<std::vector<Arm>> result;
+  std::vector<std::vector<Arm>> result(1);  // what has no shift of its own, together
   for (auto& [flight, arms] : flights) {
-    if (arms.size() > 1) result.push_back(std::move(arms));
+    if (arms.size() < kEnoughForOneFlight) {
+      result[0].insert(result[0].end(), arms.begin(), arms.end());
+    } else {
+      result.push_back(std::move(arms));
+    }
   }
+  std::erase_if(result, [](const std::vector<Arm>& arms) { return arms.size() < 2; });
   return result;
 }
 

@@ -17,8 +17,8 @@ struct SceneHeading {
 };
 
 // By least squares with Cauchy weights, each flight about its own middle: receivers err by a shift
-// that may differ from flight to flight. Photos without a pose or a recorded position say nothing,
-// nor does a flight of a single one.
+// that may differ from flight to flight. Flights too small for a shift of their own count as one.
+// Photos that are no witnesses of positions say nothing.
 SceneHeading HeadingByPositions(const std::vector<PoseRecord>& records, const Scene& scene);
 
 }  // namespace stucco

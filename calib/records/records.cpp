@@ -26,6 +26,8 @@ constexpr double kLeastPosition_m = 0.01;
 constexpr double kLeastHover_m = 0.02;
 constexpr double kLeastAttitude_rad = 0.05 * std::numbers::pi / 180;
 constexpr int kReweightings = 10;
+// Median of the length of a three-dimensional normal vector with unit variances.
+constexpr double kMaxwellMedian = 1.5382;
 constexpr double kExpectedMount_rad = 2 * std::numbers::pi / 180;
 constexpr double kExpectedTilt_rad = 5 * std::numbers::pi / 180;
 // Flights that nothing ties have their heading from their own positions, to no better than this.
@@ -177,8 +179,6 @@ void MeasurePositions(const std::vector<PositionError>& all, PositionFrame frame
 
 // Of single photos about the places of their hovers.
 double MeasureHovers(const std::vector<PoseRecord>& records, const Scene& scene) {
-  // Median of the length of a three-dimensional normal vector with unit variances.
-  constexpr double kMaxwellMedian = 1.5382;
   std::map<int, std::vector<Eigen::Vector3d>> places;
   for (size_t i = 0; i < records.size(); ++i) {
     if (records[i].hover < 0 || !scene.photos[i].pose) continue;
@@ -297,12 +297,14 @@ AttitudeFit FitAttitudes(const std::vector<AttitudePair>& pairs, const AttitudeU
     }
     const Eigen::LDLT<Eigen::MatrixXd> factors(normal);
     fit.values = factors.solve(sum);
-    std::vector<double> absolute;
+    // Of whole turns, as poses are judged by them: compasses are worse than levels, and the middle
+    // one of all axes would be that of a level.
+    std::vector<double> turns;
+    turns.reserve(rows.size());
     for (size_t i = 0; i < rows.size(); ++i) {
-      const Eigen::Vector3d rest = right[i] - rows[i] * fit.values;
-      for (int axis = 0; axis < 3; ++axis) absolute.push_back(std::abs(rest[axis]));
+      turns.push_back((right[i] - rows[i] * fit.values).norm());
     }
-    scale = std::max(kLeastAttitude_rad, MedianOf(std::move(absolute)) / kMedianOfNormal);
+    scale = std::max(kLeastAttitude_rad, MedianOf(std::move(turns)) / kMaxwellMedian);
     fit.sigmas =
         scale * factors.solve(Eigen::MatrixXd::Identity(size, size)).diagonal().cwiseSqrt();
   }

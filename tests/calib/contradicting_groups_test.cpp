@@ -49,7 +49,7 @@ TEST_F(ContradictingGroupsTest, NoneAreFoundWhereRecordsAreNoise) {
 
 // Each agrees with its own record; all together cannot.
 TEST_F(ContradictingGroupsTest, APartThatIsTurnedIsFoundAndMended) {
-  Turn({0, 1, 2, 3, 4, 5, 6, 7}, 0.9 * kDegree);
+  Turn({0, 1, 2, 3, 4, 5, 6, 7}, 1.0 * kDegree);
   for (int photo = 0; photo < 8; ++photo) {
     ASSERT_EQ(JudgePose(scene_, photo), RecordVerdict::kAgrees);
   }

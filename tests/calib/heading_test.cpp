@@ -62,6 +62,16 @@ TEST(HeadingByPositions, IsNotTurnedByShiftsOfFlightsOrWildPositions) {
   EXPECT_NEAR(heading.turn_rad, 0, 3 * heading.sigma_rad);
 }
 
+TEST(HeadingByPositions, TakesSmallFlightsTogether) {
+  Scene scene = MakeFlightOver(100);
+  auto records = MakeRecords(scene, {});
+  for (size_t i = 0; i < records.size(); ++i) records[i].flight = static_cast<int>(i);
+  TurnAboutUp(1 * kDegree, scene);
+  const SceneHeading heading = HeadingByPositions(records, scene);
+  EXPECT_LT(heading.sigma_rad, 0.12 * kDegree);
+  EXPECT_NEAR(heading.turn_rad, -1 * kDegree, 3 * heading.sigma_rad);
+}
+
 TEST(HeadingByPositions, IsUnknownWithoutPositions) {
   const Scene scene = MakeFlightOver(12);
   auto records = MakeRecords(scene, {});
