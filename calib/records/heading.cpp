@@ -15,7 +15,6 @@ namespace stucco {
 namespace {
 
 constexpr int kHeadingRounds = 10;
-constexpr double kLeastScale_m = 0.01;
 
 // Where a photo stands and where its record has it, about the middles of both in its flight.
 struct Arm {
@@ -89,7 +88,7 @@ SceneHeading HeadingByPositions(const std::vector<PoseRecord>& records, const Sc
       rests.push_back(std::abs(rest.y()));
     }
     const double scale =
-        std::max(kLeastScale_m, Median(std::move(rests)).value_or(0) / kMedianOfNormal);
+        std::max(kLeastPosition_m, Median(std::move(rests)).value_or(0) / kMedianOfNormal);
     double squares = 0;
     double moment = 0;
     for (size_t i = 0; i < arms.size(); ++i) {

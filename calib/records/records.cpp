@@ -21,9 +21,8 @@ namespace {
 
 constexpr int kEnoughAtAll = 4;
 constexpr double kSignificant = 3;  // of its own standard deviation
-// Receivers are no better than this among themselves, gimbals no better than they write.
-constexpr double kLeastPosition_m = 0.01;
 constexpr double kLeastHover_m = 0.02;
+// Gimbals are no better than they write.
 constexpr double kLeastAttitude_rad = 0.05 * std::numbers::pi / 180;
 constexpr int kReweightings = 10;
 // Median of the length of a three-dimensional normal vector with unit variances.

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "survey/geometry2d.h"
@@ -20,6 +21,7 @@ constexpr size_t kMostWallPoints = 20000;
 constexpr size_t kMostRoofPoints = 5000;
 constexpr double kMostOffset_m = 6;
 constexpr double kStep_m = 0.5;
+constexpr double kOffWallEnds_m = 1;  // what lies nearer may belong to ground or roof
 constexpr double kOnWall_m = 0.4;
 constexpr double kHigh_m = 3;  // above the foot of a building: no car, hedge or fence
 constexpr size_t kLeastOnWalls = 100;

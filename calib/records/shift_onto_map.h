@@ -17,11 +17,8 @@ struct SiteMap {
   std::vector<PlannedFootprint> footprints;
 };
 
-// A point counts for a wall only this far above its foot and below its top: what lies nearer may
-// belong to ground or roof.
-inline constexpr double kOffWallEnds_m = 1;
-
-// How far before the wall a point lies; nothing where it lies beside, above or below it.
+// How far before the wall a point lies; nothing where it lies beside, above or below it, or within
+// a metre of its foot or top, where it may belong to ground or roof.
 std::optional<double> BeforeWall(const PlannedFacade& wall, const Eigen::Vector3d& point);
 
 // The level shift, metres, that brings points onto walls and, of those high above the ground, into
