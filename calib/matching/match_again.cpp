@@ -20,6 +20,8 @@ namespace {
 
 // How often another bay may be the right one.
 constexpr double kWrongBay = 1e-3;
+// More than this is no error of the poses: smaller things than bays repeat themselves too.
+constexpr double kMostSigmas = 3.5;
 constexpr size_t kLeastMatches = 8;
 constexpr double kAgreeingShift_m = 0.5;
 // Matches are looked for so near to where it was told that they are.
@@ -32,11 +34,11 @@ Eigen::Vector2d ShiftSigma(const AgainInput& input, int first, int second, doubl
   return (variances.array() + kOffWall_m * kOffWall_m).sqrt();
 }
 
-// Takes off what does not share the shift of most, and all where the poses do not tell which bay
-// is the right one: shifts that differ by a period have the odds of their squares under the
-// poses' standard deviation.
-void KeepSure(const Shown& first, const Shown& second, double period_m, double sigma_m,
-              std::vector<Match>& matches) {
+// Takes off what does not share the shift of most, and all where the poses rule this shift out or
+// do not tell which bay is the right one: shifts that differ by a period have the odds of their
+// squares under the poses' standard deviations.
+void KeepSure(const Shown& first, const Shown& second, double period_m,
+              const Eigen::Vector2d& sigma_m, std::vector<Match>& matches) {
   std::vector<double> along;
   std::vector<double> up;
   const auto shift_of = [&](const Match& match) {
@@ -54,9 +56,11 @@ void KeepSure(const Shown& first, const Shown& second, double period_m, double s
   std::erase_if(matches, [&](const Match& match) {
     return (shift_of(match) - middle).norm() > kAgreeingShift_m;
   });
-  const double log_odds =
-      period_m * (period_m - 2 * middle.lpNorm<Eigen::Infinity>()) / (2 * sigma_m * sigma_m);
-  if (matches.size() < kLeastMatches || log_odds < -std::log(kWrongBay)) matches.clear();
+  const double log_odds = period_m * (period_m - 2 * middle.lpNorm<Eigen::Infinity>()) /
+                          (2 * std::pow(sigma_m.maxCoeff(), 2));
+  const bool is_sure =
+      middle.cwiseQuotient(sigma_m).norm() < kMostSigmas && log_odds > -std::log(kWrongBay);
+  if (matches.size() < kLeastMatches || !is_sure) matches.clear();
 }
 
 // A wall that both photos show.
@@ -90,7 +94,7 @@ std::vector<Match> MatchPosed(const AgainInput& input, const SharedWall& shared)
   // No more than one of the bays lies within half a period.
   std::vector<Match> matches = MatchWithin(shared.first.on_wall, shared.second.on_wall,
                                            period_m / 2, input.options.match_ratio);
-  KeepSure(shared.first, shared.second, period_m, shared.sigma_m.maxCoeff(), matches);
+  KeepSure(shared.first, shared.second, period_m, shared.sigma_m, matches);
   return matches;
 }
 

@@ -15,6 +15,9 @@ namespace {
 
 // Of a photo that was placed on a wall, per axis.
 constexpr double kPlacedSigma_m = 0.15;
+// Walls at the edge of a photo show too little to place it by: these have as much of what the wall
+// that fills it has.
+constexpr double kOfMost = 0.5;
 // A wall in as many steps at the most: each goes on by half a photo or so.
 constexpr int kMostSteps = 20;
 
@@ -80,7 +83,10 @@ class Placing {
   }
 
   std::optional<Pose> Place(int photo) const {
+    size_t most = 0;
+    for (const auto& [wall, shown] : shown_[photo]) most = std::max(most, shown.of_photo.size());
     for (const auto& [wall, shown] : shown_[photo]) {
+      if (shown.of_photo.size() < kOfMost * most) continue;
       if (const auto told = TellOn(photo, wall, shown)) return Moved(photo, wall, *told);
     }
     return std::nullopt;

@@ -17,28 +17,33 @@ namespace {
 
 using Eigen::Vector2d;
 
+// What poses do not rule out by itself, in standard deviations.
 constexpr double kReachSigmas = 3.5;
+// How often what is as far off as a rival may be the right one.
+constexpr double kRuledOut = 1e-3;
 // One place in two photos differs by 0.25 to 0.35 at the median.
 constexpr double kAlike_rad = 0.45;
 constexpr double kUnlike_rad = 0.6;  // what counts where nothing alike is found
 constexpr double kUndecided_rad = 0.08;
+// Of what two bays show: keypoints that both have cannot tell which is which.
+constexpr double kTwin_rad = 0.3;
 constexpr double kLikeBlob = 2;
 constexpr double kCell_m = 0.1;
 constexpr int kSmooth_cells = 5;
 // Of places that are one; relief and the keypoints' own errors.
 constexpr double kSamePlace_m = 0.2;
 constexpr double kOtherShift_m = 0.5;
-constexpr int kMostShifts = 16;
+constexpr int kMostShifts = 24;
 constexpr double kScaleWeight = 10;  // square metres of keypoints
 constexpr int kLeastVotes = 40;
 constexpr double kAhead = 4;
-// How often what is as far off as a rival may be the right one.
-constexpr double kRuledOut = 1e-3;
 
-// Keypoints of the second photo that look like one of the first.
+// A keypoint of one of the others that looks like one of the first.
 struct Like {
   Vector2d place;
   double angle_rad = 0;
+  const int16_t* descriptor = nullptr;
+  float scale_m = 0;
 };
 using Likes = std::vector<std::vector<Like>>;  // by keypoint of the first
 
@@ -52,31 +57,54 @@ Vector2d MiddleOf(const WallKeypoints& keypoints) {
   return sum / std::max(1.0, static_cast<double>(keypoints.places.size()));
 }
 
-void AddLikes(const WallKeypoints& first, const WallKeypoints& other, double reach_m,
-              Likes& likes) {
-  const AlongOrder columns = SortAlong(other);
-  std::vector<int32_t> products(other.places.size());
-  for (size_t i = 0; i < likes.size(); ++i) {
-    const OnWall& here = first.places[i];
-    const auto column = [&](double at) {
-      return std::lower_bound(columns.along_m.begin(), columns.along_m.end(), at) -
-             columns.along_m.begin();
-    };
-    const auto begin = column(here.along_m - reach_m);
-    const auto end = column(here.along_m + reach_m);
-    DotProducts(first.descriptors.data() + i * kDescriptorSize,
-                columns.descriptors.data() + begin * kDescriptorSize, static_cast<int>(end - begin),
-                products.data());
-    for (auto c = begin; c < end; ++c) {
-      const OnWall& there = other.places[columns.index[c]];
-      const double size = there.scale_m / here.scale_m;
-      if (std::abs(there.z_m - here.z_m) > reach_m || size > kLikeBlob || size * kLikeBlob < 1)
-        continue;
-      const double angle = DescriptorAngle(products[c - begin]);
-      if (angle < kAlike_rad) likes[i].push_back({PlaceOf(there), angle});
+// What the others show, ready to be looked up by place.
+class ShownByOthers {
+ public:
+  explicit ShownByOthers(const std::vector<const WallKeypoints*>& others) : others_(others) {
+    columns_.reserve(others.size());
+    for (const WallKeypoints* other : others) columns_.push_back(SortAlong(*other));
+  }
+
+  // Those of like size within the reach, along the wall and up.
+  void FindLike(const int16_t* descriptor, const OnWall& about, double reach_m,
+                std::vector<Like>& likes) const {
+    std::vector<int32_t> products;
+    for (size_t o = 0; o < others_.size(); ++o) {
+      const AlongOrder& columns = columns_[o];
+      const auto column = [&](double at) {
+        return std::ranges::lower_bound(columns.along_m, at) - columns.along_m.begin();
+      };
+      const auto begin = column(about.along_m - reach_m);
+      const auto end = column(about.along_m + reach_m);
+      products.resize(end - begin);
+      const int16_t* rows = columns.descriptors.data() + begin * kDescriptorSize;
+      DotProducts(descriptor, rows, static_cast<int>(end - begin), products.data());
+      for (auto c = begin; c < end; ++c) {
+        const OnWall& there = others_[o]->places[columns.index[c]];
+        const double size = there.scale_m / about.scale_m;
+        if (std::abs(there.z_m - about.z_m) > reach_m || size > kLikeBlob || size * kLikeBlob < 1)
+          continue;
+        const double angle = DescriptorAngle(products[c - begin]);
+        if (angle >= kAlike_rad) continue;
+        likes.push_back(
+            {PlaceOf(there), angle, rows + (c - begin) * kDescriptorSize, there.scale_m});
+      }
     }
   }
-}
+
+  // Whether they show the same there as what is elsewhere.
+  bool ShowTwin(const Like& elsewhere, const Vector2d& place) const {
+    std::vector<Like> likes;
+    FindLike(elsewhere.descriptor,
+             {static_cast<float>(place.x()), static_cast<float>(place.y()), elsewhere.scale_m},
+             kSamePlace_m, likes);
+    return std::ranges::any_of(likes, [](const Like& each) { return each.angle_rad < kTwin_rad; });
+  }
+
+ private:
+  const std::vector<const WallKeypoints*>& others_;
+  std::vector<AlongOrder> columns_;
+};
 
 // The most alike of those near a place.
 const Like* BestNear(const std::vector<Like>& likes, const Vector2d& place, double near_m) {
@@ -163,20 +191,23 @@ WallFromWall Fit(const BayQuestion& question, const Likes& likes, const Vector2d
 struct BayShift {
   WallFromWall from;
   Vector2d shift = Vector2d::Zero();  // of those that have their like there, the mean
-  std::vector<float> angle_rad;       // by keypoint, to its like; kUnlike_rad where it has none
+  std::vector<Vector2d> places;       // by keypoint
+  std::vector<const Like*> likes;     // by keypoint, of Likes; null: none
   std::vector<bool> shown;            // by keypoint: whether the others show its place
   int alike = 0;
 };
 
 BayShift Judge(const BayQuestion& question, const Likes& likes, const WallFromWall& from) {
-  BayShift judged{from, Vector2d::Zero(), {}, {}, 0};
-  judged.angle_rad.reserve(likes.size());
+  BayShift judged{from, Vector2d::Zero(), {}, {}, {}, 0};
+  judged.places.reserve(likes.size());
+  judged.likes.reserve(likes.size());
   judged.shown.reserve(likes.size());
   for (size_t i = 0; i < likes.size(); ++i) {
     const Vector2d at = PlaceOf(question.first.places[i]);
     const Vector2d place = from * at.homogeneous();
     const Like* like = BestNear(likes[i], place, kSamePlace_m);
-    judged.angle_rad.push_back(static_cast<float>(like != nullptr ? like->angle_rad : kUnlike_rad));
+    judged.places.push_back(place);
+    judged.likes.push_back(like);
     judged.shown.push_back(question.others_show(place));
     if (like == nullptr) continue;
     ++judged.alike;
@@ -186,12 +217,18 @@ BayShift Judge(const BayQuestion& question, const Likes& likes, const WallFromWa
   return judged;
 }
 
+// In standard deviations.
+double OffBy(const BayQuestion& question, const Vector2d& shift) {
+  return shift.cwiseQuotient(question.sigma_m).norm();
+}
+
+// Of the farthest that what is told may have to be held against.
+double RivalSigmas() {
+  return std::sqrt(kReachSigmas * kReachSigmas - 2 * std::log(kRuledOut));
+}
+
 // All that many keypoints have their like at, about where the poses put these.
-std::vector<BayShift> FindShifts(const BayQuestion& question, double reach_m) {
-  Likes likes(question.first.places.size());
-  for (const WallKeypoints* other : question.others) {
-    AddLikes(question.first, *other, reach_m + kOtherShift_m, likes);
-  }
+std::vector<BayShift> FindShifts(const BayQuestion& question, const Likes& likes, double reach_m) {
   ShiftVotes votes(reach_m);
   for (size_t i = 0; i < likes.size(); ++i) {
     for (const Like& like : likes[i]) votes.Add(like.place - PlaceOf(question.first.places[i]));
@@ -207,7 +244,7 @@ std::vector<BayShift> FindShifts(const BayQuestion& question, double reach_m) {
     const bool same = std::ranges::any_of(shifts, [&](const BayShift& each) {
       return (each.shift - found.shift).norm() < kOtherShift_m;
     });
-    if (!same && found.alike >= kLeastVotes / 2 && found.shift.norm() < reach_m)
+    if (!same && found.alike >= kLeastVotes / 2 && OffBy(question, found.shift) < RivalSigmas())
       shifts.push_back(std::move(found));
   }
   return shifts;
@@ -219,46 +256,59 @@ struct Sides {
   int behind = 0;
 };
 
-Sides Compare(const BayShift& one, const BayShift& other) {
+double AngleOf(const Like* like) {
+  return like != nullptr ? like->angle_rad : kUnlike_rad;
+}
+
+Sides Compare(const ShownByOthers& others, const BayShift& one, const BayShift& other) {
   Sides sides;
-  for (size_t i = 0; i < one.angle_rad.size(); ++i) {
+  for (size_t i = 0; i < one.likes.size(); ++i) {
     if (!one.shown[i] || !other.shown[i]) continue;
-    const double nearer = other.angle_rad[i] - one.angle_rad[i];
-    sides.ahead += nearer > kUndecided_rad;
-    sides.behind += nearer < -kUndecided_rad;
+    const double nearer = AngleOf(other.likes[i]) - AngleOf(one.likes[i]);
+    if (std::abs(nearer) <= kUndecided_rad) continue;
+    const bool ahead = nearer > 0;
+    if (others.ShowTwin(*(ahead ? one : other).likes[i], (ahead ? other : one).places[i])) continue;
+    ++(ahead ? sides.ahead : sides.behind);
   }
   return sides;
 }
 
-// In standard deviations.
-double OffBy(const BayQuestion& question, const Vector2d& shift) {
-  return shift.cwiseQuotient(question.sigma_m).norm();
-}
-
-// By the poses alone.
-bool IsRuledOut(const BayQuestion& question, const BayShift& best, const BayShift& rival) {
+// How much of what is asked of keypoints the poses leave to them: nothing where they rule the rival
+// out by themselves.
+double LeftToKeypoints(const BayQuestion& question, const BayShift& best, const BayShift& rival) {
   const double log_odds =
       (std::pow(OffBy(question, rival.shift), 2) - std::pow(OffBy(question, best.shift), 2)) / 2;
-  return log_odds > -std::log(kRuledOut);
+  return std::clamp(1 + log_odds / std::log(kRuledOut), 0.0, 1.0);
 }
 
 }  // namespace
 
 std::optional<WallFromWall> TellBay(const BayQuestion& question) {
-  std::vector<BayShift> shifts = FindShifts(question, kReachSigmas * question.sigma_m.maxCoeff());
-  std::erase_if(shifts,
-                [&](const BayShift& each) { return OffBy(question, each.shift) > kReachSigmas; });
-  if (shifts.empty()) return std::nullopt;
-  const BayShift* best = shifts.data();
-  for (const BayShift& each : shifts) {
-    const Sides sides = Compare(each, *best);
-    if (sides.ahead > sides.behind) best = &each;
+  const double reach_m = RivalSigmas() * question.sigma_m.maxCoeff();
+  const ShownByOthers others(question.others);
+  Likes likes(question.first.places.size());
+  for (size_t i = 0; i < likes.size(); ++i) {
+    others.FindLike(question.first.descriptors.data() + i * kDescriptorSize,
+                    question.first.places[i], reach_m + kOtherShift_m, likes[i]);
   }
-  if (best->alike < kLeastVotes) return std::nullopt;
+  const std::vector<BayShift> shifts = FindShifts(question, likes, reach_m);
+  const BayShift* best = nullptr;
+  for (const BayShift& each : shifts) {
+    if (OffBy(question, each.shift) > kReachSigmas) continue;
+    if (best != nullptr) {
+      const Sides sides = Compare(others, each, *best);
+      if (sides.ahead <= sides.behind) continue;
+    }
+    best = &each;
+  }
+  if (best == nullptr || best->alike < kLeastVotes) return std::nullopt;
   const bool told = std::ranges::all_of(shifts, [&](const BayShift& rival) {
-    if (&rival == best || IsRuledOut(question, *best, rival)) return true;
-    const Sides sides = Compare(*best, rival);
-    return sides.ahead >= kLeastVotes && sides.ahead >= kAhead * sides.behind;
+    if (&rival == best) return true;
+    const double left = LeftToKeypoints(question, *best, rival);
+    if (left == 0) return true;
+    const Sides sides = Compare(others, *best, rival);
+    return sides.ahead >= left * kLeastVotes &&
+           sides.ahead >= std::pow(kAhead, left) * sides.behind;
   });
   return told ? std::optional(best->from) : std::nullopt;
 }

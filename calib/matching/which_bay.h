@@ -26,9 +26,12 @@ using WallFromWall = Eigen::Matrix<double, 2, 3>;
 // Bays that look alike are seldom the same: curtains, stains and what stands before them differ.
 // So every shift that brings many keypoints onto their like is a candidate, each fitted by itself
 // with the scale that goes with it: each keypoint that two of them put where the others show the
-// wall sides with the one where its like is clearly nearer. Nothing unless four in five side with
-// one shift against each of the others: between bays that are the same to the texel keypoints are
-// of two minds. What poses of these standard deviations rule out is neither told nor a rival.
+// wall sides with the one where its like is clearly nearer, unless the others show the same at both
+// places: what differs then is where bays are seen from. Nothing unless four in five side with one
+// shift against each of the others: between bays that are the same to the texel keypoints are of
+// two minds. What poses of these standard deviations rule out is not told, and no rival where it is
+// much farther off than what is: a pose that is off by more than it should be is told nothing
+// rather than the bay on its other side.
 std::optional<WallFromWall> TellBay(const BayQuestion& question);
 
 }  // namespace stucco

@@ -68,6 +68,12 @@ TEST_F(MatchAgainTest, ChoosesNoBayWherePosesDoNotTellIt) {
   EXPECT_TRUE(matched_.verified.empty());
 }
 
+TEST_F(MatchAgainTest, MatchesNothingThatPosesRuleOut) {
+  // What repeats itself within a bay is a metre from its like, and nearer than half a bay.
+  EXPECT_EQ(Again({1, 0, 0}, 0.1), 0);
+  EXPECT_EQ(Again({0, 0, 1}, 0.1), 0);
+}
+
 TEST_F(MatchAgainTest, JoinsTheRightBayWhereBaysDiffer) {
   LetBaysDiffer();
   EXPECT_EQ(Again({1.4, 0, 0.3}, 1), 1);

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calib/matching/place_on_walls.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "tests/calib/expect/made_site.h"
 #include "tests/calib/made_bays.h"
 
@@ -22,6 +25,34 @@ class PlaceOnWallsTest : public BaysTest {
                          KnownPose{Moved(truth_[2], -kOff), {0.7, 0.7}, 1e-3, true}};
     const PhotoSet set = Photos();
     return PlaceOnWalls({options_, set, features_, repeating_, known, context_});
+  }
+
+  // The second photo shows some more of the bays where one beside it would: a wall at its edge, if
+  // walls stood so.
+  Poses PlaceBesideAnEdge() {
+    for (const Pose& pose : {truth_[0], truth_[1]}) Take(pose, false);
+    guidance_.facades[1] = guidance_.facades[0];
+    repeating_.period_m[1] = 3;
+    for (std::vector<int>& walls : repeating_.wall_of) std::ranges::fill(walls, 1);
+    Append(0, SeeBays(truth_[0], false));
+    Features edge = SeeBays(Moved(truth_[1], {3, 0, 0}), false);
+    edge.keypoints.resize(55);
+    Append(1, edge);
+    const Poses known = {KnownPose{truth_[0], {0.05, 0.05}, 1e-3},
+                         KnownPose{Moved(truth_[1], kOff), {0.7, 0.7}, 1e-3, true}};
+    const PhotoSet set = Photos();
+    return PlaceOnWalls({options_, set, features_, repeating_, known, context_});
+  }
+
+  // As of the first wall.
+  void Append(size_t photo, const Features& more) {
+    Features& all = features_.plain[photo];
+    for (size_t i = 0; i < more.keypoints.size(); ++i) {
+      all.keypoints.push_back(more.keypoints[i]);
+      all.colors.push_back(more.colors[i]);
+      all.descriptors.push_back(more.descriptors[i]);
+      repeating_.wall_of[photo].push_back(0);
+    }
   }
 
   inline static const Vector3d kOff{1.8, 0.4, -0.3};
@@ -47,6 +78,12 @@ TEST_F(PlaceOnWallsTest, LeavesAsRecordedWhereBaysAreTheSame) {
     EXPECT_TRUE(placed[i]->is_recorded);
     EXPECT_EQ(placed[i]->sigma_m[0], 0.7);
   }
+}
+
+TEST_F(PlaceOnWallsTest, GoesByTheWallThatFillsThePhoto) {
+  const Poses placed = PlaceBesideAnEdge();
+  ASSERT_FALSE(placed[1]->is_recorded);
+  EXPECT_LT((placed[1]->cam_from_plan.Center() - truth_[1].Center()).norm(), 0.05);
 }
 
 }  // namespace

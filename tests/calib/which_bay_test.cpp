@@ -24,13 +24,20 @@ constexpr int kOfBay = 40;
 // `alike` on differ from the ones in the other bays.
 struct Facade {
   int alike = 20;
+  double noise = 15;
+  // From where a bay is seen shows in what it looks like: of each next one by so much.
+  double per_bay = 0;
+  int bays_beside = 0;  // as the bays so many farther look to the others
 
   // What one photo finds of the bays [from, to): descriptors with its own noise, places where
   // `posed` puts them.
   WallKeypoints See(int from, int to, const WallFromWall& posed, int photo) const {
     WallKeypoints seen;
     std::vector<float> rows;
-    Random noise(70 + photo);
+    Random random(70 + photo);
+    std::array<double, kDescriptorSize> turned;
+    Random turn(60);
+    for (double& value : turned) value = turn.Uniform(-per_bay, per_bay);
     for (int bay = from; bay < to; ++bay) {
       for (int i = 0; i < kOfBay; ++i) {
         Random place(100 + i);
@@ -39,8 +46,9 @@ struct Facade {
         seen.places.push_back({static_cast<float>(at.x()), static_cast<float>(at.y()), 0.05F});
         Random look(i < alike ? 500 + i : 5000 + i + kOfBay * bay);
         for (int k = 0; k < kDescriptorSize; ++k) {
-          rows.push_back(
-              static_cast<float>(std::max(0.0, look.Uniform(0, 100) + noise.Uniform(-15, 15))));
+          const double value = look.Uniform(0, 100) + (bay + bays_beside) * turned[k] +
+                               random.Uniform(-noise, noise);
+          rows.push_back(static_cast<float>(std::max(0.0, value)));
         }
       }
     }
@@ -57,8 +65,10 @@ WallFromWall Posed(const Vector2d& shift, double scale) {
 
 // Both photos show six of the eight bays.
 std::optional<WallFromWall> Tell(const Facade& facade, const WallFromWall& second_posed,
-                                 const Vector2d& sigma_m) {
-  const WallKeypoints first = facade.See(0, 6, Posed({0, 0}, 1), 1);
+                                 const Vector2d& sigma_m, int first_beside = 0) {
+  Facade to_first = facade;
+  to_first.bays_beside = first_beside;
+  const WallKeypoints first = to_first.See(0, 6, Posed({0, 0}, 1), 1);
   const WallKeypoints second = facade.See(2, 8, second_posed, 2);
   const double left = 2 * kBay_m + second_posed(0, 2);
   return TellBay(
@@ -79,6 +89,15 @@ TEST(TellBay, IsOfTwoMindsWhereBaysAreTheSame) {
   EXPECT_FALSE(Tell({kOfBay}, Posed({-1.7, 0.6}, 1.02), {1, 1}));
   EXPECT_FALSE(Tell({kOfBay}, Posed({0, 0}, 1), {1, 1}));
   EXPECT_FALSE(Tell({kOfBay - 1}, Posed({0, 0}, 1), {1, 1}));  // too few to tell
+}
+
+TEST(TellBay, IsNotFooledByWhereBaysThatAreTheSameAreSeenFrom) {
+  // The first photo sees each bay as the second one sees the next: all keypoints side with that.
+  Facade facade{kOfBay, 5, 20};
+  EXPECT_FALSE(Tell(facade, Posed({0.4, 0.1}, 1), {1, 1}, 1));
+  // Not so where the next bay is another.
+  facade.alike = 0;
+  EXPECT_TRUE(Tell(facade, Posed({0.4, 0.1}, 1), {1, 1}, 1));
 }
 
 TEST(TellBay, BelievesNoShiftThatPosesRuleOut) {
@@ -102,6 +121,19 @@ TEST(TellBay, TakesTogetherWhatOthersShow) {
   const Vector2d back =
       *told * (Posed({-1.7, 0.6}, 1.02) * Vector2d(10, 3).homogeneous()).homogeneous();
   EXPECT_LT((back - Vector2d(10, 3)).norm(), 0.05);
+}
+
+TEST(TellBay, IsNotToldTheBayOnTheOtherSideOfTheRightOne) {
+  // Off by 3.7 standard deviations, so that the bay that lies 3.4 to the other side is the nearest.
+  EXPECT_FALSE(Tell({20}, Posed({-1.3, 0}, 1), {0.35, 0.35}));
+  EXPECT_FALSE(Tell({kOfBay}, Posed({-1.3, 0}, 1), {0.35, 0.35}));
+}
+
+TEST(TellBay, AsksLessOfKeypointsWherePosesSpeakToo) {
+  // Of 160 keypoints that both photos show, 28 differ between bays.
+  const Facade facade{33};
+  EXPECT_FALSE(Tell(facade, Posed({-0.1, 0.1}, 1), {2, 2}));
+  EXPECT_TRUE(Tell(facade, Posed({-0.1, 0.1}, 1), {0.8, 0.8}));
 }
 
 TEST(TellBay, NeedNotOutvoteWhatPosesRuleOut) {
