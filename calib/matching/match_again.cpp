@@ -81,7 +81,7 @@ std::vector<Match> MatchTold(const AgainInput& input, int second, const SharedWa
   if (!told) return {};
   WallKeypoints moved = shared.first.on_wall;
   for (OnWall& at : moved.places) {
-    const Eigen::Vector2d place = *told * Eigen::Vector3d(at.along_m, at.z_m, 1);
+    const Eigen::Vector2d place = told->from * Eigen::Vector3d(at.along_m, at.z_m, 1);
     at.along_m = static_cast<float>(place.x());
     at.z_m = static_cast<float>(place.y());
   }

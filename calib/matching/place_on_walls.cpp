@@ -18,8 +18,11 @@ constexpr double kPlacedSigma_m = 0.15;
 // Walls at the edge of a photo show too little to place it by: these have as much of what the wall
 // that fills it has.
 constexpr double kOfMost = 0.5;
+// Sixteen to one where four are asked for: no need to wait for more.
+constexpr double kSure = 2;
+constexpr double kOfSurest = 0.75;
 // A wall in as many steps at the most: each goes on by half a photo or so.
-constexpr int kMostSteps = 20;
+constexpr int kMostSteps = 40;
 
 struct Range {
   double from_m = std::numeric_limits<double>::infinity();
@@ -42,7 +45,8 @@ class Placing {
         context_(input.context),
         poses_(input.poses),
         input_{input.options, input.set, input.features, input.repeating, poses_, input.context},
-        shown_(poses_.size()) {}
+        shown_(poses_.size()),
+        asked_(poses_.size()) {}
 
   std::vector<std::optional<KnownPose>> Run() {
     std::vector<int> all(poses_.size());
@@ -51,7 +55,7 @@ class Placing {
     std::vector<int> open = all;
     std::erase_if(open, [&](int i) { return shown_[i].empty() || !poses_[i]->is_recorded; });
     for (int step = 0; step < kMostSteps && !open.empty(); ++step) {
-      const std::vector<int> placed = PlaceAll(open);
+      const std::vector<int> placed = PlaceSurest(open);
       if (placed.empty()) break;
       Look(placed);
       std::erase_if(open, [&](int i) { return std::ranges::binary_search(placed, i); });
@@ -65,46 +69,86 @@ class Placing {
                 [&](size_t k) { shown_[photos[k]] = ShowWalls(input_, photos[k]); });
   }
 
-  // Those that could be placed, ascending.
-  std::vector<int> PlaceAll(const std::vector<int>& open) {
-    std::vector<std::optional<Pose>> told(open.size());
+  struct Place {
+    Pose cam_from_plan;
+    double sureness = 1;
+  };
+  // Which bay of a wall a photo shows.
+  struct Question {
+    int wall = 0;
+    Eigen::Vector2d sigma_m = Eigen::Vector2d::Zero();
+    std::vector<int> others;
+  };
+  struct Asked {
+    size_t num_others = 0;
+    std::optional<Place> place;
+  };
+
+  // Those that could be placed most surely, ascending: the others are asked again once these show
+  // the wall too, from where they do, which may be the right side.
+  std::vector<int> PlaceSurest(const std::vector<int>& open) {
+    std::vector<std::optional<Place>> told(open.size());
     ParallelFor(open.size(), context_.threads, [&](size_t k) {
       context_.ThrowIfCancelled();
-      told[k] = Place(open[k]);
+      told[k] = FindPlace(open[k]);
     });
+    double surest = 0;
+    for (const auto& place : told) {
+      if (place) surest = std::max(surest, std::min(kSure, place->sureness));
+    }
     std::vector<int> placed;
     for (size_t k = 0; k < open.size(); ++k) {
-      if (!told[k]) continue;
+      if (!told[k] || told[k]->sureness < kOfSurest * surest) continue;
       KnownPose& known = *poses_[open[k]];
-      known = {*told[k], {kPlacedSigma_m, kPlacedSigma_m}, known.sigma_rad, false};
+      known = {told[k]->cam_from_plan, {kPlacedSigma_m, kPlacedSigma_m}, known.sigma_rad, false};
       placed.push_back(open[k]);
     }
     return placed;
   }
 
-  std::optional<Pose> Place(int photo) const {
+  // Asks again only where others have come since: these stay where they are.
+  std::optional<Place> FindPlace(int photo) {
     size_t most = 0;
     for (const auto& [wall, shown] : shown_[photo]) most = std::max(most, shown.of_photo.size());
+    std::vector<Question> questions;
+    size_t num_others = 0;
     for (const auto& [wall, shown] : shown_[photo]) {
       if (shown.of_photo.size() < kOfMost * most) continue;
-      if (const auto told = TellOn(photo, wall, shown)) return Moved(photo, wall, *told);
+      questions.push_back(AskOn(photo, wall, shown));
+      num_others += questions.back().others.size();
+    }
+    if (num_others != asked_[photo].num_others) {
+      asked_[photo] = {num_others, Answer(photo, questions)};
+    }
+    return asked_[photo].place;
+  }
+
+  std::optional<Place> Answer(int photo, const std::vector<Question>& questions) const {
+    for (const Question& question : questions) {
+      if (question.others.empty()) continue;
+      if (const auto told = TellOn(photo, question)) {
+        return Place{Moved(photo, question.wall, told->from), told->sureness};
+      }
     }
     return std::nullopt;
   }
 
-  std::optional<WallFromWall> TellOn(int photo, int wall, const Shown& shown) const {
+  Question AskOn(int photo, int wall, const Shown& shown) const {
     const Eigen::Vector2d sigma_m =
         (PlaceVariances(*poses_[photo], shown.distance_m).array() + kOffWall_m * kOffWall_m).sqrt();
-    const std::vector<int> others = OthersOn(wall, shown, sigma_m[0]);
-    if (others.empty()) return std::nullopt;
-    BayQuestion question{shown.on_wall, {}, sigma_m, [&](const Eigen::Vector2d& place) {
-                           return std::ranges::any_of(others, [&](int other) {
-                             return ShowsPlace(input_, other, wall, place);
-                           });
-                         }};
-    question.others.reserve(others.size());
-    for (const int other : others) question.others.push_back(&shown_[other].at(wall).on_wall);
-    return TellBay(question);
+    return {wall, sigma_m, OthersOn(wall, shown, sigma_m[0])};
+  }
+
+  std::optional<ToldBay> TellOn(int photo, const Question& question) const {
+    const auto& [wall, sigma_m, others] = question;
+    BayQuestion bay{shown_[photo].at(wall).on_wall, {}, sigma_m, [&](const Eigen::Vector2d& place) {
+                      return std::ranges::any_of(question.others, [&](int other) {
+                        return ShowsPlace(input_, other, question.wall, place);
+                      });
+                    }};
+    bay.others.reserve(others.size());
+    for (const int other : others) bay.others.push_back(&shown_[other].at(wall).on_wall);
+    return TellBay(bay);
   }
 
   // Photos whose poses are sure, of the same stretch.
@@ -141,6 +185,7 @@ class Placing {
   std::vector<std::optional<KnownPose>> poses_;
   const AgainInput input_;
   std::vector<ShownWalls> shown_;  // by photo
+  std::vector<Asked> asked_;       // by photo
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -283,7 +284,7 @@ double LeftToKeypoints(const BayQuestion& question, const BayShift& best, const 
 
 }  // namespace
 
-std::optional<WallFromWall> TellBay(const BayQuestion& question) {
+std::optional<ToldBay> TellBay(const BayQuestion& question) {
   const double reach_m = RivalSigmas() * question.sigma_m.maxCoeff();
   const ShownByOthers others(question.others);
   Likes likes(question.first.places.size());
@@ -302,15 +303,17 @@ std::optional<WallFromWall> TellBay(const BayQuestion& question) {
     best = &each;
   }
   if (best == nullptr || best->alike < kLeastVotes) return std::nullopt;
-  const bool told = std::ranges::all_of(shifts, [&](const BayShift& rival) {
-    if (&rival == best) return true;
+  ToldBay told{best->from, std::numeric_limits<double>::infinity()};
+  for (const BayShift& rival : shifts) {
+    if (&rival == best) continue;
     const double left = LeftToKeypoints(question, *best, rival);
-    if (left == 0) return true;
+    if (left == 0) continue;
     const Sides sides = Compare(others, *best, rival);
-    return sides.ahead >= left * kLeastVotes &&
-           sides.ahead >= std::pow(kAhead, left) * sides.behind;
-  });
-  return told ? std::optional(best->from) : std::nullopt;
+    if (sides.ahead < left * kLeastVotes) return std::nullopt;
+    const double odds = sides.ahead / std::max(1.0, static_cast<double>(sides.behind));
+    told.sureness = std::min(told.sureness, std::log(odds) / (left * std::log(kAhead)));
+  }
+  return told.sureness >= 1 ? std::optional(told) : std::nullopt;
 }
 
 }  // namespace stucco

@@ -23,6 +23,13 @@ struct BayQuestion {
 // Places on the wall (along, up, 1) by the first photo's pose to those by the second's.
 using WallFromWall = Eigen::Matrix<double, 2, 3>;
 
+struct ToldBay {
+  WallFromWall from;
+  // How much more keypoints say than is asked for: their odds against the worst rival, as a power
+  // of the odds asked for. At least 1.
+  double sureness = 1;
+};
+
 // Bays that look alike are seldom the same: curtains, stains and what stands before them differ.
 // So every shift that brings many keypoints onto their like is a candidate, each fitted by itself
 // with the scale that goes with it: each keypoint that two of them put where the others show the
@@ -32,6 +39,6 @@ using WallFromWall = Eigen::Matrix<double, 2, 3>;
 // two minds. What poses of these standard deviations rule out is not told, and no rival where it is
 // much farther off than what is: a pose that is off by more than it should be is told nothing
 // rather than the bay on its other side.
-std::optional<WallFromWall> TellBay(const BayQuestion& question);
+std::optional<ToldBay> TellBay(const BayQuestion& question);
 
 }  // namespace stucco

@@ -64,8 +64,8 @@ WallFromWall Posed(const Vector2d& shift, double scale) {
 }
 
 // Both photos show six of the eight bays.
-std::optional<WallFromWall> Tell(const Facade& facade, const WallFromWall& second_posed,
-                                 const Vector2d& sigma_m, int first_beside = 0) {
+std::optional<ToldBay> Tell(const Facade& facade, const WallFromWall& second_posed,
+                            const Vector2d& sigma_m, int first_beside = 0) {
   Facade to_first = facade;
   to_first.bays_beside = first_beside;
   const WallKeypoints first = to_first.See(0, 6, Posed({0, 0}, 1), 1);
@@ -81,7 +81,7 @@ TEST(TellBay, FindsTheBayThatDiffersFromTheOthersInHalfOfItsKeypoints) {
   const auto told = Tell({20}, posed, {1, 1});
   ASSERT_TRUE(told);
   for (const Vector2d& at : {Vector2d(6, 1), Vector2d(10, 3), Vector2d(14, 5)}) {
-    EXPECT_LT((*told * at.homogeneous() - posed * at.homogeneous()).norm(), 0.05);
+    EXPECT_LT((told->from * at.homogeneous() - posed * at.homogeneous()).norm(), 0.05);
   }
 }
 
@@ -119,7 +119,7 @@ TEST(TellBay, TakesTogetherWhatOthersShow) {
   const auto told = tell({&west, &east}, 0, 8 * kBay_m);
   ASSERT_TRUE(told);
   const Vector2d back =
-      *told * (Posed({-1.7, 0.6}, 1.02) * Vector2d(10, 3).homogeneous()).homogeneous();
+      told->from * (Posed({-1.7, 0.6}, 1.02) * Vector2d(10, 3).homogeneous()).homogeneous();
   EXPECT_LT((back - Vector2d(10, 3)).norm(), 0.05);
 }
 
@@ -138,7 +138,17 @@ TEST(TellBay, AsksLessOfKeypointsWherePosesSpeakToo) {
 
 TEST(TellBay, NeedNotOutvoteWhatPosesRuleOut) {
   // The next bay looks the same, and lies six standard deviations off.
-  EXPECT_TRUE(Tell({kOfBay}, Posed({-0.1, 0.1}, 1), {0.45, 0.45}));
+  const auto told = Tell({kOfBay}, Posed({-0.1, 0.1}, 1), {0.45, 0.45});
+  ASSERT_TRUE(told);
+  EXPECT_TRUE(std::isinf(told->sureness));
+}
+
+TEST(TellBay, IsSurerTheMoreSideWithIt) {
+  const auto few = Tell({25}, Posed({-0.1, 0.1}, 1), {1, 1});
+  const auto many = Tell({0}, Posed({-0.1, 0.1}, 1), {1, 1});
+  ASSERT_TRUE(few && many);
+  EXPECT_GE(few->sureness, 1);
+  EXPECT_GT(many->sureness, few->sureness);
 }
 
 TEST(TellBay, KnowsAlongTheWallApartFromUp) {
