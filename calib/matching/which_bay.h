@@ -35,10 +35,10 @@ struct ToldBay {
 // with the scale that goes with it: each keypoint that two of them put where the others show the
 // wall sides with the one where its like is clearly nearer, unless the others show the same at both
 // places: what differs then is where bays are seen from. Nothing unless four in five side with one
-// shift against each of the others: between bays that are the same to the texel keypoints are of
-// two minds. What poses of these standard deviations rule out is not told, and no rival where it is
-// much farther off than what is: a pose that is off by more than it should be is told nothing
-// rather than the bay on its other side.
+// shift against each of the others, or as many fewer as the poses speak for it: between bays that
+// are the same to the texel keypoints are of two minds. What poses of these standard deviations
+// rule out is not told, and no rival where it is much farther off than what is: a pose that is off
+// by more than it should be is told nothing rather than the bay on its other side.
 std::optional<ToldBay> TellBay(const BayQuestion& question);
 
 }  // namespace stucco
