@@ -20,8 +20,6 @@ namespace {
 
 // How often another bay may be the right one.
 constexpr double kWrongBay = 1e-3;
-// More than this is no error of the poses: smaller things than bays repeat themselves too.
-constexpr double kMostSigmas = 3.5;
 constexpr size_t kLeastMatches = 8;
 constexpr double kAgreeingShift_m = 0.5;
 // Matches are looked for so near to where it was told that they are.
@@ -34,9 +32,9 @@ Eigen::Vector2d ShiftSigma(const AgainInput& input, int first, int second, doubl
   return (variances.array() + kOffWall_m * kOffWall_m).sqrt();
 }
 
-// Takes off what does not share the shift of most, and all where the poses rule this shift out or
-// do not tell which bay is the right one: shifts that differ by a period have the odds of their
-// squares under the poses' standard deviations.
+// Takes off what does not share the shift of most, and all where the poses rule this shift out, as
+// smaller things than bays repeat themselves too, or do not tell which bay is the right one: shifts
+// that differ by a period have the odds of their squares under the poses' standard deviations.
 void KeepSure(const Shown& first, const Shown& second, double period_m,
               const Eigen::Vector2d& sigma_m, std::vector<Match>& matches) {
   std::vector<double> along;
@@ -59,7 +57,7 @@ void KeepSure(const Shown& first, const Shown& second, double period_m,
   const double log_odds = period_m * (period_m - 2 * middle.lpNorm<Eigen::Infinity>()) /
                           (2 * std::pow(sigma_m.maxCoeff(), 2));
   const bool is_sure =
-      middle.cwiseQuotient(sigma_m).norm() < kMostSigmas && log_odds > -std::log(kWrongBay);
+      middle.cwiseQuotient(sigma_m).norm() < kReachSigmas && log_odds > -std::log(kWrongBay);
   if (matches.size() < kLeastMatches || !is_sure) matches.clear();
 }
 

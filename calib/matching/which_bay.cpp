@@ -18,8 +18,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-// What poses do not rule out by itself, in standard deviations.
-constexpr double kReachSigmas = 3.5;
 // How often what is as far off as a rival may be the right one.
 constexpr double kRuledOut = 1e-3;
 // One place in two photos differs by 0.25 to 0.35 at the median.

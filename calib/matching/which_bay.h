@@ -11,6 +11,9 @@
 
 namespace stucco {
 
+// Of the shift on a wall between what two poses show there: more is no error of theirs.
+inline constexpr double kReachSigmas = 3.5;
+
 // What a photo shows of a wall and what others do, each where its pose puts it.
 struct BayQuestion {
   const WallKeypoints& first;
