@@ -50,6 +50,7 @@ struct PlannedView {
   int flight = 0;  // from 0
   std::vector<PlannedTarget> targets;
   std::vector<PlannedPartner> partners;  // expected, the strongest first; none in older plans
+  bool is_loose = false;  // too few should match it, or of a facade too few near to it
 };
 
 // Predicted quality of a facade's texture, each term in [0, 1]: frontal and alike (s), close and

@@ -176,6 +176,7 @@ static void Fields(Archive& archive, T& view) {
   archive.Required("facades", facades);
   archive.Optional("targets", view.targets);
   archive.Optional("partners", view.partners);
+  if (Archive::kReads || view.is_loose) archive.Optional("loose", view.is_loose);
   if constexpr (Archive::kReads) {
     for (const std::string& facade : facades) {
       const auto known = internal::FacadesOf(view);

@@ -74,7 +74,8 @@ MatchStats ExpectMatches(const PhotoGraph& photos, std::span<const Hover> hovers
     }
     const PhotoPlace& place = photos.places[i];
     stats.weakest.push_back(Describe(view, hovers[place.hover].shots[place.shot], ties[i]));
-    stats.loose += stats.weakest.back().is_loose;
+    view.is_loose = stats.weakest.back().is_loose;
+    stats.loose += view.is_loose;
   }
   std::ranges::stable_sort(stats.weakest, {}, [](const TiedView& view) {
     return std::tuple(!view.is_loose, view.strength);

@@ -38,7 +38,7 @@ struct Level {
   double line_px;
 };
 constexpr Level kLevels[] = {
-    {0, "#d7191c", "fewer than three partners", 0},
+    {0, "#d7191c", "too few partners", 0},
     {kEnoughStrength, "#f08a24", "nine in ten such pairs match", 1.3},
     {0.1, "#4a90c2", "nearly all do", 0.9},
     {0.16, "#b4bac2", "all do", 0.6},
@@ -62,7 +62,7 @@ struct Stop {
 std::map<int, Stop> StopsOf(const Plan& plan) {
   std::map<int, Stop> stops;
   for (const PlannedView& view : plan.views) {
-    const bool is_tied = view.partners.size() >= kFewestPartners;
+    const bool is_tied = !view.is_loose && view.partners.size() >= kFewestPartners;
     const int level = is_tied ? LevelOf(view.partners[kFewestPartners - 1].strength) : 0;
     const auto [found, is_new] =
         stops.try_emplace(view.hover, Stop{view.position_m.head<2>(), level});

@@ -68,12 +68,11 @@ void DrawMatchSymbols(const Plan& plan, Column& column) {
                    column.Y(0), kLinkLook);
     column.Entry("link photos, between those that would not match");
   }
-  const size_t weak = WeakPhotos(plan).size();
-  if (weak == 0) return;
+  const auto loose = std::ranges::count(plan.views, true, &PlannedView::is_loose);
+  if (loose == 0) return;
   column.svg.Add("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"6\" {}/>", column.X(13), column.Y(-4),
-                 kWeakLook);
-  column.Entry(
-      fmt::format("{} photo{} that fewer than 3 should match", weak, weak == 1 ? "" : "s"));
+                 kLooseLook);
+  column.Entry(fmt::format("{} photo{} that too few should match", loose, loose == 1 ? "" : "s"));
 }
 
 void DrawSymbols(const Plan& plan, Column& column) {

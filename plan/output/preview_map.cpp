@@ -227,16 +227,15 @@ void DrawViews(const Plan& plan, const MapScale& scale, Svg& svg) {
   }
 }
 
-// A ring around each place with a photo that too few others should match.
-void DrawWeak(const Plan& plan, const MapScale& scale, Svg& svg) {
+// A ring around each place with a photo that calibration may lose.
+void DrawLoose(const Plan& plan, const MapScale& scale, Svg& svg) {
   const double radius = SizeOf(1.6, scale, 3.5, 9);
   Seen seen;
-  for (const WeakPhoto& photo : WeakPhotos(plan)) {
-    const PlannedView& view = plan.views[photo.view];
-    if (!IsNew(view, 0, seen)) continue;
+  for (const PlannedView& view : plan.views) {
+    if (!view.is_loose || !IsNew(view, 0, seen)) continue;
     const Eigen::Vector2d at = scale.Page(view.position_m.head<2>());
     svg.Add("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" {}/>", at.x(), at.y(), radius,
-            kWeakLook);
+            kLooseLook);
   }
 }
 
@@ -286,7 +285,7 @@ void DrawMap(const Plan& plan, const MapScale& scale, Svg& svg) {
   DrawPaths(plan, scale, svg);
   DrawFacades(plan, scale, svg);
   DrawViews(plan, scale, svg);
-  DrawWeak(plan, scale, svg);
+  DrawLoose(plan, scale, svg);
   DrawNames(plan, scale, svg);
   DrawHome(plan, scale, svg);
   svg.Add("</svg>");

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "plan/match/ties.h"
 #include "survey/files.h"
 #include "survey/numbers.h"
 
@@ -110,16 +109,6 @@ double FacadeStats::UnobservableLength() const {
   double length = 0;
   for (const Interval& part : unobservable_m) length += part.length_m();
   return length;
-}
-
-std::vector<WeakPhoto> WeakPhotos(const Plan& plan) {
-  std::vector<WeakPhoto> weak;
-  for (size_t i = 0; i < plan.views.size(); ++i) {
-    const int partners = static_cast<int>(plan.views[i].partners.size());
-    if (partners < kFewestPartners) weak.push_back({i, plan.views[i].id, partners});
-  }
-  std::ranges::stable_sort(weak, {}, &WeakPhoto::partners);
-  return weak;
 }
 
 PlanStats StatsOf(const Plan& plan, double planning_s, double tsp_gap) {

@@ -23,16 +23,6 @@ struct FacadeStats {
   double UnobservableLength() const;
 };
 
-// A photo that calibration may lose: fewer than kFewestPartners others should match it.
-struct WeakPhoto {
-  size_t view = 0;  // index into the plan's
-  std::string id;
-  int partners = 0;
-};
-
-// The weakest first, photos with the same number of partners in order of capture.
-std::vector<WeakPhoto> WeakPhotos(const Plan& plan);
-
 // The figures of a plan. Everything but `planning_s` depends on the plan alone.
 struct PlanStats {
   std::string method;

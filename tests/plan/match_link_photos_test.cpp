@@ -137,6 +137,7 @@ TEST_F(House, SaysWhichPhotosAreLoose) {
       }
     }
     const MatchStats stats = ExpectMatches(PhotoGraph(setting_, hovers), hovers, 2, plan);
+    EXPECT_EQ(std::ranges::count(plan.views, true, &PlannedView::is_loose), stats.loose);
     for (const PlannedView& view : plan.views) {
       EXPECT_LE(view.partners.size(), 12u);
       for (const PlannedPartner& partner : view.partners) {

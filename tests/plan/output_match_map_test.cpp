@@ -49,7 +49,7 @@ Drawn DrawnOf(const std::string& svg, const std::string& label) {
   return drawn;
 }
 
-constexpr char kLoose[] = "fewer than three partners";
+constexpr char kLoose[] = "too few partners";
 constexpr char kWeak[] = "nine in ten such pairs match";
 constexpr char kSure[] = "nearly all do";
 constexpr char kSurest[] = "all do";

@@ -178,23 +178,17 @@ TEST(Preview, ShowsViewsAboveEachOtherOnce) {
   EXPECT_GT(Paths(Preview(plan), "fill", "#1b1b1f").at(0).size(), before.size());
 }
 
-// All three partners that a photo needs.
-void Connect(PlannedView& view) {
-  view.partners = {{"a", 0.5}, {"b", 0.4}, {"c", 0.3}};
-}
-
-TEST(Preview, RingsPhotosWithFewPartners) {
+TEST(Preview, RingsPhotosThatHangLoose) {
   Plan plan = test::MakePlan();
-  for (PlannedView& view : plan.views) Connect(view);
-  const std::string strong = Preview(plan);
-  EXPECT_EQ(strong.find("class=\"weak\""), std::string::npos);
-  EXPECT_EQ(strong.find("fewer than 3"), std::string::npos);
-  plan.views[0].partners.pop_back();
-  const std::string weak = Preview(plan);
+  const std::string tied = Preview(plan);
+  EXPECT_EQ(tied.find("class=\"loose\""), std::string::npos);
+  EXPECT_EQ(tied.find("too few"), std::string::npos);
+  plan.views[0].is_loose = true;
+  const std::string loose = Preview(plan);
   pugi::xml_document xml;
-  ASSERT_TRUE(xml.load_string(weak.c_str()));
-  EXPECT_EQ(xml.select_nodes("//circle[@class='weak']").size(), 2u);  // on the map, in the legend
-  EXPECT_NE(weak.find("1 photo that fewer than 3 should match"), std::string::npos);
+  ASSERT_TRUE(xml.load_string(loose.c_str()));
+  EXPECT_EQ(xml.select_nodes("//circle[@class='loose']").size(), 2u);  // on the map, in the legend
+  EXPECT_NE(loose.find("1 photo that too few should match"), std::string::npos);
 }
 
 TEST(Preview, LinkPhotosHaveALookOfTheirOwn) {

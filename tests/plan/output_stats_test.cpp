@@ -95,19 +95,6 @@ TEST(Stats, FileSaysWhatSafetyRestsOn) {
   EXPECT_EQ(json["flat_within_m"], 1.0);
 }
 
-TEST(Stats, NameTheWeakestPhotosFirst) {
-  Plan plan = test::MakePlan();
-  for (PlannedView& view : plan.views) view.partners = {{"a", 0.5}, {"b", 0.4}, {"c", 0.3}};
-  EXPECT_TRUE(WeakPhotos(plan).empty());
-  plan.views[1].partners.resize(2);
-  plan.views[4].partners.clear();
-  const std::vector<WeakPhoto> weak = WeakPhotos(plan);
-  ASSERT_EQ(weak.size(), 2u);
-  EXPECT_EQ(weak[0].id, plan.views[4].id);
-  EXPECT_EQ(weak[1].view, 1u);
-  EXPECT_EQ(weak[1].partners, 2);
-}
-
 TEST(Stats, SayHowThePhotosHangTogether) {
   const test::TemporaryFolder folder;
   PlanStats stats = StatsOf(test::MakePlan(), 0, 0);

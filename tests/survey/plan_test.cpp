@@ -58,6 +58,7 @@ Plan MakePlan() {
   plan.facades = {facade};
   plan.views = {MakeView("v0", 0), MakeView("v1", 1)};
   plan.views[1].partners = {{"v0", 0.23456}};
+  plan.views[1].is_loose = true;
   plan.flights = {{{{plan.home_m, -1},
                     {plan.views[0].position_m, 0},
                     {plan.views[1].position_m, 1},
@@ -112,6 +113,8 @@ TEST(PlanFile, ReadsBackAsWritten) {
   ASSERT_EQ(read.views[1].partners.size(), 1u);
   EXPECT_EQ(read.views[1].partners[0].view, "v0");
   EXPECT_EQ(read.views[1].partners[0].strength, 0.2346);
+  EXPECT_FALSE(read.views[0].is_loose);
+  EXPECT_TRUE(read.views[1].is_loose);
   ExpectPosition(read.home_m, plan.home_m);
   ASSERT_EQ(read.footprints.size(), 1u);
   EXPECT_EQ(read.footprints[0].rings_m, plan.footprints[0].rings_m);

@@ -85,11 +85,11 @@ inline constexpr double kTallestMap = 1250;
 inline constexpr char kObstacleLook[] =
     "fill=\"#cfe3c4\" fill-rule=\"evenodd\" stroke=\"#7f9c70\" stroke-width=\"0.5\"";
 
-// Link photos, and those with few partners.
+// Link photos, and those that too few should match.
 inline constexpr char kLinkLook[] =
     "fill=\"#7b3294\" fill-opacity=\"0.45\" stroke=\"#7b3294\" stroke-width=\"0.5\"";
-inline constexpr char kWeakLook[] =
-    "class=\"weak\" fill=\"none\" stroke=\"#e6007e\" stroke-width=\"1.4\"";
+inline constexpr char kLooseLook[] =
+    "class=\"loose\" fill=\"none\" stroke=\"#e6007e\" stroke-width=\"1.4\"";
 
 // From the frame of the plan to the page, and what sizes suit the map.
 struct MapScale {
