@@ -3,13 +3,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes up a town: building footprints with heights, as GeoJSON, to measure the planner on.
 
-Usage: make_town.py --buildings N [--seed S] [--density SHARE] -o town.geojson
+Usage: make_town.py --buildings N [--seed S] [--density SHARE | --sheds] -o town.geojson
 
 Blocks between streets, slightly turned and unequal: closed rows around a courtyard with party
 walls, terraces, free-standing houses (rectangles, L and U) and large buildings with a courtyard.
 Houses are 6 to 22 m high, a few towers 24 to 30 m. The blocks grow outwards from the middle, so that
-towns of 10 and of 1000 buildings have the same density and mix. The same arguments give the same
-bytes.
+towns of 10 and of 1000 buildings have the same density and mix. With --sheds all are alike, 4 x 3 m
+and 2.5 m high, in rows nine metres apart. The same arguments give the same bytes.
 """
 
 import argparse
@@ -19,6 +19,7 @@ import random
 
 MEAN_WIDTH, MEAN_DEPTH = 75, 60  # of a block, in metres
 BUILT_SHARE = 0.44  # of a block, on average over its kinds
+SHED_WIDTH, SHED_DEPTH, SHED_HEIGHT, SHED_GAP = 4, 3, 2.5, 9
 KINDS = ["closed"] * 4 + ["terraces"] * 2 + ["houses"] * 4 + ["large"]
 
 
@@ -159,6 +160,18 @@ def make_town(count, seed, density):
     return town
 
 
+def make_sheds(count):
+    """As of make_town: the fewest rows that make a square of sheds."""
+    columns = math.ceil(math.sqrt(count))
+    sheds = []
+    for number in range(count):
+        x = number % columns * (SHED_WIDTH + SHED_GAP)
+        y = number // columns * (SHED_DEPTH + SHED_GAP)
+        sheds.append({"rings": [rectangle(x, y, x + SHED_WIDTH, y + SHED_DEPTH)],
+                      "height": SHED_HEIGHT})
+    return sheds
+
+
 def moved(point, angle, by):
     c, s = math.cos(angle), math.sin(angle)
     return (by[0] + c * point[0] - s * point[1], by[1] + s * point[0] + c * point[1])
@@ -191,6 +204,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--density", type=float, default=0.25,
                         help="share of the ground that is built on, 0.05 to 0.35 (default 0.25)")
+    parser.add_argument("--sheds", action="store_true", help="rows of small sheds, all alike")
     parser.add_argument("--origin", default="50.1,14.4", help="latitude,longitude of the middle")
     parser.add_argument("-o", "--output", required=True, help="the GeoJSON file")
     args = parser.parse_args()
@@ -199,7 +213,8 @@ def main():
     if not 0.05 <= args.density <= 0.35:
         parser.error("--density: 0.05 to 0.35")
     latitude, longitude = (float(part) for part in args.origin.split(","))
-    town = make_town(args.buildings, args.seed, args.density)
+    town = (make_sheds(args.buildings) if args.sheds
+            else make_town(args.buildings, args.seed, args.density))
     with open(args.output, "w", encoding="utf-8") as file:
         json.dump(to_geojson(town, latitude, longitude), file, separators=(",", ":"))
         file.write("\n")

@@ -82,6 +82,21 @@ class Town(unittest.TestCase):
         self.assertGreater(sum(len(owners) > 1 for owners in corners.values()), 100)
 
 
+class Sheds(unittest.TestCase):
+    def test_stand_alone_nine_metres_apart(self):
+        sheds = make_town.make_sheds(7)
+        self.assertEqual(len(sheds), 7)
+        boxes = [(min(p[0] for p in ring), min(p[1] for p in ring),
+                  max(p[0] for p in ring), max(p[1] for p in ring))
+                 for ring in (shed["rings"][0] for shed in sheds)]
+        for i, a in enumerate(boxes):
+            self.assertEqual((a[2] - a[0], a[3] - a[1]), (4, 3))
+            self.assertGreater(signed_area(sheds[i]["rings"][0]), 0)
+            gaps = [max(b[0] - a[2], a[0] - b[2], b[1] - a[3], a[1] - b[3])
+                    for n, b in enumerate(boxes) if n != i]
+            self.assertEqual(min(gaps), 9)
+
+
 class Program(unittest.TestCase):
     def run_it(self, *args):
         return subprocess.run([sys.executable, BENCH / "make_town.py", *args],
