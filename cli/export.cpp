@@ -63,6 +63,10 @@ void AddExport(CLI::App& app, Program& program) {
   verb.add_option("--crs", request->crs,
                   "Coordinate system of the corners, for cityjson; default: the survey's own frame")
       ->type_name("EPSG:n");
+  verb.add_option("--epoch", request->epoch,
+                  "As this epoch shows it, alone, for textured models; default: as the survey "
+                  "does, in glb and cityjson with all epochs to switch to")
+      ->type_name("NAME");
   verb.callback([&program, request] {
     program.action = [&program, request] { return Export(program, *request); };
   });

@@ -12,7 +12,7 @@ namespace {
 
 constexpr char kHeader[] =
     "id,building,facade,class,verdict,findings,unit,area,painted,inpainted,seen,inferred,gsd,"
-    "misregistration_px,sharpness,photos,q_s,q_d,q_u,q_c,plane_rms,epoch,"
+    "misregistration_px,sharpness,photos,q_s,q_d,q_u,q_c,plane_rms,"
     "planned_q_s,planned_q_d,planned_q_u,planned_q_c,party";
 
 // Empty where the value is not known.
@@ -63,7 +63,6 @@ std::string FacadesCsv(const SurveyData& data, const std::vector<FacetRow>& rows
         Number(painted, texture.q_u),
         Number(painted, texture.q_c),
         Number(has_facet, facet.rms),
-        "original",
         Number(planned, predicted.q_s),
         Number(planned, predicted.q_d),
         Number(planned, predicted.q_u),

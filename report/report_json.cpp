@@ -78,7 +78,6 @@ Json FacadeJson(const SurveyData& data, const FacetRow& row) {
   json["photos_placed_px"] =
       placed ? Json{{"median", placed->middle_px}, {"largest", placed->worst_px}} : Json(nullptr);
   json["sharpness"] = painted ? Json(texture->sharpness) : Json(nullptr);
-  json["heldout_ssim"] = nullptr;
   json["area"] = facet != nullptr ? Json(facet->area) : Json(nullptr);
   json["plane_rms"] = facet != nullptr ? Json(facet->rms) : Json(nullptr);
   json["support"] = facet != nullptr ? Json(facet->support) : Json(nullptr);
@@ -86,7 +85,6 @@ Json FacadeJson(const SurveyData& data, const FacetRow& row) {
   json["inferred"] = facet != nullptr ? Json(facet->inferred) : Json(nullptr);
   json["party"] = facet != nullptr ? Json(facet->party) : Json(nullptr);
   json["image"] = painted ? Json(CleanUtf8(texture->image)) : Json(nullptr);
-  json["epoch"] = "original";
   return json;
 }
 

@@ -26,16 +26,26 @@ constexpr int kClampToEdge = 33071;
 constexpr int kLinear = 9729;
 constexpr int kLinearMipmapLinear = 9987;
 constexpr char kUnlit[] = "KHR_materials_unlit";
+constexpr char kVariants[] = "KHR_materials_variants";
 
 static_assert(std::numeric_limits<float>::is_iec559 && sizeof(Eigen::Vector3f) == 12 &&
               sizeof(Eigen::Vector2f) == 8);
+
+bool IsWithin(int index, size_t size) {
+  return index >= 0 && static_cast<size_t>(index) < size;
+}
 
 bool IsSound(const GlbPrimitive& primitive, const GlbModel& model) {
   const size_t count = primitive.positions.size();
   return count > 0 && primitive.indices.size() % 3 == 0 &&
          (primitive.normals.empty() || primitive.normals.size() == count) &&
-         (primitive.uv.empty() || primitive.uv.size() == count) && primitive.material >= 0 &&
-         static_cast<size_t>(primitive.material) < model.materials.size() &&
+         (primitive.uv.empty() || primitive.uv.size() == count) &&
+         IsWithin(primitive.material, model.materials.size()) &&
+         std::ranges::all_of(primitive.mappings,
+                             [&](const GlbMapping& mapping) {
+                               return IsWithin(mapping.variant, model.variants.size()) &&
+                                      IsWithin(mapping.material, model.materials.size());
+                             }) &&
          std::ranges::all_of(primitive.indices, [&](uint32_t i) { return i < count; });
 }
 
@@ -79,8 +89,9 @@ class GlbBuilder {
       json_["materials"].push_back(JsonOf(material));
     }
     if (std::ranges::any_of(model_.materials, &GlbMaterial::unlit)) {
-      json_["extensionsUsed"] = {kUnlit};
+      json_["extensionsUsed"].push_back(kUnlit);
     }
+    AddVariants();
     for (const GlbMesh& mesh : model_.meshes) AddMesh(mesh);
     AddTextures();
     PadTo4(0, binary_);
@@ -89,6 +100,13 @@ class GlbBuilder {
   }
 
  private:
+  void AddVariants() {
+    if (model_.variants.empty()) return;
+    json_["extensionsUsed"].push_back(kVariants);
+    Json& variants = json_["extensions"][kVariants]["variants"];
+    for (const std::string& name : model_.variants) variants.push_back({{"name", name}});
+  }
+
   size_t AddView(size_t from, int target) {
     Json view = {{"buffer", 0}, {"byteOffset", from}, {"byteLength", binary_.size() - from}};
     if (target != 0) view["target"] = target;
@@ -130,7 +148,13 @@ class GlbBuilder {
     }
     const size_t indices = AddAccessor(primitive.indices, kElementArrayBuffer,
                                        {{"componentType", kUnsignedInt}, {"type", "SCALAR"}});
-    return {{"attributes", attributes}, {"indices", indices}, {"material", primitive.material}};
+    Json json = {
+        {"attributes", attributes}, {"indices", indices}, {"material", primitive.material}};
+    for (const GlbMapping& mapping : primitive.mappings) {
+      json["extensions"][kVariants]["mappings"].push_back(
+          {{"material", mapping.material}, {"variants", Json::array({mapping.variant})}});
+    }
+    return json;
   }
 
   void AddMesh(const GlbMesh& mesh) {

@@ -25,9 +25,16 @@ struct GlbMaterial {
   bool two_sided = true;
 };
 
+// The material that a primitive has in some variant of the model.
+struct GlbMapping {
+  int variant = 0;   // index into GlbModel::variants
+  int material = 0;  // index into GlbModel::materials
+};
+
 // Triangles of one material.
 struct GlbPrimitive {
   int material = 0;                        // index into GlbModel::materials
+  std::vector<GlbMapping> mappings = {};   // where it is another; each variant once
   std::vector<Eigen::Vector3f> positions;  // y up
   std::vector<Eigen::Vector3f> normals;    // by position; none: faces are flat
   std::vector<Eigen::Vector2f> uv;         // by position, (0, 0) top left; may be none
@@ -44,13 +51,15 @@ struct GlbModel {
   std::vector<GlbMaterial> materials;
   std::vector<GlbMesh> meshes;
   std::vector<GlbTexture> textures;
-  bool repeat_textures = true;  // beyond their edges; false: their last texels go on
+  std::vector<std::string> variants = {};  // names that viewers offer (KHR_materials_variants)
+  bool repeat_textures = true;             // beyond their edges; false: their last texels go on
   // What was taken off the world's coordinates: `asset.extras.offset`, left out where zero.
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
 };
 
 // The model as binary glTF 2.0 (Khronos), self-contained. Requires indices that lead somewhere and
-// primitives with positions. Throws Error (kStageFailed) where it is larger than 4 GiB.
+// primitives with positions, and with `uv` where any of their materials has a texture. Throws Error
+// (kStageFailed) where it is larger than 4 GiB.
 std::string GlbBytes(const GlbModel& model);
 
 }  // namespace stucco

@@ -17,6 +17,7 @@
 #include "survey/parallel.h"
 #include "texture/light/colour.h"
 #include "texture/output/orthophoto.h"
+#include "texture/output/write_glb.h"
 #include "texture/output/write_model.h"
 
 namespace stucco {
@@ -224,8 +225,10 @@ void WriteModels(const Proxy& proxy, const TextureOptions& options, const StageC
   textures.model_offset = ModelOffset(proxy);
   WriteObj(proxy, textures, context.out);
   context.progress->Advance();
-  WriteGlb(proxy, textures, context.out,
-           {options.glb_max_px, options.glb_quality, EncodingThreads(textures, context)});
+  const ModelLook look{kOwnLook, textures, context.out};
+  WriteFile(context.out / "model.glb", GlbOfLooks(proxy, {&look, 1},
+                                                  {options.glb_max_px, options.glb_quality,
+                                                   EncodingThreads(textures, context)}));
   context.progress->Advance();
   textures.model_obj = "model.obj";
   textures.model_glb = "model.glb";

@@ -12,13 +12,18 @@
 #include "pipeline/engine/shell.h"
 #include "pipeline/verbs/internal/export_city.h"
 #include "pipeline/verbs/internal/export_files.h"
+#include "pipeline/verbs/internal/stage_options.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
+#include "survey/files.h"
 #include "survey/georef.h"
+#include "survey/model_look.h"
 #include "survey/options.h"
 #include "survey/survey_folder.h"
 #include "survey/texture_set.h"
+#include "texture/options/texture_options.h"
 #include "texture/output/tiles_3d.h"
+#include "texture/output/write_glb.h"
 
 namespace stucco {
 namespace {
@@ -86,15 +91,43 @@ void ExportPoses(const fs::path& survey, const std::string& format, const fs::pa
   WriteGeoref(georef, out / "georef.json");
 }
 
-void ExportTiles(const fs::path& survey, const fs::path& out, int threads) {
+// Where a textured model lies, of the survey itself or of an epoch.
+fs::path TextureFolder(const fs::path& survey, const std::string& epoch) {
+  return epoch.empty() ? (survey / kTexturesFile).parent_path()
+                       : ReadEpochLook(survey, epoch).folder;
+}
+
+void ExportTiles(const fs::path& survey, const ExportRequest& request, int threads) {
   const Proxy proxy = ReadProxy(survey / kFacetsFile);
-  const TextureSet textures = ReadTextureSet(survey / kTexturesFile);
+  const fs::path folder = TextureFolder(survey, request.epoch);
+  const TextureSet textures = ReadTextureSet(folder / fs::path(kTexturesFile).filename());
   std::error_code error;
   const Georef georef =
       fs::exists(survey / kGeorefFile, error) ? ReadGeoref(survey / kGeorefFile) : Georef();
   Tiles3dOptions options;
   options.threads = threads;
-  WriteTiles3d({proxy, textures, survey / "texture"}, georef, out, options);
+  WriteTiles3d({proxy, textures, folder}, georef, request.out, options);
+}
+
+// The stage's file, unless there are epochs to show beside it.
+ExportReport ExportGlb(const fs::path& survey, const ExportRequest& request,
+                       const StageTable& table) {
+  std::error_code error;
+  if (!request.epoch.empty() || !fs::exists(survey / kEpochsFolder, error)) {
+    CopyFile(TextureFolder(survey, request.epoch) / "model.glb", request.out);
+    return {};
+  }
+  const SurveyLooks looks = ReadLooks(survey);
+  const Settings settings = LoadSettings(survey, table, {});
+  const auto options = OptionsOf<TextureOptions>(settings, "texture");
+  const std::string glb =
+      GlbOfLooks(ReadProxy(survey / kFacetsFile), looks.looks,
+                 {options.glb_max_px, options.glb_quality, ResolvedThreads(settings.run)});
+  if (!request.out.parent_path().empty()) fs::create_directories(request.out.parent_path(), error);
+  WriteFileAtomically(request.out, glb);
+  ExportReport report;
+  report.notes = NotesOf(looks);
+  return report;
 }
 
 }  // namespace
@@ -106,13 +139,13 @@ const std::vector<ExportFormat>& ExportFormats() {
       {"blocksexchange", "file: BlocksExchange XML 2.1 with poses, lenses and tie points", "calib"},
       {"nerfstudio", "folder with transforms.json and sparse_pc.ply", "calib"},
       {"obj", "folder with model.obj, its .mtl and its textures", "texture"},
-      {"glb", "file: textured model as binary glTF", "texture"},
+      {"glb", "file: textured model as binary glTF, epochs as variants", "texture"},
       {"3dtiles", "folder with tileset.json: textured model as 3D Tiles 1.1, with levels of detail",
        "texture"},
       {"ply", "file: dense point cloud", "dense"},
       {"cityjson",
        "file: the planar model as CityJSON 2.0, once textured with its pictures in a folder beside "
-       "it; with --crs in that system",
+       "it, epochs as themes; with --crs in that system",
        "proxy"}};
   return formats;
 }
@@ -128,23 +161,28 @@ ExportReport ExportSurvey(const fs::path& survey, const ExportRequest& request,
     throw Error(ErrorKind::kUsage, fmt::format("--crs: is no choice for {}", chosen.name),
                 "leave it out, or take --format cityjson");
   }
+  if (!request.epoch.empty() && chosen.stage != "texture" && chosen.name != "cityjson") {
+    throw Error(ErrorKind::kUsage, fmt::format("--epoch: is no choice for {}", chosen.name),
+                "leave it out, or take a textured model, such as --format glb");
+  }
   if (chosen.stage == "calib") {
     prepare(kSparseFolder);
     ExportPoses(survey, chosen.name, request.out, LoadSettings(survey, table, {}).photos);
   } else if (chosen.name == "3dtiles") {
     prepare(kTexturesFile);
-    ExportTiles(survey, request.out, ResolvedThreads(LoadSettings(survey, table, {}).run));
+    ExportTiles(survey, request, ResolvedThreads(LoadSettings(survey, table, {}).run));
   } else if (chosen.name == "obj") {
     prepare("texture/model.obj");
-    CopyObj(survey / "texture", request.out);
+    CopyObj(TextureFolder(survey, request.epoch), request.out);
   } else if (chosen.name == "cityjson") {
     prepare(kCityJsonFile);
     return ExportCity(survey, request);
+  } else if (chosen.name == "glb") {
+    prepare("texture/model.glb");
+    return ExportGlb(survey, request, table);
   } else {
-    const fs::path file =
-        chosen.name == "glb" ? fs::path("texture/model.glb") : fs::path(kCloudFile);
-    prepare(file);
-    CopyFile(survey / file, request.out);
+    prepare(kCloudFile);
+    CopyFile(survey / kCloudFile, request.out);
   }
   return {};
 }

@@ -15,9 +15,9 @@
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/georef.h"
+#include "survey/model_look.h"
 #include "survey/proxy.h"
 #include "survey/survey_folder.h"
-#include "survey/texture_set.h"
 #include "survey/utf8.h"
 
 namespace stucco {
@@ -41,12 +41,19 @@ std::string PicturesFolderOf(const fs::path& out) {
   return name.string() + "_appearance";
 }
 
-TexturedCity CityOf(const fs::path& survey, const fs::path& out) {
+TexturedCity CityOf(const fs::path& survey, const ExportRequest& request, ExportReport& report) {
   std::error_code error;
-  if (!fs::exists(survey / kTexturesFile, error)) return {ReadFile(survey / kCityJsonFile), {}};
+  SurveyLooks looks;
+  if (!request.epoch.empty()) {
+    looks.looks = {ReadEpochLook(survey, request.epoch)};
+  } else if (fs::exists(survey / kTexturesFile, error)) {
+    looks = ReadLooks(survey);
+  } else {
+    return {ReadFile(survey / kCityJsonFile), {}};
+  }
+  report.notes = NotesOf(looks);
   TexturedCity city =
-      TexturedCityJson(ReadProxy(survey / kFacetsFile), ReadTextureSet(survey / kTexturesFile),
-                       PicturesFolderOf(out));
+      TexturedCityJson(ReadProxy(survey / kFacetsFile), looks.looks, PicturesFolderOf(request.out));
   // Nothing is painted: what the stage proxy wrote is the same.
   if (city.pictures.empty()) city.text = ReadFile(survey / kCityJsonFile);
   return city;
@@ -61,12 +68,12 @@ ExportReport ExportCity(const fs::path& survey, const ExportRequest& request) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: is a folder", request.out.string()),
                 "name a file, such as castle.city.json");
   }
-  TexturedCity city = CityOf(survey, request.out);
+  ExportReport report;
+  TexturedCity city = CityOf(survey, request, report);
   if (!request.crs.empty()) {
     const CityFrame frame{ReadGeoref(survey / kGeorefFile), ReadProxy(survey / kFacetsFile).up};
     city.text = CityInCrs(city.text, frame, request.crs);
   }
-  ExportReport report;
   if (city.outdated > 0) {
     report.notes.push_back(
         fmt::format("pictures of an earlier model left out: {}; run stucco texture {} to paint the "
@@ -80,9 +87,8 @@ ExportReport ExportCity(const fs::path& survey, const ExportRequest& request) {
     report.pictures = static_cast<int>(city.pictures.size());
     report.pictures_folder = beside / PicturesFolderOf(request.out);
     RequireFree(report.pictures_folder, request.overwrite);
-    const fs::path texture = (survey / kTexturesFile).parent_path();
     for (const CityPicture& picture : city.pictures) {
-      CopyFile(texture / picture.image, beside / picture.name);
+      CopyFile(picture.image, beside / picture.name);
     }
   }
   // Last, so that it names what is there.

@@ -3,6 +3,7 @@
 #include "pipeline/verbs/internal/export_files.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <system_error>
 
@@ -19,6 +20,14 @@ void RequireFree(const fs::path& out, bool overwrite) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: exists already", out.string()),
                 "choose another name, or add --overwrite");
   }
+}
+
+std::vector<std::string> NotesOf(const SurveyLooks& looks) {
+  if (looks.outdated.empty()) return {};
+  return {
+      fmt::format("epochs of an earlier model left out: {}; their photos make new ones: stucco "
+                  "retexture",
+                  fmt::join(looks.outdated, ", "))};
 }
 
 void CopyFile(const fs::path& from, const fs::path& to) {

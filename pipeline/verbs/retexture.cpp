@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <variant>
 #include <vector>
 
 #include "calib/localise/localise.h"
@@ -24,9 +23,11 @@
 #include "pipeline/engine/shell.h"
 #include "pipeline/engine/units.h"
 #include "pipeline/engine/work_folder.h"
+#include "pipeline/verbs/internal/stage_options.h"
 #include "report/epoch_report.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
+#include "survey/model_look.h"
 #include "survey/plan_of_survey.h"
 #include "survey/survey_folder.h"
 #include "survey/survey_photo.h"
@@ -46,7 +47,7 @@ std::string EpochName(const RetextureRequest& request) {
   const bool given = !request.epoch.empty();
   std::string name = given ? request.epoch : RealPath(request.photos).filename().string();
   const bool plain = !name.empty() && name.size() <= kLongestName && name.front() != '.' &&
-                     std::ranges::all_of(name, [](unsigned char c) {
+                     name != kOwnLook && std::ranges::all_of(name, [](unsigned char c) {
                        return std::isalnum(c) || c == '-' || c == '_' || c == '.';
                      });
   if (plain) return name;
@@ -54,8 +55,9 @@ std::string EpochName(const RetextureRequest& request) {
       ErrorKind::kUsage,
       given ? fmt::format("--epoch: \"{}\" is no name of an epoch", name)
             : fmt::format("an epoch cannot be called \"{}\" as the photo folder is", name),
-      "give one with --epoch, of letters, digits, '-', '_' and '.', such as 2026-spring: it "
-      "becomes a folder below epochs");
+      fmt::format("give one with --epoch, of letters, digits, '-', '_' and '.', such as "
+                  "2026-spring: it becomes a folder below epochs; \"{}\" is the survey's own look",
+                  kOwnLook));
 }
 
 void RequirePhotoFolder(const fs::path& photos) {
@@ -98,18 +100,6 @@ std::vector<std::string> OptionsAsMade(const fs::path& survey, const StageTable&
     if (bound.options.Find(name)) overrides.push_back(fmt::format("{}.{}={}", stage, name, text));
   }
   return overrides;
-}
-
-template <typename Options>
-Options OptionsOf(const Settings& settings, const std::string& stage) {
-  Options options;
-  OptionTable table(stage);
-  Describe(table, options);
-  for (const Option& from : settings.stages.at(stage).options.options()) {
-    const Option* to = table.Find(from.name);
-    std::visit([&](auto* value) { *std::get<decltype(value)>(to->value) = *value; }, from.value);
-  }
-  return options;
 }
 
 // Checkpoints of this verb; what calibration found in the survey's photos is read too.

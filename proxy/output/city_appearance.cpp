@@ -23,27 +23,40 @@ double Written(double share) {
 
 }  // namespace
 
-CityAppearance::CityAppearance(const TextureSet& textures, std::string folder)
-    : folder_(std::move(folder)) {
-  for (const TexturedFacet& picture : textures.facets) {
-    if (!picture.image.empty()) by_id_[picture.id] = &picture;
+CityAppearance::CityAppearance(std::span<const ModelLook> looks, std::string folder)
+    : looks_(looks), folder_(std::move(folder)) {
+  for (size_t look = 0; look < looks.size(); ++look) {
+    for (const TexturedFacet& facet : looks[look].textures.facets) {
+      if (!facet.image.empty()) by_id_[facet.id].push_back({look, &facet});
+    }
   }
 }
 
-Json CityAppearance::ValuesOf(const Facet& facet,
-                              const std::vector<std::vector<Eigen::Vector3d>>& rings) {
+std::vector<Json> CityAppearance::ValuesOf(const Facet& facet,
+                                           const std::vector<std::vector<Eigen::Vector3d>>& rings) {
+  std::vector<Json> values(looks_.size(), Json(rings.size(), Json::array({nullptr})));
   const auto own = by_id_.find(facet.id);
-  const bool fits = own != by_id_.end() && FitsFacet(*own->second, facet);
-  if (own != by_id_.end() && !fits) ++outdated_;
-  if (!fits) return Json(rings.size(), Json::array({nullptr}));
-  const TexturedFacet& picture = *own->second;
+  if (own == by_id_.end()) return values;
+  for (const Picture& picture : own->second) {
+    if (!FitsFacet(*picture.facet, facet)) {
+      ++outdated_;
+      continue;
+    }
+    values[picture.look] = Values(picture, rings);
+    if (picture.look == 0) std::fill(values.begin() + 1, values.end(), values.front());
+  }
+  return values;
+}
+
+Json CityAppearance::Values(const Picture& picture,
+                            const std::vector<std::vector<Eigen::Vector3d>>& rings) {
   const size_t number = pictures_.size();
-  pictures_.push_back(&picture);
+  pictures_.push_back(picture);
   Json values = Json::array();
   for (const std::vector<Eigen::Vector3d>& ring : rings) {
     Json entry = Json::array({number});
     for (const Eigen::Vector3d& corner : ring) {
-      const Eigen::Vector2d at = OnPicture(picture, corner);
+      const Eigen::Vector2d at = OnPicture(*picture.facet, corner);
       entry.push_back(corners_.size());
       corners_.emplace_back(Written(at.x()), Written(1 - at.y()));
     }
@@ -52,20 +65,31 @@ Json CityAppearance::ValuesOf(const Facet& facet,
   return values;
 }
 
-std::string CityAppearance::NameOf(const TexturedFacet& picture) const {
-  return folder_ + "/" + std::filesystem::path(picture.image).filename().string();
+std::string CityAppearance::NameOf(const Picture& picture) const {
+  const std::string file = std::filesystem::path(picture.facet->image).filename().string();
+  const std::string& look = looks_[picture.look].name;
+  return picture.look == 0 ? folder_ + "/" + file : folder_ + "/" + look + "/" + file;
 }
 
-Json CityAppearance::Text(const std::string& theme) const {
+std::vector<CityPicture> CityAppearance::Pictures() const {
+  std::vector<CityPicture> all;
+  all.reserve(pictures_.size());
+  for (const Picture& picture : pictures_) {
+    all.push_back({looks_[picture.look].folder / picture.facet->image, NameOf(picture)});
+  }
+  return all;
+}
+
+Json CityAppearance::Text() const {
   Json textures = Json::array(), corners = Json::array();
-  for (const TexturedFacet* picture : pictures_) {
+  for (const Picture& picture : pictures_) {
     textures.push_back({{"type", "PNG"},
-                        {"image", NameOf(*picture)},
+                        {"image", NameOf(picture)},
                         {"wrapMode", "clamp"},
                         {"textureType", "specific"}});
   }
   for (const Eigen::Vector2d& corner : corners_) corners.push_back({corner.x(), corner.y()});
-  Json appearance = {{"default-theme-texture", theme}};
+  Json appearance = {{"default-theme-texture", Theme(0)}};
   appearance["textures"] = std::move(textures);
   appearance["vertices-texture"] = std::move(corners);
   return appearance;

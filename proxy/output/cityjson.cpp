@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -160,8 +161,8 @@ std::vector<Building> PiecesOf(const Building& building) {
 Json GeometryOf(const Building& building, const Eigen::Vector3d& up, bool semantics,
                 VertexTable& table, CityAppearance* appearance) {
   Json surfaces = Json::array(), values = Json::array(), boundary = Json::array();
-  Json painted = Json::array();
-  const size_t pictures_before = appearance ? appearance->pictures().size() : 0;
+  std::vector<Json> painted(appearance ? appearance->num_looks() : 0, Json::array());
+  std::vector<bool> is_painted(painted.size(), false);
   for (const Facet& facet : building.facets) {
     WrittenRings rings;
     if (!table.AddRing(facet.outer, rings)) continue;
@@ -169,7 +170,12 @@ Json GeometryOf(const Building& building, const Eigen::Vector3d& up, bool semant
     boundary.push_back(std::move(rings.vertices));
     values.push_back(static_cast<int>(surfaces.size()));
     surfaces.push_back(SemanticsOf(facet, up));
-    if (appearance) painted.push_back(appearance->ValuesOf(facet, rings.corners));
+    if (!appearance) continue;
+    const std::vector<Json> by_look = appearance->ValuesOf(facet, rings.corners);
+    for (size_t look = 0; look < by_look.size(); ++look) {
+      if (!by_look[look].front().front().is_null()) is_painted[look] = true;
+      painted[look].push_back(by_look[look]);
+    }
   }
   // Arrays are as deep in a geometry as its boundaries: a solid has shells, of which ours is one.
   const auto nested = [&](const Json& by_surface) {
@@ -178,8 +184,10 @@ Json GeometryOf(const Building& building, const Eigen::Vector3d& up, bool semant
   Json geometry = {{"type", building.watertight ? "Solid" : "MultiSurface"}, {"lod", "2.2"}};
   geometry["boundaries"] = nested(boundary);
   if (semantics) geometry["semantics"] = {{"surfaces", surfaces}, {"values", nested(values)}};
-  if (appearance && appearance->pictures().size() > pictures_before) {
-    geometry["texture"][kCityTheme]["values"] = nested(painted);
+  for (size_t look = 0; look < painted.size(); ++look) {
+    if (is_painted[look]) {
+      geometry["texture"][appearance->Theme(look)]["values"] = nested(painted[look]);
+    }
   }
   return geometry;
 }
@@ -220,8 +228,7 @@ std::string TextOf(const Proxy& proxy, CityAppearance* appearance) {
   }
   city["CityObjects"] = std::move(objects);
   city["vertices"] = table.IsEmpty() ? Json::array() : table.Vertices();
-  if (appearance && !appearance->pictures().empty())
-    city["appearance"] = appearance->Text(kCityTheme);
+  if (appearance && !appearance->is_empty()) city["appearance"] = appearance->Text();
   return city.dump() + "\n";
 }
 
@@ -231,16 +238,12 @@ std::string CityJsonText(const Proxy& proxy) {
   return TextOf(proxy, nullptr);
 }
 
-TexturedCity TexturedCityJson(const Proxy& proxy, const TextureSet& textures,
+TexturedCity TexturedCityJson(const Proxy& proxy, std::span<const ModelLook> looks,
                               const std::string& folder) {
-  CityAppearance appearance(textures, folder);
-  TexturedCity city;
-  city.text = TextOf(proxy, &appearance);
-  for (const TexturedFacet* picture : appearance.pictures()) {
-    city.pictures.push_back({picture->image, appearance.NameOf(*picture)});
-  }
-  city.outdated = appearance.outdated();
-  return city;
+  assert(!looks.empty());
+  CityAppearance appearance(looks, folder);
+  std::string text = TextOf(proxy, &appearance);
+  return {std::move(text), appearance.Pictures(), appearance.outdated()};
 }
 
 }  // namespace stucco

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "survey/model_look.h"
 #include "survey/proxy.h"
-#include "survey/texture_set.h"
 
 namespace stucco {
 
@@ -16,25 +18,24 @@ namespace stucco {
 // is z. No reference system is stated: coordinates are local.
 std::string CityJsonText(const Proxy& proxy);
 
-// The theme under which surfaces have the survey's own pictures.
-inline constexpr char kCityTheme[] = "survey";
-
 // A picture that a CityJSON file names.
 struct CityPicture {
-  std::string image;  // where it is now: TexturedFacet::image
-  std::string name;   // where the file looks for it, relative to itself
+  std::filesystem::path image;  // where it is now
+  std::string name;             // where the file looks for it, relative to itself
 };
 
 struct TexturedCity {
   std::string text;
   std::vector<CityPicture> pictures;  // in the order of "textures"; none: nothing is painted
-  int outdated = 0;  // facets without their picture because it is of an earlier model
+  int outdated = 0;                   // pictures left out because they are of an earlier model
 };
 
-// The same file with the pictures of its facets, in `folder` beside it ("castle_appearance"):
-// "textures", "vertices-texture" (v upwards) and, in each geometry that shows a picture, "texture"
-// with one theme. Where there is none the text is that of CityJsonText. Pictures are PNG.
-TexturedCity TexturedCityJson(const Proxy& proxy, const TextureSet& textures,
+// The same file with the pictures of its facets, in `folder` beside it ("castle_appearance"; those
+// of further looks in folders of their names in it): "textures", "vertices-texture" (v upwards)
+// and, in each geometry that shows a picture, "texture" with a theme for each of `looks`, of which
+// there must be one; the first is the default. In a further look a facet without a picture has that
+// of the first. Where nothing is painted the text is that of CityJsonText. Pictures are PNG.
+TexturedCity TexturedCityJson(const Proxy& proxy, std::span<const ModelLook> looks,
                               const std::string& folder);
 
 }  // namespace stucco

@@ -83,10 +83,14 @@ TextureSet Textures(const std::vector<TexturedFacet>& facets) {
 // A file, and what it says of the building's surfaces.
 struct City {
   City(const Proxy& proxy, const TextureSet& textures)
-      : made(TexturedCityJson(proxy, textures, kFolder)), file(json::parse(made.text)) {}
+      : City(proxy, std::vector<ModelLook>{{kOwnLook, textures, "texture"}}) {}
+  City(const Proxy& proxy, const std::vector<ModelLook>& looks)
+      : made(TexturedCityJson(proxy, looks, kFolder)), file(json::parse(made.text)) {}
 
   json Geometry() const { return file.at("CityObjects").at("B0001-1").at("geometry").at(0); }
-  json Values() const { return Geometry().at("texture").at(kCityTheme).at("values"); }
+  json Values(const std::string& theme = kOwnLook) const {
+    return Geometry().at("texture").at(theme).at("values");
+  }
   // Where a ring's corner is on its picture, of a MultiSurface.
   Vector2d Uv(int surface, int ring, int corner) const {
     const int index = Values().at(surface).at(ring).at(corner + 1);
@@ -124,7 +128,7 @@ TEST(CityAppearance, CornersAreWhereThePictureShowsThem) {
 TEST(CityAppearance, NamesThePicturesInItsFolder) {
   const City city(Town(), Textures({RoofPicture(), WallPicture()}));
   const json& appearance = city.file["appearance"];
-  EXPECT_EQ(appearance["default-theme-texture"], kCityTheme);
+  EXPECT_EQ(appearance["default-theme-texture"], kOwnLook);
   ASSERT_EQ(appearance["textures"].size(), 2u);
   ASSERT_EQ(city.made.pictures.size(), 2u);
   for (int i = 0; i < 2; ++i) {
@@ -133,7 +137,7 @@ TEST(CityAppearance, NamesThePicturesInItsFolder) {
   }
   const int of_wall = city.Values()[0][0][0];
   EXPECT_EQ(city.made.pictures[of_wall].name, "town_appearance/B0001_W00.png");
-  EXPECT_EQ(city.made.pictures[of_wall].image, "textures/B0001_W00.png");
+  EXPECT_EQ(city.made.pictures[of_wall].image, "texture/textures/B0001_W00.png");
   EXPECT_EQ(city.Values()[0][1][0], of_wall);  // the window's edge is on it, too
 }
 
@@ -177,7 +181,7 @@ TEST(CityAppearance, AFacetThatVanishesTakesItsPictureWithIt) {
   const City city(proxy, Textures({WallPicture(), RoofPicture()}));
   ExpectParallel(city.Geometry()["boundaries"], city.Values());
   ASSERT_EQ(city.made.pictures.size(), 1u);
-  EXPECT_EQ(city.made.pictures[0].image, "textures/B0001_R0.png");
+  EXPECT_EQ(city.made.pictures[0].image, "texture/textures/B0001_R0.png");
 }
 
 TEST(CityAppearance, CoordinatesStayOnThePicture) {
@@ -209,8 +213,34 @@ TEST(CityAppearance, TheGroundIsPaintedToo) {
   picture.id = "G0";
   const City city(proxy, Textures({picture}));
   const json& geometry = city.file["CityObjects"]["G0"]["geometry"][0];
-  ExpectParallel(geometry["boundaries"], geometry["texture"][kCityTheme]["values"]);
+  ExpectParallel(geometry["boundaries"], geometry["texture"][kOwnLook]["values"]);
   EXPECT_FALSE(city.Geometry().contains("texture"));  // of the house nothing is painted
+}
+
+TEST(CityAppearance, EachLookIsATheme) {
+  const std::vector<ModelLook> looks = {
+      {kOwnLook, Textures({WallPicture(), RoofPicture()}), "texture"},
+      {"2026-spring", Textures({WallPicture()}), "epochs/2026-spring"},
+      {"bare", {}, "epochs/bare"}};
+  const City city(Town(), looks);
+  EXPECT_EQ(city.file["appearance"]["default-theme-texture"], kOwnLook);
+  ASSERT_EQ(city.made.pictures.size(), 3u);
+  ExpectParallel(city.Geometry()["boundaries"], city.Values("2026-spring"));
+  const int now = city.Values("2026-spring")[0][0][0];
+  EXPECT_EQ(city.made.pictures[now].image, "epochs/2026-spring/textures/B0001_W00.png");
+  EXPECT_EQ(city.made.pictures[now].name, "town_appearance/2026-spring/B0001_W00.png");
+  EXPECT_NE(city.Values()[0][0][0], now);
+  EXPECT_EQ(city.Values("2026-spring")[1], city.Values()[1]);  // the roof as before
+  EXPECT_EQ(city.Values("bare"), city.Values());
+}
+
+TEST(CityAppearance, WhatOnlyALaterDayShowsIsPaintedInItsThemeAlone) {
+  const std::vector<ModelLook> looks = {{kOwnLook, {}, "texture"},
+                                        {"later", Textures({WallPicture()}), "epochs/later"}};
+  const City city(Town(), looks);
+  EXPECT_FALSE(city.Geometry()["texture"].contains(kOwnLook));
+  EXPECT_EQ(city.Values("later")[0][0][0], 0);
+  EXPECT_EQ(city.Values("later")[1], json::parse("[[null]]"));
 }
 
 TEST(CityAppearance, TheModelItselfIsTheSame) {
@@ -218,7 +248,7 @@ TEST(CityAppearance, TheModelItselfIsTheSame) {
   city.file.erase("appearance");
   city.file["CityObjects"]["B0001-1"]["geometry"][0].erase("texture");
   EXPECT_EQ(city.file, json::parse(CityJsonText(Town())));
-  EXPECT_EQ(City(Town(), {}).made.text, CityJsonText(Town()));
+  EXPECT_EQ(City(Town(), TextureSet()).made.text, CityJsonText(Town()));
 }
 
 }  // namespace

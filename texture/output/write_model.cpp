@@ -9,22 +9,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <assimp/Exporter.hpp>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "survey/encode_image.h"
 #include "survey/error.h"
 #include "survey/facet_picture.h"
 #include "survey/files.h"
-#include "survey/glb.h"
-#include "survey/parallel.h"
 #include "survey/triangulate.h"
-#include "texture/grid/grid.h"
 #include "texture/output/glb_parts.h"
 
 namespace stucco {
@@ -154,33 +148,6 @@ void Export(const aiScene& scene, const char* format, const std::filesystem::pat
   }
 }
 
-// The sizes that pictures get in a model; 0 x 0 for facets without one.
-std::vector<ImageSize> EmbeddedSizes(const std::vector<TexturedFacet>& facets,
-                                     const GlbOptions& options) {
-  std::vector<ImageSize> sizes(facets.size());
-  double texels = 0;
-  for (size_t i = 0; i < facets.size(); ++i) {
-    if (facets[i].image.empty()) continue;
-    sizes[i] = ScaledSize({facets[i].width_px, facets[i].height_px}, options.max_px);
-    texels += static_cast<double>(sizes[i].width_px) * sizes[i].height_px;
-  }
-  if (texels <= options.most_texels) return sizes;
-  const double scale = std::sqrt(options.most_texels / texels);
-  for (ImageSize& size : sizes) {
-    const int longest = std::max(size.width_px, size.height_px);
-    if (longest > 0) size = ScaledSize(size, std::max(1, static_cast<int>(scale * longest)));
-  }
-  return sizes;
-}
-
-std::string EncodeJpeg(const std::filesystem::path& path, const ImageSize& size, int quality) {
-  return EncodeImage(ReadScaled(path, size), "picture.jpg", quality);
-}
-
-Eigen::Isometry3d TurnToYUp(const Eigen::Vector3d& up) {
-  return YUpFromZUp() * Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
-}
-
 Eigen::Isometry3d WithoutOffset(const TextureSet& textures) {
   return Eigen::Isometry3d(Eigen::Translation3d(-textures.model_offset));
 }
@@ -215,39 +182,6 @@ void WriteObj(const Proxy& proxy, const TextureSet& textures, const std::filesys
   WriteFile(folder / "model.obj", fmt::format("# add {} {} {} for world coordinates\n", offset.x(),
                                               offset.y(), offset.z()) +
                                       ReadFile(folder / "model.obj"));
-}
-
-void WriteGlb(const Proxy& proxy, const TextureSet& textures, const std::filesystem::path& folder,
-              const GlbOptions& options) {
-  const std::vector<TexturedFacet>& facets = textures.facets;
-  const std::vector<ImageSize> sizes = EmbeddedSizes(facets, options);
-  std::vector<std::string> jpegs(facets.size());
-  ParallelFor(facets.size(), options.threads, [&](size_t i) {
-    if (facets[i].image.empty()) return;
-    jpegs[i] = EncodeJpeg(folder / facets[i].image, sizes[i], options.jpeg_quality);
-  });
-  GlbModel model;
-  model.repeat_textures = false;
-  model.offset = textures.model_offset;
-  model.materials.push_back(GlbMaterialOf("untextured", -1));
-  std::map<std::string, std::pair<const TexturedFacet*, int>> painted;  // by id, with the material
-  for (size_t i = 0; i < facets.size(); ++i) {
-    if (jpegs[i].empty()) continue;
-    painted[facets[i].id] = {&facets[i], static_cast<int>(model.materials.size())};
-    model.materials.push_back(GlbMaterialOf(facets[i].id, static_cast<int>(model.textures.size())));
-    model.textures.push_back({std::move(jpegs[i]), "image/jpeg"});
-  }
-  const Eigen::Isometry3d model_from_world = TurnToYUp(proxy.up) * WithoutOffset(textures);
-  for (const Building& building : proxy.buildings) {
-    for (const Facet& facet : building.facets) {
-      const auto own = painted.find(facet.id);
-      const auto [texture, material] =
-          own != painted.end() ? own->second : std::pair<const TexturedFacet*, int>(nullptr, 0);
-      GlbMesh mesh = GlbMeshOf(facet, texture, model_from_world, material);
-      if (!mesh.primitives.empty()) model.meshes.push_back(std::move(mesh));
-    }
-  }
-  WriteFile(folder / "model.glb", GlbBytes(model));
 }
 
 }  // namespace stucco

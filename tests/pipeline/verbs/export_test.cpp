@@ -7,14 +7,17 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/default_stages.h"
 #include "pipeline/engine/fingerprint.h"
 #include "survey/colmap_io.h"
 #include "survey/coordinate_system.h"
 #include "survey/error.h"
 #include "survey/files.h"
 #include "survey/georef.h"
+#include "survey/image.h"
 #include "survey/proxy.h"
 #include "survey/survey_folder.h"
+#include "survey/texture_set.h"
 #include "tests/pipeline/fake_survey.h"
 #include "tests/pipeline/verbs/imported.h"
 
@@ -166,6 +169,86 @@ TEST_F(ExportTest, RefusesSystemsThatNoModelIsWrittenIn) {
   EXPECT_EQ(refusal("cityjson", "/etc/passwd").kind(), ErrorKind::kUsage);
   EXPECT_THAT(refusal("cityjson", "EPSG:2056").what(), HasSubstr("no positions"));
   EXPECT_THAT(refusal("glb", "EPSG:2056").what(), HasSubstr("no choice for glb"));
+}
+
+// A survey of one wall without a picture, and an epoch that shows it.
+class ExportEpochTest : public ExportTest {
+ protected:
+  ExportEpochTest() {
+    Facet wall;
+    wall.id = "B1/W0";
+    wall.normal = -Eigen::Vector3d::UnitY();
+    wall.outer = {{0, 0, 0}, {4, 0, 0}, {4, 0, 3}, {0, 0, 3}};
+    Proxy proxy;
+    proxy.buildings = {
+        {.id = "B1", .watertight = false, .source = "map", .detail = {}, .facets = {wall}}};
+    fs::create_directories(fake.survey / "proxy");
+    WriteProxy(proxy, fake.survey / kFacetsFile);
+    Write("proxy/proxy.city.json", "{}");
+    TextureSet textures;
+    TexturedFacet& facet = textures.facets.emplace_back();
+    facet.id = wall.id;
+    facet.width_px = 40;
+    facet.height_px = 30;
+    facet.metres_per_texel = 0.1;
+    facet.origin = {0, 0, 3};
+    facet.v_axis = -Eigen::Vector3d::UnitZ();
+    for (const char* model : {"model.glb", "model.obj", "model.mtl"}) {
+      Write(std::string("texture/") + model, "own");
+      Write(std::string("epochs/later/") + model, "later");
+    }
+    WriteTextureSet(textures, fake.survey / kTexturesFile);
+    facet.image = "textures/B1_W0.png";
+    WriteTextureSet(textures, fake.survey / "epochs/later/textures.json");
+    fs::create_directories(fake.survey / "epochs/later/textures");
+    WriteImage({40, 30, 3, std::vector<uint8_t>(3600, 90)},
+               fake.survey / "epochs/later/textures/B1_W0.png");
+  }
+
+  void ExportEpoch(const std::string& format, const std::string& epoch) {
+    ExportSurvey(fake.survey, {format, out, true, "", epoch}, DefaultStages());
+  }
+};
+
+TEST_F(ExportEpochTest, AGlbHasEpochsAsVariants) {
+  ExportEpoch("glb", "");
+  EXPECT_THAT(ReadFile(out),
+              HasSubstr("\"variants\":[{\"name\":\"survey\"},{\"name\":\"later\"}]"));
+  ExportEpoch("glb", "later");
+  EXPECT_EQ(ReadFile(out), "later");
+}
+
+TEST_F(ExportEpochTest, ACityModelHasEpochsAsThemes) {
+  Export("cityjson");
+  auto texture = [&] {
+    const auto city = nlohmann::json::parse(ReadFile(out));
+    return city["CityObjects"]["B1-1"]["geometry"][0]["texture"];
+  };
+  EXPECT_TRUE(texture().contains("later"));
+  EXPECT_FALSE(texture().contains("survey"));
+  EXPECT_TRUE(fs::exists(fake.root / "deep/out_appearance/later/B1_W0.png"));
+  ExportEpoch("cityjson", "later");
+  EXPECT_TRUE(fs::exists(fake.root / "deep/out_appearance/B1_W0.png"));
+}
+
+TEST_F(ExportEpochTest, OneEpochAloneInOtherFormats) {
+  ExportEpoch("obj", "later");
+  EXPECT_EQ(ReadFile(out / "model.obj"), "later");
+  fs::remove_all(out);
+  ExportEpoch("3dtiles", "later");
+  EXPECT_THAT(ReadFile(out / "tiles/r.glb"), HasSubstr("image/jpeg"));
+}
+
+TEST_F(ExportEpochTest, AnUnknownEpochOrAFormatWithoutIsRefused) {
+  EXPECT_THROW(ExportEpoch("glb", "sooner"), Error);
+  EXPECT_THROW(ExportEpoch("cityjson", "sooner"), Error);
+  try {
+    ExportEpoch("ply", "later");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+  }
+  EXPECT_FALSE(fs::exists(out));
 }
 
 TEST_F(ExportTest, AnUnknownFormatGetsASuggestion) {

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "pipeline/engine/settings.h"
+#include "survey/options.h"
+
+namespace stucco {
+
+// A stage's options as the settings have them, for verbs that do a part of its work. Requires the
+// settings of a table that has the stage.
+template <typename Options>
+Options OptionsOf(const Settings& settings, const std::string& stage) {
+  Options options;
+  OptionTable table(stage);
+  Describe(table, options);
+  for (const Option& from : settings.stages.at(stage).options.options()) {
+    const Option* to = table.Find(from.name);
+    std::visit([&](auto* value) { *std::get<decltype(value)>(to->value) = *value; }, from.value);
+  }
+  return options;
+}
+
+}  // namespace stucco
