@@ -51,6 +51,7 @@ void AddExport(CLI::App& app, Program& program) {
                                  "stucco export castle --format glb -o castle.glb\n"
                                  "stucco export castle --format colmap-txt -o colmap\n"
                                  "stucco export castle --format blocksexchange -o castle.xml\n"
+                                 "stucco export castle --format 3dtiles --epoch 2026-may -o may\n"
                                  "stucco export town --format cityjson --crs EPSG:25832 -o t.json",
                                  kTransferGroup});
   AddSurveyArgument(verb, program);

@@ -18,6 +18,10 @@ namespace stucco::test {
 // different in each.
 Features SeeBays(const Pose& cam_from_plan, bool alike);
 
+// The keypoint `i` of a bay, wherever that is in the photo: what it looks like is another for each
+// `look`. Nothing where the photo does not show it.
+void SeeKeypoint(const Pose& cam_from_plan, int bay, int i, int look, Features& features);
+
 // The pose `off` from there, with the same angles.
 Pose Moved(const Pose& pose, const Eigen::Vector3d& off);
 
@@ -26,6 +30,7 @@ class BaysTest : public testing::Test {
  protected:
   BaysTest();
   void Take(const Pose& cam_from_plan, bool alike);
+  void Take(const Features& seen);
   // Valid until the next is taken.
   PhotoSet Photos();
 
