@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "proxy/output/city_picture.h"
 #include "survey/model_look.h"
 #include "survey/proxy.h"
 
@@ -17,12 +17,6 @@ namespace stucco {
 // that carry facet id, facade id and figures; the ground as LandUse. The frame is turned so that up
 // is z. No reference system is stated: coordinates are local.
 std::string CityJsonText(const Proxy& proxy);
-
-// A picture that a CityJSON file names.
-struct CityPicture {
-  std::filesystem::path image;  // where it is now
-  std::string name;             // where the file looks for it, relative to itself
-};
 
 struct TexturedCity {
   std::string text;

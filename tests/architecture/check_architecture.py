@@ -43,7 +43,7 @@ FOLDER_ARROWS = {
                         "proxy/imported/proxy_of_surfaces.h", "proxy/output/cityjson.h",
                         "proxy/output/proxy_files.h", "report/epoch_report.h", "survey/",
                         "texture/options/texture_options.h", "texture/output/tiles_3d.h",
-                        "texture/repaint.h"),
+                        "texture/output/write_glb.h", "texture/repaint.h"),
     "cli/": ("cli/", "evaluate/", "pipeline/default_stages.h", "pipeline/engine/engine.h",
              "pipeline/verbs/", "simulate/", "survey/"),
 }

@@ -3,14 +3,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "proxy/output/cityjson.h"
+#include "proxy/output/city_picture.h"
 #include "survey/model_look.h"
 #include "survey/proxy.h"
 
