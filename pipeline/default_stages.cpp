@@ -81,7 +81,7 @@ Stage TextureStage() {
   Stage stage;
   stage.name = "texture";
   stage.title = "facade textures and the textured model";
-  stage.version = 11;
+  stage.version = 12;
   stage.needs = {"ingest", "calib", "dense", "proxy"};
   stage.inputs = {kFacetsFile, kSparseFolder, kGeorefFile, kCloudFile, kCapturesFile, kPlanFile};
   stage.opens_photos = true;

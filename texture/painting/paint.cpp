@@ -12,6 +12,7 @@
 #include "texture/painting/patch_fill.h"
 #include "texture/relief/find_relief.h"
 #include "texture/selection/background.h"
+#include "texture/selection/eaves.h"
 #include "texture/selection/foliage.h"
 #include "texture/selection/select.h"
 #include "texture/views/plan_prior.h"
@@ -135,6 +136,10 @@ Selected SelectPhotos(const PaintJob& job, const PaintedFacet& canvas, PaintReco
   const SelectOptions select{kCellSplit, options.photo_cost, options.seam_cost, options.min_region,
                              look.limits.clearance / out.raster.grid.texel};
   out.ownership.owner = SelectPictures(pictures, out.raster, select);
+  if (facet.facet_class == FacetClass::kGround) {
+    ClearEaves(out.raster.grid, pictures, look.limits.clearance / out.raster.grid.texel,
+               out.ownership.owner);
+  }
   DropBackground(out.raster.grid, out.raster.inside, pictures, out.ownership.owner);
   if (record != nullptr) {
     *record = {out.raster, std::move(photos), std::move(pictures), out.ownership.owner, {}};
