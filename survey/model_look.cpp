@@ -35,10 +35,6 @@ std::vector<std::string> EpochsOf(const fs::path& survey) {
   return names;
 }
 
-ModelLook ReadLook(const std::string& name, const fs::path& folder) {
-  return {name, ReadTextureSet(folder / fs::path(kTexturesFile).filename()), folder};
-}
-
 bool HasSameGrid(const TexturedFacet& a, const TexturedFacet& b) {
   const double slack = kSameTexel * a.metres_per_texel;
   return a.width_px == b.width_px && a.height_px == b.height_px &&
@@ -69,9 +65,9 @@ std::optional<ModelLook> Others(const ModelLook& own, ModelLook epoch) {
 
 SurveyLooks ReadLooks(const fs::path& survey) {
   SurveyLooks all;
-  all.looks.push_back(ReadLook(kOwnLook, (survey / kTexturesFile).parent_path()));
+  all.looks.push_back(ReadLook(survey, ""));
   for (const std::string& name : EpochsOf(survey)) {
-    auto others = Others(all.looks.front(), ReadLook(name, survey / kEpochsFolder / name));
+    auto others = Others(all.looks.front(), ReadLook(survey, name));
     if (others) {
       all.looks.push_back(std::move(*others));
     } else {
@@ -81,7 +77,8 @@ SurveyLooks ReadLooks(const fs::path& survey) {
   return all;
 }
 
-ModelLook ReadEpochLook(const fs::path& survey, const std::string& epoch) {
+fs::path LookFolder(const fs::path& survey, const std::string& epoch) {
+  if (epoch.empty()) return (survey / kTexturesFile).parent_path();
   const std::vector<std::string> names = EpochsOf(survey);
   if (std::ranges::find(names, epoch) == names.end()) {
     throw Error(ErrorKind::kBadInput,
@@ -89,7 +86,13 @@ ModelLook ReadEpochLook(const fs::path& survey, const std::string& epoch) {
                 names.empty() ? "make one of new photos first: stucco retexture"
                               : fmt::format("its epochs are {}", fmt::join(names, ", ")));
   }
-  return ReadLook(epoch, survey / kEpochsFolder / epoch);
+  return survey / kEpochsFolder / epoch;
+}
+
+ModelLook ReadLook(const fs::path& survey, const std::string& epoch) {
+  const fs::path folder = LookFolder(survey, epoch);
+  return {epoch.empty() ? kOwnLook : epoch,
+          ReadTextureSet(folder / fs::path(kTexturesFile).filename()), folder};
 }
 
 }  // namespace stucco

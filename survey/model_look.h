@@ -29,7 +29,12 @@ struct SurveyLooks {
 // they have; all others lie on the same grids. Throws Error (kBadInput).
 SurveyLooks ReadLooks(const std::filesystem::path& survey);
 
-// The look of an epoch alone, whole. Throws Error (kBadInput) where there is none of that name.
-ModelLook ReadEpochLook(const std::filesystem::path& survey, const std::string& epoch);
+// The look of an epoch alone, whole; the survey's own for an empty name. Throws Error (kBadInput),
+// also where there is no such epoch.
+ModelLook ReadLook(const std::filesystem::path& survey, const std::string& epoch);
+
+// Where the pictures and models of that look lie; with textures where it is an epoch's. Throws
+// Error (kBadInput) where there is no such epoch.
+std::filesystem::path LookFolder(const std::filesystem::path& survey, const std::string& epoch);
 
 }  // namespace stucco

@@ -20,7 +20,6 @@
 #include "survey/model_look.h"
 #include "survey/options.h"
 #include "survey/survey_folder.h"
-#include "survey/texture_set.h"
 #include "texture/options/texture_options.h"
 #include "texture/output/tiles_3d.h"
 #include "texture/output/write_glb.h"
@@ -91,42 +90,36 @@ void ExportPoses(const fs::path& survey, const std::string& format, const fs::pa
   WriteGeoref(georef, out / "georef.json");
 }
 
-// Where a textured model lies, of the survey itself or of an epoch.
-fs::path TextureFolder(const fs::path& survey, const std::string& epoch) {
-  return epoch.empty() ? (survey / kTexturesFile).parent_path()
-                       : ReadEpochLook(survey, epoch).folder;
-}
-
 void ExportTiles(const fs::path& survey, const ExportRequest& request, int threads) {
   const Proxy proxy = ReadProxy(survey / kFacetsFile);
-  const fs::path folder = TextureFolder(survey, request.epoch);
-  const TextureSet textures = ReadTextureSet(folder / fs::path(kTexturesFile).filename());
+  const ModelLook look = ReadLook(survey, request.epoch);
   std::error_code error;
   const Georef georef =
       fs::exists(survey / kGeorefFile, error) ? ReadGeoref(survey / kGeorefFile) : Georef();
   Tiles3dOptions options;
   options.threads = threads;
-  WriteTiles3d({proxy, textures, folder}, georef, request.out, options);
+  WriteTiles3d(proxy, look, georef, request.out, options);
 }
 
 // The stage's file, unless there are epochs to show beside it.
 ExportReport ExportGlb(const fs::path& survey, const ExportRequest& request,
                        const StageTable& table) {
   std::error_code error;
-  if (!request.epoch.empty() || !fs::exists(survey / kEpochsFolder, error)) {
-    CopyFile(TextureFolder(survey, request.epoch) / "model.glb", request.out);
-    return {};
+  SurveyLooks looks;
+  if (request.epoch.empty() && fs::exists(survey / kEpochsFolder, error)) looks = ReadLooks(survey);
+  ExportReport report;
+  report.notes = NotesOf(looks);
+  if (looks.looks.size() <= 1) {
+    CopyFile(LookFolder(survey, request.epoch) / "model.glb", request.out);
+    return report;
   }
-  const SurveyLooks looks = ReadLooks(survey);
-  const Settings settings = LoadSettings(survey, table, {});
+  const Settings settings = LoadSettings(survey, table, OptionsAsMade(survey, table, "texture"));
   const auto options = OptionsOf<TextureOptions>(settings, "texture");
   const std::string glb =
       GlbOfLooks(ReadProxy(survey / kFacetsFile), looks.looks,
                  {options.glb_max_px, options.glb_quality, ResolvedThreads(settings.run)});
   if (!request.out.parent_path().empty()) fs::create_directories(request.out.parent_path(), error);
   WriteFileAtomically(request.out, glb);
-  ExportReport report;
-  report.notes = NotesOf(looks);
   return report;
 }
 
@@ -173,7 +166,7 @@ ExportReport ExportSurvey(const fs::path& survey, const ExportRequest& request,
     ExportTiles(survey, request, ResolvedThreads(LoadSettings(survey, table, {}).run));
   } else if (chosen.name == "obj") {
     prepare("texture/model.obj");
-    CopyObj(TextureFolder(survey, request.epoch), request.out);
+    CopyObj(LookFolder(survey, request.epoch), request.out);
   } else if (chosen.name == "cityjson") {
     prepare(kCityJsonFile);
     return ExportCity(survey, request);

@@ -45,7 +45,7 @@ TexturedCity CityOf(const fs::path& survey, const ExportRequest& request, Export
   std::error_code error;
   SurveyLooks looks;
   if (!request.epoch.empty()) {
-    looks.looks = {ReadEpochLook(survey, request.epoch)};
+    looks.looks = {ReadLook(survey, request.epoch)};
   } else if (fs::exists(survey / kTexturesFile, error)) {
     looks = ReadLooks(survey);
   } else {

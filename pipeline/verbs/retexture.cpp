@@ -16,7 +16,6 @@
 #include "pipeline/engine/exit_code.h"
 #include "pipeline/engine/layout.h"
 #include "pipeline/engine/lock.h"
-#include "pipeline/engine/manifest.h"
 #include "pipeline/engine/outputs.h"
 #include "pipeline/engine/progress.h"
 #include "pipeline/engine/settings.h"
@@ -85,21 +84,6 @@ void RequireNew(const fs::path& folder) {
   if (!fs::exists(fs::symlink_status(folder, error))) return;
   throw Error(ErrorKind::kBadInput, fmt::format("{}: this epoch is there already", folder.string()),
               "choose another name with --epoch, or remove that folder; epochs are never replaced");
-}
-
-// What a stage's results were made with: options given for one run count too.
-std::vector<std::string> OptionsAsMade(const fs::path& survey, const StageTable& table,
-                                       const std::string& stage) {
-  const auto manifest = ReadManifest(WorkFolder(survey).Manifest(stage)).manifest;
-  if (!manifest) return {};
-  const BoundStage bound = GetStage(table, stage).bind();
-  std::vector<std::string> overrides;
-  for (const auto& [name, toml] : manifest->fingerprint.options) {
-    std::string text = toml;
-    std::erase_if(text, [](char c) { return c == '"' || c == '[' || c == ']'; });
-    if (bound.options.Find(name)) overrides.push_back(fmt::format("{}.{}={}", stage, name, text));
-  }
-  return overrides;
 }
 
 // Checkpoints of this verb; what calibration found in the survey's photos is read too.

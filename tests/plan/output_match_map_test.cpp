@@ -71,6 +71,14 @@ TEST(MatchSvg, AStopIsAsSureAsTheThirdPartnerOfItsWorstPhoto) {
   EXPECT_EQ(DrawnOf(svg, kSurest).dots, 0);
 }
 
+TEST(MatchSvg, AStopThatLacksClosePartnersIsRed) {
+  Plan plan = FourStops();
+  for (PlannedView& view : plan.views) view.partners = {{"v1", 0.5}, {"v2", 0.4}, {"v3", 0.3}};
+  EXPECT_EQ(DrawnOf(MatchSvg(plan), kLoose).dots, 0);
+  plan.views[2].is_loose = true;
+  EXPECT_EQ(DrawnOf(MatchSvg(plan), kLoose).dots, 1);
+}
+
 TEST(MatchSvg, ALineHasTheColourOfTheStrongestPair) {
   Plan plan = FourStops();
   plan.views[0].partners = {{"v1", 0.5}, {"v2", 0.08}};

@@ -87,14 +87,15 @@ TEST_F(LooksTest, EpochsOfOtherGridsOrFacetsAreOutdated) {
 
 TEST_F(LooksTest, ASurveyWithoutEpochsHasItsOwn) {
   EXPECT_EQ(ReadLooks(survey()).looks.size(), 1u);
+  EXPECT_EQ(ReadLook(survey(), "").name, kOwnLook);
 }
 
 TEST_F(LooksTest, AnEpochAloneIsWhole) {
   Write(Epoch("a"), {Wall("W0", "old"), Wall("W1", "")});
-  EXPECT_THAT(IdsOf(ReadEpochLook(survey(), "a")), ElementsAre("W0", "W1"));
-  for (const char* name : {"b", "", "..", "../texture"}) {
+  EXPECT_THAT(IdsOf(ReadLook(survey(), "a")), ElementsAre("W0", "W1"));
+  for (const char* name : {"b", ".", "..", "../texture"}) {
     try {
-      ReadEpochLook(survey(), name);
+      ReadLook(survey(), name);
       ADD_FAILURE() << name;
     } catch (const Error& error) {
       EXPECT_THAT(error.remedy(), HasSubstr("its epochs are a"));

@@ -67,7 +67,7 @@ class Street : public ::testing::Test {
   }
 
   json Write(const Georef& georef = {}, int atlas_px = 160) {
-    WriteTiles3d({proxy_, textures_, folder_.path()}, georef, out_,
+    WriteTiles3d(proxy_, {kOwnLook, textures_, folder_.path()}, georef, out_,
                  {.atlas_px = atlas_px, .jpeg_quality = 95, .threads = 2});
     return json::parse(ReadFile(out_ / "tileset.json"));
   }
@@ -328,7 +328,7 @@ TEST_F(Street, BytesDoNotDependOnThreads) {
   for (const auto& entry : fs::directory_iterator(out_ / "tiles")) {
     first[entry.path().filename()] = ReadFile(entry.path());
   }
-  WriteTiles3d({proxy_, textures_, folder_.path()}, {}, out_,
+  WriteTiles3d(proxy_, {kOwnLook, textures_, folder_.path()}, {}, out_,
                {.atlas_px = 160, .jpeg_quality = 95, .threads = 1});
   for (const auto& [name, bytes] : first) EXPECT_EQ(ReadFile(out_ / "tiles" / name), bytes) << name;
 }

@@ -125,9 +125,9 @@ void MoveIntoAtlas(const TilePicture& picture, size_t facet, GlbMesh& mesh) {
   }
 }
 
-std::string TileGlb(const ModelTile& tile, const TileFrame& frame, const TexturedModel& model,
+std::string TileGlb(const ModelTile& tile, const TileFrame& frame, const fs::path& pictures,
                     const Tiles3dOptions& options) {
-  TilePicture picture = PictureOf(tile, model.folder, options);
+  TilePicture picture = PictureOf(tile, pictures, options);
   GlbModel glb;
   glb.repeat_textures = false;
   glb.materials = {GlbMaterialOf("untextured", -1)};
@@ -188,21 +188,22 @@ Json TilesetOf(const ModelTile& root, const TileFrame& frame) {
 
 }  // namespace
 
-void WriteTiles3d(const TexturedModel& model, const Georef& georef, const fs::path& out,
-                  const Tiles3dOptions& options) {
+void WriteTiles3d(const Proxy& proxy, const ModelLook& look, const Georef& georef,
+                  const fs::path& out, const Tiles3dOptions& options) {
   const TileLimits limits{kPacked * options.atlas_px * options.atlas_px,
                           options.atlas_px - 2 * kAtlasGutter_px};
-  const ModelTile root = BuildTileTree(model.proxy, model.textures, limits);
+  const ModelTile root = BuildTileTree(proxy, look.textures, limits);
   if (root.facets.empty()) {
     throw Error(ErrorKind::kBadInput, "the model has no facets: there is nothing to tile");
   }
-  const TileFrame frame = FrameOf(root.facets, model.proxy.up, georef);
+  const TileFrame frame = FrameOf(root.facets, proxy.up, georef);
   std::vector<const ModelTile*> tiles;
   Collect(root, tiles);
   std::error_code error;
   fs::create_directories(out / "tiles", error);  // writing a file says what is wrong
   ParallelFor(tiles.size(), options.threads, [&](size_t i) {
-    WriteFile(out / "tiles" / (tiles[i]->name + ".glb"), TileGlb(*tiles[i], frame, model, options));
+    WriteFile(out / "tiles" / (tiles[i]->name + ".glb"),
+              TileGlb(*tiles[i], frame, look.folder, options));
   });
   // Last, so that it names what is there.
   WriteFile(out / "tileset.json", TilesetOf(root, frame).dump(1) + "\n");
