@@ -54,9 +54,16 @@ constexpr char kAmbiguous[] =
     "ambiguous: the walls that it shows repeat themselves, and its recorded position does not tell "
     "one bay from the next; record positions by RTK, or show a corner, the ground or a roof too";
 
-UsablePhotos ReadPhotos(const StageContext& context) {
+UsablePhotos ReadPhotos(const std::optional<Plan>& plan, const StageContext& context) {
   UsablePhotos photos;
   photos.captures = ReadCaptures(context.survey / kCapturesFile);
+  photos.heights = SteadyHeights(plan ? &*plan : nullptr, photos.captures);
+  if (photos.heights.num_photos > 0) {
+    context.progress->Note(
+        fmt::format("{} photos are as high as their barometers say: heights by satellites scatter "
+                    "by {:.1f} m about these",
+                    photos.heights.num_photos, photos.heights.scatter_m));
+  }
   for (size_t i = 0; i < photos.captures.photos.size(); ++i) {
     if (!photos.captures.photos[i].usable) continue;
     photos.usable.push_back(&photos.captures.photos[i]);
@@ -370,7 +377,8 @@ std::optional<CalibratedMap> PlaceOnMap(const MapUse& use, Georef& georef,
 void RunCalib(const CalibOptions& options, StageContext& context) {
   const OneOpenCvThread photos_run_side_by_side;
   UseOneBlasThread();
-  const UsablePhotos photos = ReadPhotos(context);
+  const std::optional<Plan> plan = PlanOfSurvey(context);
+  const UsablePhotos photos = ReadPhotos(plan, context);
   const GroundControl control = ReadGroundControl(options, photos.captures, photos.usable, context);
   const Guidance guidance = GuideByPlan(options, photos.captures, photos.usable, context);
   const PhotoSet set{photos.captures, photos.usable, guidance};
@@ -400,7 +408,6 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   std::vector<PoseRecord> records =
       held.placed_records.empty() ? placed.records : held.placed_records;
   const RecordErrors* errors = georeference.records ? &*georeference.records : nullptr;
-  const std::optional<Plan> plan = PlanOfSurvey(context);
   SceneParts parts = TakeApart({mapper, pairs, photos.usable, plan, records, errors, context},
                                georeference.sigmas, scene);
   TakeWeak(repeating, georeference.sigmas.poses, scene, parts);
@@ -430,6 +437,8 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
     std::ranges::move(MapFindings(*on_map), std::back_inserter(calibration.findings));
   }
   if (errors != nullptr) {
+    calibration.records.barometric_photos = photos.heights.num_photos;
+    calibration.records.satellite_heights_sigma_m = photos.heights.scatter_m;
     std::ranges::move(SummarizeRecordOnly(summary, records, *errors),
                       std::back_inserter(calibration.photos));
   }

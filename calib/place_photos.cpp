@@ -138,6 +138,9 @@ Reconstructed ReadRecordsOf(const CalibOptions& options, const UsablePhotos& pho
     result.finding = WhyNoFrame(photos, result.frame.has_value());
   }
   result.records = ReadRecords(photos.usable, plan ? &*plan : nullptr, scene);
+  for (size_t i = 0; i < result.records.size(); ++i) {
+    result.records[i].height_zero_sigma_m = photos.heights.zero_sigma_m[photos.capture_of_photo[i]];
+  }
   for (size_t i = 0; by_plan && i < result.records.size(); ++i) {
     const std::optional<Pose>& expected = guidance.views->poses[i];
     if (expected && !result.records[i].gimbal) result.records[i].gimbal = expected->rotation;

@@ -10,6 +10,7 @@
 #include "calib/matching/guidance.h"
 #include "calib/matching/match_photos.h"
 #include "calib/options/calib_options.h"
+#include "calib/records/barometer.h"
 #include "calib/records/records.h"
 #include "calib/scene/scene.h"
 #include "survey/captures.h"
@@ -20,7 +21,8 @@ namespace stucco {
 
 // The photos that calibration works on: those that ingest could read.
 struct UsablePhotos {
-  Captures captures;
+  Captures captures;  // heights are the barometers' where these are steadier
+  SteadiedHeights heights;
   std::vector<const CapturedPhoto*> usable;
   std::vector<int> capture_of_photo;
 };

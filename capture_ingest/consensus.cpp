@@ -104,8 +104,8 @@ bool UseHeightAboveTakeoff(std::vector<PhotoRecord>& records) {
   if (positioned.empty() || !Positioned(records, /*with_height=*/true).empty()) return false;
   bool used = false;
   for (PhotoRecord* record : positioned) {
-    if (!record->height_above_takeoff_m) continue;
-    record->photo.position->height_m = *record->height_above_takeoff_m;
+    if (!record->photo.height_above_takeoff_m) continue;
+    record->photo.position->height_m = *record->photo.height_above_takeoff_m;
     record->photo.position->has_height = true;
     used = true;
   }

@@ -34,7 +34,7 @@ void TakeMetadata(const std::string& bytes, PhotoRecord& record) {
   record.tags = std::move(tags.tags);
   PositionReading position = ReadPosition(record.tags);
   record.photo.position = position.position;
-  record.height_above_takeoff_m = position.height_above_takeoff_m;
+  record.photo.height_above_takeoff_m = position.height_above_takeoff_m;
   GimbalReading gimbal = ReadGimbal(record.tags);
   record.photo.gimbal = gimbal.angles;
   record.doubts.insert(record.doubts.end(), position.doubts.begin(), position.doubts.end());

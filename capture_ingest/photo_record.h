@@ -18,7 +18,6 @@ namespace stucco {
 struct PhotoRecord {
   CapturedPhoto photo;
   Tags tags;
-  std::optional<double> height_above_takeoff_m;
   std::vector<std::string> doubts;  // values of this photo that were not believed
   std::string thumbnail;            // JPEG; empty when the picture cannot be decoded
 };

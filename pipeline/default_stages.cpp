@@ -16,6 +16,7 @@ namespace {
 Stage IngestStage() {
   Stage stage;
   stage.name = "ingest";
+  stage.version = 2;
   stage.title = "the list of photos with metadata and health";
   stage.inputs = {kPlanFile};
   stage.photos_are_input = true;
@@ -30,7 +31,7 @@ Stage IngestStage() {
 Stage CalibStage() {
   Stage stage;
   stage.name = "calib";
-  stage.version = 12;
+  stage.version = 13;
   stage.title = "camera poses and lens calibration";
   stage.needs = {"ingest"};
   stage.inputs = {kCapturesFile, kPlanFile, kGroundControlFile};

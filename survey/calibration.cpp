@@ -110,6 +110,8 @@ static void Fields(Archive& archive, T& records) {
   archive.Optional("attitude_sigma_deg", records.attitude_sigma_deg);
   archive.Optional("hover_sigma_m", records.hover_sigma_m);
   archive.Optional("mount_deg", records.mount_deg);
+  archive.Optional("barometric_photos", records.barometric_photos);
+  archive.Optional("satellite_heights_sigma_m", records.satellite_heights_sigma_m);
 }
 
 template <typename Archive, internal::Is<CalibratedPoint> T>

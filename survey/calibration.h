@@ -81,6 +81,8 @@ struct CalibratedRecords {
   double attitude_sigma_deg = -1;  // about each axis; -1: no records of angles
   double hover_sigma_m = -1;  // of photos about the place of their hover, per axis; -1: not known
   double mount_deg = 0;       // angle between what the gimbal says and where the camera looks
+  int barometric_photos = 0;  // whose height is the barometer's, where satellites put its zero
+  double satellite_heights_sigma_m = 0;  // of single heights by satellites about these
 };
 
 // Where the walls of the plan's map show the model that positions place.

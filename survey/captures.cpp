@@ -67,6 +67,7 @@ static void Fields(Archive& archive, T& photo) {
   archive.Optional("camera", photo.camera);
   archive.Optional("capture_time", photo.capture_time);
   archive.Optional("position", photo.position);
+  archive.Optional("height_above_takeoff_m", photo.height_above_takeoff_m);
   archive.Optional("gimbal", photo.gimbal);
   archive.Optional("view", photo.view);
   archive.Optional("sharpness", photo.sharpness);

@@ -42,6 +42,7 @@ struct CapturedPhoto {
   int camera = -1;           // index into Captures::cameras; -1 when not usable
   std::string capture_time;  // EXIF DateTimeOriginal, "2025:03:01 12:00:00"; may be empty
   std::optional<GeoPosition> position;
+  std::optional<double> height_above_takeoff_m;  // by the barometer
   std::optional<GimbalAngles> gimbal;
   std::string view;          // id of the planned view; empty: extra
   double sharpness = 0;      // variance of the Laplacian at 1 megapixel

@@ -146,9 +146,9 @@ class Adjustment {
     options.logging_type = ceres::SILENT;
     const auto photos = std::count_if(poses_.begin(), poses_.end(),
                                       [&](const auto& pose) { return IsVariable(pose.first); });
-    options.linear_solver_type = photos <= 60    ? ceres::DENSE_SCHUR
-                                 : photos <= 800 ? ceres::SPARSE_SCHUR
-                                                 : ceres::ITERATIVE_SCHUR;
+    options.linear_solver_type = photos <= 60     ? ceres::DENSE_SCHUR
+                                 : photos <= 3000 ? ceres::SPARSE_SCHUR
+                                                  : ceres::ITERATIVE_SCHUR;
     options.preconditioner_type = ceres::SCHUR_JACOBI;
     return options;
   }

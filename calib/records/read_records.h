@@ -19,15 +19,16 @@ struct PoseRecord {
   std::optional<Eigen::Quaterniond> gimbal;  // cam_from_world
   int flight = 0;                            // receivers and compasses err alike within one
   int hover = -1;  // of the flight, as planned: photos of one stand in one place; -1: none
+  // Of the zero of a height by barometer, which all photos of the flight share (SteadyHeights).
+  double height_zero_sigma_m = 0;
   // It shows little but walls that repeat themselves, so that its pose may be whole bays off, with
   // those of its neighbours: no witness of how positions err where there are others.
   bool may_be_bays_off = false;
 };
 
 // Records of the scene's photos, which have the given captures and whose positions are in
-// ScenePhoto::prior (FrameFromPositions). The flight is that of the planned view; photos that have
-// none belong to that of the photo before them in time, and without any flight pauses of five
-// minutes and changes of the camera tell flights apart. Hovers are the plan's. `plan` may be null.
+// ScenePhoto::prior (FrameFromPositions). Flights are those of ReadFlights, hovers the plan's.
+// `plan` may be null.
 std::vector<PoseRecord> ReadRecords(const std::vector<const CapturedPhoto*>& captures,
                                     const Plan* plan, const Scene& scene);
 

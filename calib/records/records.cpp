@@ -423,6 +423,8 @@ void ApplyRecords(const std::vector<PoseRecord>& records, const RecordErrors& er
             std::pair(&photo.prior->sigma_vertical_m, flight.vertical_over_stated)}) {
         *sigma = std::max(kLeastPosition_m, over_stated * *sigma);
       }
+      double& vertical_m = photo.prior->sigma_vertical_m;
+      vertical_m = std::hypot(vertical_m, records[i].height_zero_sigma_m);
     }
     if (!records[i].gimbal) continue;
     photo.attitude =

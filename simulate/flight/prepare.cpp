@@ -22,6 +22,7 @@ constexpr uint64_t kSensorSeed = 0x5E50;
 constexpr uint64_t kMotionSeed = 0x307E;
 constexpr uint64_t kBiasSeed = 0x61A5;
 constexpr uint64_t kReceiverSeed = 0x6950;
+constexpr uint64_t kBarometerSeed = 0xBA40;
 
 uint64_t PhotoSeed(const FlightOptions& options, uint64_t purpose, size_t photo) {
   return SeedOf(SeedOf(static_cast<uint64_t>(options.seed), purpose), photo);
@@ -142,6 +143,20 @@ void AddHeldOut(const SceneShape& scene, const Camera& lens, const FlightOptions
 constexpr double kUpOverHorizontal = 1.5;
 const Eigen::Vector3d kRtkSigma_m(0.011, 0.011, 0.02);
 
+// Barometers are good to a decimetre from photo to photo, and drift with the weather and their own
+// temperature.
+constexpr double kBarometer_m = 0.1;
+constexpr double kDrift_m = 0.5;
+constexpr double kDriftPeriod_s = 1800;
+
+double BarometerDrift_m(const Shot& shot, const FlightOptions& options) {
+  Random of_flight(
+      SeedOf(SeedOf(static_cast<uint64_t>(options.seed), kBarometerSeed), shot.flight));
+  const double height_m = kDrift_m * of_flight.Normal();
+  const double phase = 2 * std::numbers::pi * of_flight.Uniform(0, 1);
+  return height_m * std::sin(2 * std::numbers::pi * shot.time_s / kDriftPeriod_s + phase);
+}
+
 }  // namespace
 
 PreparedFlight PrepareFlight(const Plan& plan, const SceneInfo& info, const SceneShape& scene,
@@ -230,10 +245,8 @@ PhotoMetadata MetadataOf(const PreparedFlight& prepared, size_t photo,
   metadata.longitude_deg = geodetic[1];
   metadata.height_m = geodetic[2];
   if (!options.rtk) metadata.height_m -= options.geoid_m;
-  // Barometers are good to a decimetre within a flight.
-  constexpr double kBarometer_m = 0.1;
   metadata.above_takeoff_m = shot.position_m.z() - prepared.plan.HomeOf(shot.flight).z() +
-                             kBarometer_m * of_photo.Normal();
+                             BarometerDrift_m(shot, options) + kBarometer_m * of_photo.Normal();
   metadata.gimbal = shot.angles;
   metadata.gimbal.yaw_deg += options.gimbal_noise_deg * of_photo.Normal();
   metadata.gimbal.pitch_deg += options.gimbal_noise_deg * of_photo.Normal();

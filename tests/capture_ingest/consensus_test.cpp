@@ -76,7 +76,7 @@ TEST(QuarantineOutliers, AcrossTheDateLineIsNear) {
 
 TEST(UseHeightAboveTakeoff, OnlyWhenNothingElseIsThere) {
   auto records = Flight(3);
-  for (auto& record : records) record.height_above_takeoff_m = 40;
+  for (auto& record : records) record.photo.height_above_takeoff_m = 40;
   EXPECT_FALSE(UseHeightAboveTakeoff(records));
   EXPECT_EQ(records[0].photo.position->height_m, 300);
   for (auto& record : records) record.photo.position->has_height = false;
