@@ -28,6 +28,7 @@ import steps
 import surveys
 
 METRES_PER_DEGREE = 111320
+ONE_STOREY_M = 3
 DJI = "Xmp.drone-dji."
 FIGURES = ("fault", "posed", "wrong", "position, median (mm)", "largest", "in the world (m)",
            "in the world (deg)", "CPU s", "what calib says of it")
@@ -111,8 +112,8 @@ def no_metadata(records, _chance):
 FAULTS = {"as-flown": as_flown, "gps-5m": gps_bias,
           "gps-noise-1m": gps_noise(1), "gps-noise-3m": gps_noise(3),
           "mount-3deg": gimbal_mount, "gimbal-noise-3deg": gimbal_noise, "compass-25deg": compass,
-          "wild-20-percent": wild_positions, "map-3m": as_flown, "no-heights": no_heights,
-          "no-metadata": no_metadata}
+          "wild-20-percent": wild_positions, "map-3m": as_flown, "map-no-heights": as_flown,
+          "no-heights": no_heights, "no-metadata": no_metadata}
 
 
 def degrees(value):
@@ -160,6 +161,19 @@ def moved_map(plan, east, north):
     return plan
 
 
+def map_without_heights(plan):
+    """The plan as if nobody knew how high its buildings are: one storey is all that is sure."""
+    for footprint in plan["footprints"]:
+        footprint["z_m"][1] = footprint["z_m"][0] + ONE_STOREY_M
+    for facade in plan["facades"]:
+        facade["z_m"][1] = facade["z_m"][0] + ONE_STOREY_M
+        facade["top_known"] = False
+    return plan
+
+
+MAPS = {"map-3m": lambda plan: moved_map(plan, 2.4, -1.8), "map-no-heights": map_without_heights}
+
+
 def make_survey(flight, fault, survey):
     """A survey of the flight's photos with the fault in their metadata."""
     captures = json.loads((flight / "ingest/captures.json").read_text(encoding="utf-8"))
@@ -174,9 +188,9 @@ def make_survey(flight, fault, survey):
     shutil.copy(flight / "survey.toml", part)
     for folder in ("plan", "truth"):
         shutil.copytree(flight / folder, part / folder)
-    if fault == "map-3m":
+    if fault in MAPS:
         path = part / "plan/plan.json"
-        plan = moved_map(json.loads(path.read_text(encoding="utf-8")), 2.4, -1.8)
+        plan = MAPS[fault](json.loads(path.read_text(encoding="utf-8")))
         path.write_text(json.dumps(plan), encoding="utf-8")
     part.rename(survey)
 

@@ -6,12 +6,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
+#include <vector>
 
+#include "calib/adjust/covariance.h"
+#include "calib/results/summarize.h"
 #include "tests/calib/made_records.h"
 
 namespace stucco::test {
 namespace {
+
+// All that a photo shows is matched to what lies farther along: as where windows repeat.
+void MatchElsewhere(int photo, Scene& scene) {
+  ScenePhoto& shifted = scene.photos[photo];
+  const Pose moved = LookAt(shifted.pose->Center() + Eigen::Vector3d(6, 0, 0),
+                            shifted.pose->Center() + Eigen::Vector3d(6, 20, 0));
+  for (SceneTrack& track : scene.tracks) {
+    for (SceneElement& e : track.elements) {
+      if (e.photo != photo) continue;
+      const auto pixel = scene.CameraOf(photo).Project(moved * *track.position);
+      if (pixel) shifted.keypoints[e.keypoint] = *pixel;
+    }
+  }
+  shifted.pose = moved;
+}
 
 class WrongPosesTest : public testing::Test {
  protected:
@@ -55,24 +75,48 @@ TEST_F(WrongPosesTest, TenBrokenOnesAreFoundAndMended) {
   EXPECT_LT(ComparePoses(scene_, truth_).position_m, 0.05);
 }
 
-// All that a photo shows is matched to what lies farther along: as where windows repeat.
 TEST_F(WrongPosesTest, AShiftAlongAWallIsNotBelieved) {
   const int photo = 12;
-  ScenePhoto& shifted = scene_.photos[photo];
-  const Pose moved = LookAt(shifted.pose->Center() + Eigen::Vector3d(6, 0, 0),
-                            shifted.pose->Center() + Eigen::Vector3d(6, 20, 0));
-  for (SceneTrack& track : scene_.tracks) {
-    for (SceneElement& e : track.elements) {
-      if (e.photo != photo) continue;
-      const auto pixel = scene_.CameraOf(photo).Project(moved * *track.position);
-      if (pixel) shifted.keypoints[e.keypoint] = *pixel;
-    }
-  }
-  shifted.pose = moved;
+  MatchElsewhere(photo, scene_);
   ASSERT_EQ(JudgePose(scene_, photo), RecordVerdict::kContradicts);
   const WrongPoses wrong = MendWrongPoses({}, context_, scene_);
   EXPECT_EQ(wrong.taken, std::vector{photo});
   EXPECT_FALSE(scene_.photos[photo].pose);
+}
+
+// What calibration.json says is all that somebody needs to know which photos not to trust.
+TEST_F(WrongPosesTest, TenThatMatchesInsistOnAreToldByTheSummary) {
+  Captures captures;
+  captures.cameras.push_back({"key", "Made", scene_.cameras[0].prior, "exif_35mm"});
+  std::vector<int> capture_of_photo;
+  std::map<int, std::string> why;
+  std::vector<std::string> broken;
+  for (int i = 0; i < 30; ++i) {
+    CapturedPhoto photo;
+    photo.usable = true;
+    photo.path = scene_.photos[i].name;
+    captures.photos.push_back(photo);
+    capture_of_photo.push_back(i);
+    if (i % 3 != 1) continue;
+    broken.push_back(photo.path);
+    MatchElsewhere(i, scene_);
+    ASSERT_EQ(JudgePose(scene_, i), RecordVerdict::kContradicts);
+  }
+  ASSERT_EQ(broken.size(), 10U);
+  const WrongPoses wrong = MendWrongPoses({}, context_, scene_);
+  for (const int photo : wrong.taken) why[photo] = "its pose contradicts its record";
+  FilterScene({}, scene_);
+  const Calibration summary =
+      Summarize({captures, capture_of_photo, scene_, why, MeasurePriors(scene_, {}), {}, nullptr,
+                 EstimateSigmas({}, scene_)});
+  std::vector<std::string> told;
+  for (const UnposedPhoto& photo : summary.unposed) told.push_back(photo.path);
+  for (const CalibratedPhoto& photo : summary.photos) {
+    if (photo.state != PhotoState::kTied) told.push_back(photo.path);
+  }
+  std::ranges::sort(told);
+  EXPECT_EQ(told, broken);
+  EXPECT_LT(ComparePoses(scene_, truth_).position_m, 0.05);
 }
 
 // Neither alone is more than records may be off by.
