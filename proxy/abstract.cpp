@@ -183,6 +183,22 @@ void TakeSolids(std::vector<Solid> solids, bool mapped, std::vector<Building>& b
   }
 }
 
+// What does not close and shows no face as large as a house's smallest is a tree, a car or a hedge:
+// a crown is fitted by planes of a few square metres, a house that is seen from one side has a wall
+// or a roof.
+void LeaveOutSmallThings(std::vector<Building>& buildings, ProxyFindings& findings) {
+  constexpr double kLeastFace_m2 = 10;
+  for (Building& building : buildings) {
+    if (building.watertight || building.id == "G0" || building.facets.empty()) continue;
+    const auto largest = std::ranges::max_element(building.facets, {}, &Facet::area);
+    if (largest->area >= kLeastFace_m2) continue;
+    findings.notes.push_back(
+        fmt::format("{}: left out: no building, its largest face has {:.1f} m2", building.id,
+                    largest->area));
+    building.facets.clear();
+  }
+}
+
 // The ground as it rises and falls, where its planes do not show that.
 void FollowTerrain(const PlanarScene& scene, std::vector<Building>& buildings,
                    ProxyFindings& findings) {
@@ -235,6 +251,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
                            std::make_move_iterator(mapped->buildings.begin()),
                            std::make_move_iterator(mapped->buildings.end()));
   }
+  if (proxy.metric) LeaveOutSmallThings(proxy.buildings, findings);
   FollowTerrain(scene, proxy.buildings, findings);
   std::erase_if(proxy.buildings, [](const Building& building) { return building.facets.empty(); });
   if (proxy.buildings.empty()) {

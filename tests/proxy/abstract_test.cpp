@@ -172,6 +172,20 @@ TEST(AbstractCloud, AFrontAloneStaysOpenFacets) {
   EXPECT_LT(AngleDeg(front.normal, -Vector3d::UnitY()), 0.5);
 }
 
+TEST(AbstractCloud, WhatHasNoFaceOfAHouseIsNone) {
+  const CaptureOptions options{.noise = 0.02, .front_only = true, .hide = {"east", "west"}};
+  const auto house = test::GableHouse();
+  const auto kiosk = test::BoxHouse(3, 3, 3, {22, 0, 0});
+  const Captured captured = Capture({house, kiosk}, {test::GroundSquare(40)}, options);
+  const Proxy proxy = Abstract(captured);
+  ASSERT_EQ(proxy.buildings.size(), 2u);  // the house's front and the ground
+  EXPECT_GT(proxy.buildings[0].facets[0].area, 70);
+  // Without a scale nobody knows what is small.
+  Georef unknown;
+  unknown.up = Vector3d::UnitZ();
+  EXPECT_EQ(Abstract(captured, unknown).buildings.size(), 3u);
+}
+
 TEST(AbstractCloud, FindsUpAndScaleInAnArbitraryFrame) {
   const auto house = test::GableHouse();
   Captured captured =
