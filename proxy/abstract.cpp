@@ -192,9 +192,8 @@ void LeaveOutSmallThings(std::vector<Building>& buildings, ProxyFindings& findin
     if (building.watertight || building.id == "G0" || building.facets.empty()) continue;
     const auto largest = std::ranges::max_element(building.facets, {}, &Facet::area);
     if (largest->area >= kLeastFace_m2) continue;
-    findings.notes.push_back(
-        fmt::format("{}: left out: no building, its largest face has {:.1f} m2", building.id,
-                    largest->area));
+    findings.notes.push_back(fmt::format(
+        "{}: left out: no building, its largest face has {:.1f} m2", building.id, largest->area));
     building.facets.clear();
   }
 }

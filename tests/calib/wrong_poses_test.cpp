@@ -106,9 +106,14 @@ TEST_F(WrongPosesTest, TenThatMatchesInsistOnAreToldByTheSummary) {
   const WrongPoses wrong = MendWrongPoses({}, context_, scene_);
   for (const int photo : wrong.taken) why[photo] = "its pose contradicts its record";
   FilterScene({}, scene_);
-  const Calibration summary =
-      Summarize({captures, capture_of_photo, scene_, why, MeasurePriors(scene_, {}), {}, nullptr,
-                 EstimateSigmas({}, scene_)});
+  const Calibration summary = Summarize({captures,
+                                         capture_of_photo,
+                                         scene_,
+                                         why,
+                                         MeasurePriors(scene_, {}),
+                                         {},
+                                         nullptr,
+                                         EstimateSigmas({}, scene_)});
   std::vector<std::string> told;
   for (const UnposedPhoto& photo : summary.unposed) told.push_back(photo.path);
   for (const CalibratedPhoto& photo : summary.photos) {
