@@ -170,6 +170,7 @@ SteadiedHeights SteadyHeights(const Plan* plan, Captures& captures) {
                                         position.sigma_vertical_m});
   }
   std::vector<std::optional<Offset>> offsets;
+  offsets.reserve(flights.size());
   for (const auto& readings : flights) offsets.push_back(OffsetOf(readings));
   for (size_t i = 0; i < photos.size(); ++i) {
     const std::optional<Offset>& offset = offsets[taken[i].flight];
