@@ -56,7 +56,8 @@ std::vector<TakenIn> ReadFlights(const std::vector<const CapturedPhoto*>& captur
     const auto found = flight_of_view.find(captures[i]->view);
     const int now = found == flight_of_view.end() ? planned : found->second;
     if (before >= 0) {
-      const auto& [now_s, before_s] = std::pair(taken[i].time_s, taken[before].time_s);
+      const std::optional<double>& now_s = taken[i].time_s;
+      const std::optional<double>& before_s = taken[before].time_s;
       const bool paused = now_s && before_s && *now_s - *before_s > kPause_s;
       const bool other = planned >= 0 && now != planned;
       flight += paused || other || captures[i]->camera != captures[before]->camera;
