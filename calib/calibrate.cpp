@@ -27,6 +27,7 @@
 #include "calib/matching/repeating_walls.h"
 #include "calib/parts/parts.h"
 #include "calib/parts/take_apart.h"
+#include "calib/parts/untold_bays.h"
 #include "calib/parts/weak_pose.h"
 #include "calib/place_photos.h"
 #include "calib/records/align_to_map.h"
@@ -286,15 +287,32 @@ std::map<int, std::string> Unregistered(const MapperOptions& mapper,
   return why;
 }
 
-// A pose that little holds may be a bay off where a photo shows hardly anything but walls that
-// repeat themselves.
-void TakeWeak(const OnRepeatingWalls& repeating, const std::vector<PoseSigma>& sigmas, Scene& scene,
-              SceneParts& parts) {
-  if (repeating.period_m.empty()) return;
-  std::vector<int> taken = WeakPoses(scene, sigmas);
-  std::erase_if(taken, [&](int photo) { return !repeating.IsMostOf(photo); });
-  TakePoses(taken, scene);
-  for (const int photo : taken) parts.part_of_photo[photo] = -1;
+// Takes poses that may be bays off, of photos that show hardly anything but walls that repeat
+// themselves: those that little holds, and those of which neither matches nor records tell the bay.
+// `recorded` are positions by records, corrected. Returns the photos.
+std::vector<int> TakeBaysInDoubt(const OnRepeatingWalls& repeating,
+                                 const std::vector<PlannedFacade>& facades,
+                                 const std::vector<std::optional<PositionPrior>>& recorded,
+                                 const std::vector<PoseSigma>& sigmas, Scene& scene) {
+  std::vector<int> taken;
+  if (repeating.period_m.empty()) return taken;
+  while (true) {
+    std::vector<int> photos = WeakPoses(scene, sigmas);
+    std::erase_if(photos, [&](int photo) { return !repeating.IsMostOf(photo); });
+    if (photos.empty()) photos = UntoldBays(repeating, facades, recorded, scene);
+    if (photos.empty()) return taken;
+    TakePoses(photos, scene);
+    taken.insert(taken.end(), photos.begin(), photos.end());
+  }
+}
+
+std::vector<std::optional<PositionPrior>> CorrectedPositions(const std::vector<PoseRecord>& records,
+                                                             const RecordErrors* errors) {
+  std::vector<std::optional<PositionPrior>> positions(records.size());
+  for (size_t i = 0; errors != nullptr && i < records.size(); ++i) {
+    positions[i] = CorrectedPosition(records[i], *errors);
+  }
+  return positions;
 }
 
 // Those of `why` that match others and could stand before any of several bays, ascending.
@@ -410,7 +428,11 @@ void RunCalib(const CalibOptions& options, StageContext& context) {
   const RecordErrors* errors = georeference.records ? &*georeference.records : nullptr;
   SceneParts parts = TakeApart({mapper, pairs, photos.usable, plan, records, errors, context},
                                georeference.sigmas, scene);
-  TakeWeak(repeating, georeference.sigmas.poses, scene, parts);
+  for (const int photo :
+       TakeBaysInDoubt(repeating, guidance.facades, CorrectedPositions(records, errors),
+                       georeference.sigmas.poses, scene)) {
+    parts.part_of_photo[photo] = -1;
+  }
   georeference.residuals = MeasurePriors(scene, georeference.prior_outliers);
   const std::optional<CalibratedMap> on_map =
       PlaceOnMap({guidance, plan, options.georef == "map" && !held.georef, context},

@@ -21,7 +21,6 @@ namespace {
 constexpr size_t kNearestTied = 5;
 constexpr int kLeastShared = 30;
 constexpr size_t kLeastPhotos = 3;
-constexpr double kCommonShare = 0.5;  // of the variance of neighbours' records
 // What poses may be off by where records are better.
 constexpr double kTiedSigma_m = 0.05;
 constexpr double kTiedSigma_rad = 0.05 * std::numbers::pi / 180;

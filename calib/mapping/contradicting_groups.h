@@ -14,6 +14,9 @@ inline constexpr double kUnlikelySquare = 21.1;
 inline constexpr double kDoubtfulSquare = 11.3;
 inline constexpr double kUnlikelySixSquare = 27.9;
 
+// Of the variance of neighbours' records: receivers drift, compasses depend on the place.
+inline constexpr double kCommonShare = 0.5;
+
 // Photos that are off their records together, ascending: each by no more than records are off, but
 // all the same way, as a part that hangs on the rest by little is when it is bent. Groups are a
 // photo and those that share most points with it; the mean of their differences in attitude and

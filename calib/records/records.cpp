@@ -404,6 +404,20 @@ std::optional<double> UpSigma_rad(const RecordErrors& errors) {
   return std::hypot(errors.sigma_tilt_rad, errors.tilt_rad.norm(), kLeastAttitude_rad);
 }
 
+std::optional<PositionPrior> CorrectedPosition(const PoseRecord& record,
+                                               const RecordErrors& errors) {
+  if (!record.position) return std::nullopt;
+  const FlightErrors& flight = errors.flights[record.flight];
+  PositionPrior prior = *record.position;
+  prior.position -= flight.shift_m;
+  prior.sigma_horizontal_m =
+      std::max(kLeastPosition_m, flight.horizontal_over_stated * prior.sigma_horizontal_m);
+  prior.sigma_vertical_m =
+      std::hypot(std::max(kLeastPosition_m, flight.vertical_over_stated * prior.sigma_vertical_m),
+                 record.height_zero_sigma_m);
+  return prior;
+}
+
 void ApplyRecords(const std::vector<PoseRecord>& records, const RecordErrors& errors,
                   Scene& scene) {
   assert(records.size() == scene.photos.size());
@@ -411,22 +425,12 @@ void ApplyRecords(const std::vector<PoseRecord>& records, const RecordErrors& er
   scene.hover_sigma_m = errors.sigma_hover_m;
   for (size_t i = 0; i < records.size(); ++i) {
     ScenePhoto& photo = scene.photos[i];
-    photo.prior = records[i].position;
+    photo.prior = CorrectedPosition(records[i], errors);
     photo.hover = records[i].hover;
     photo.may_be_bays_off = records[i].may_be_bays_off;
     photo.attitude.reset();
-    const FlightErrors& flight = errors.flights[records[i].flight];
-    if (photo.prior) {
-      photo.prior->position -= flight.shift_m;
-      for (const auto& [sigma, over_stated] :
-           {std::pair(&photo.prior->sigma_horizontal_m, flight.horizontal_over_stated),
-            std::pair(&photo.prior->sigma_vertical_m, flight.vertical_over_stated)}) {
-        *sigma = std::max(kLeastPosition_m, over_stated * *sigma);
-      }
-      double& vertical_m = photo.prior->sigma_vertical_m;
-      vertical_m = std::hypot(vertical_m, records[i].height_zero_sigma_m);
-    }
     if (!records[i].gimbal) continue;
+    const FlightErrors& flight = errors.flights[records[i].flight];
     photo.attitude =
         AttitudePrior{(mount * *records[i].gimbal * AboutUp(flight.yaw_rad)).normalized(),
                       errors.sigma_attitude_rad};

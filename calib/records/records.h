@@ -54,6 +54,11 @@ std::optional<double> UpSigma_rad(const RecordErrors& errors);
 // on a single photo. Flights with fewer than eight posed photos share the deviations of all.
 RecordErrors MeasureRecordErrors(const std::vector<PoseRecord>& records, const Scene& scene);
 
+// The recorded position without what is common to its flight, with its measured deviations; nothing
+// where none is recorded.
+std::optional<PositionPrior> CorrectedPosition(const PoseRecord& record,
+                                               const RecordErrors& errors);
+
 // Makes the records, corrected and with their measured deviations, the priors of the scene's
 // photos, and tells the scene which photos stand in one place.
 void ApplyRecords(const std::vector<PoseRecord>& records, const RecordErrors& errors, Scene& scene);
