@@ -31,7 +31,7 @@ Stage IngestStage() {
 Stage CalibStage() {
   Stage stage;
   stage.name = "calib";
-  stage.version = 13;
+  stage.version = 14;
   stage.title = "camera poses and lens calibration";
   stage.needs = {"ingest"};
   stage.inputs = {kCapturesFile, kPlanFile, kGroundControlFile};
@@ -70,7 +70,7 @@ Stage ProxyStage() {
   Stage stage;
   stage.name = "proxy";
   stage.title = "the planar model";
-  stage.version = 20;
+  stage.version = 21;
   stage.needs = {"calib", "dense"};
   stage.inputs = {kCloudFile, kSparseFolder, kGeorefFile, kPlanFile};
   stage.cost = {.cpu_s_per_photo = 0.25, .disk_mb_per_photo = 0.02, .memory_mb = 700};

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "survey/attitude.h"
@@ -87,8 +88,8 @@ bool MakeWall(const Surroundings& around, double tolerance, Plane& plane) {
   return true;
 }
 
-void AssignRoles(const Surroundings& around, const RegulariseOptions& options,
-                 std::vector<Plane>& planes) {
+void SetRoles(const Surroundings& around, const RegulariseOptions& options,
+              std::vector<Plane>& planes) {
   const Eigen::Vector3d& up = around.compass.up;
   const double vertical = options.vertical_tolerance_deg * kDegree;
   const double flat = vertical / 2;
@@ -122,18 +123,17 @@ double ToGrid(double azimuth, double base) {
 
 // Peak of the wall area over azimuths folded to 90 degrees, refined by the mean around it. The
 // kernel is narrow, so that walls of another direction do not pull.
-double MainAzimuth(const std::vector<Plane>& planes, const std::vector<int>& walls,
-                   const Compass& compass) {
+double MainAzimuth(std::span<const Plane* const> walls, const Compass& compass) {
   constexpr int kBins = 180;
   constexpr double kWidth = 2 * kDegree;
   double best = -1, base = 0;
   for (int bin = 0; bin < kBins; ++bin) {
     const double candidate = bin * kPi / 2 / kBins;
     double votes = 0, sum = 0;
-    for (const int w : walls) {
-      const double off = ToGrid(compass.Azimuth(planes[w].normal), candidate);
+    for (const Plane* wall : walls) {
+      const double off = ToGrid(compass.Azimuth(wall->normal), candidate);
       if (std::abs(off) > kWidth) continue;
-      const double weight = planes[w].area * (1 - std::abs(off) / kWidth);
+      const double weight = wall->area * (1 - std::abs(off) / kWidth);
       votes += weight;
       sum += weight * off;
     }
@@ -162,19 +162,19 @@ bool TurnTo(const Surroundings& around, double azimuth, double tolerance, Plane&
 std::vector<double> AlignWalls(const Surroundings& around, double tolerance,
                                std::vector<Plane>& planes) {
   const Compass& compass = around.compass;
-  std::vector<int> open;
-  for (size_t i = 0; i < planes.size(); ++i) {
-    if (planes[i].role == PlaneRole::kWall) open.push_back(static_cast<int>(i));
+  std::vector<Plane*> open;
+  for (Plane& plane : planes) {
+    if (plane.role == PlaneRole::kWall) open.push_back(&plane);
   }
   std::vector<double> bases;
   while (!open.empty() && tolerance > 0) {
-    const double base = MainAzimuth(planes, open, compass);
+    const double base = MainAzimuth(open, compass);
     bases.push_back(base);
     const size_t before = open.size();
-    std::erase_if(open, [&](int w) {
-      const double azimuth = compass.Azimuth(planes[w].normal);
+    std::erase_if(open, [&](Plane* wall) {
+      const double azimuth = compass.Azimuth(wall->normal);
       const double off = ToGrid(azimuth, base);
-      if (TurnTo(around, azimuth - off, tolerance, planes[w])) return true;
+      if (TurnTo(around, azimuth - off, tolerance, *wall)) return true;
       return std::abs(off) <= tolerance;
     });
     if (open.size() == before) break;
@@ -276,12 +276,24 @@ void DropFarPoints(const Samples& samples, const Tolerances& tolerances,
 
 }  // namespace
 
-Eigen::Vector3d Regularise(const Samples& samples, const Tolerances& tolerances,
-                           const Eigen::Vector3d& up, const RegulariseOptions& options,
-                           std::vector<Plane>& planes) {
+void AssignRoles(const Samples& samples, const Tolerances& tolerances, const Eigen::Vector3d& up,
+                 const RegulariseOptions& options, std::vector<Plane>& planes) {
+  SetRoles({samples, tolerances, Compass(up)}, options, planes);
+}
+
+Eigen::Vector3d MainDirection(const Eigen::Vector3d& up, std::span<const Plane* const> planes) {
+  std::vector<const Plane*> walls;
+  std::ranges::copy_if(planes, std::back_inserter(walls),
+                       [](const Plane* plane) { return plane->role == PlaneRole::kWall; });
+  const Compass compass(up);
+  return compass.Direction(MainAzimuth(walls, compass));
+}
+
+void Regularise(const Samples& samples, const Tolerances& tolerances, const Eigen::Vector3d& up,
+                const RegulariseOptions& options, std::vector<Plane>& planes) {
   const Surroundings around{samples, tolerances, Compass(up)};
   const double tolerance = options.align_tolerance_deg * kDegree;
-  AssignRoles(around, options, planes);
+  SetRoles(around, options, planes);
   const auto bases = AlignWalls(around, tolerance, planes);
   if (tolerance > 0) {
     AlignSlopes(around, bases, tolerance, planes);
@@ -289,7 +301,6 @@ Eigen::Vector3d Regularise(const Samples& samples, const Tolerances& tolerances,
   }
   JoinParallel(samples, tolerances, planes);
   DropFarPoints(samples, tolerances, planes);
-  return around.compass.Direction(bases.empty() ? 0 : bases[0]);
 }
 
 }  // namespace stucco

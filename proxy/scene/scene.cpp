@@ -17,6 +17,7 @@
 #include "proxy/scene/clusters.h"
 #include "proxy/scene/ground.h"
 #include "survey/error.h"
+#include "survey/parallel.h"
 
 namespace stucco {
 namespace {
@@ -144,6 +145,28 @@ void FindUp(const std::vector<Plane>& planes, const ProxyInput& input, const Pro
   }
 }
 
+// Takes the ground out of the planes; its pieces of one height and slope are one plane. The main one
+// first.
+std::vector<Plane> TakeGround(const PlanarScene& scene, RegulariseOptions regularity,
+                              std::vector<Plane>& planes) {
+  std::vector<Plane> ground;
+  for (const int g : FindGround(scene.samples, scene.tolerances, scene.up, planes)) {
+    ground.push_back(std::move(planes[g]));
+    planes[g].points.clear();
+  }
+  std::erase_if(planes, [](const Plane& plane) { return plane.points.empty(); });
+  if (ground.empty()) return ground;
+  const std::vector<int> of_main = ground.front().points;
+  regularity.align_tolerance_deg = 0;
+  Regularise(scene.samples, scene.tolerances, scene.up, regularity, ground);
+  const auto in_main = [&](const Plane& plane) {
+    return std::ranges::count_if(
+        plane.points, [&](int i) { return std::ranges::binary_search(of_main, i); });
+  };
+  std::rotate(ground.begin(), std::ranges::max_element(ground, {}, in_main), ground.end());
+  return ground;
+}
+
 }  // namespace
 
 PlanarScene UnderstandCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
@@ -164,34 +187,34 @@ PlanarScene UnderstandCloud(const ProxyInput& input, const ProxyOptions& options
                 kCloudRemedy);
   }
   FindUp(planes, input, options, scene, findings);
-  scene.main_direction = Regularise(scene.samples, scene.tolerances, scene.up,
-                                    {.vertical_tolerance_deg = options.vertical_tolerance_deg,
-                                     .align_tolerance_deg = options.align_tolerance_deg},
-                                    planes);
+  const RegulariseOptions regularity{.vertical_tolerance_deg = options.vertical_tolerance_deg,
+                                     .align_tolerance_deg = options.align_tolerance_deg};
+  AssignRoles(scene.samples, scene.tolerances, scene.up, regularity, planes);
+  std::vector<const Plane*> all;
+  all.reserve(planes.size());
   for (const Plane& plane : planes) {
+    all.push_back(&plane);
     scene.support.insert(scene.support.end(), plane.points.begin(), plane.points.end());
   }
+  scene.main_direction = MainDirection(scene.up, all);
   std::sort(scene.support.begin(), scene.support.end());
-  std::vector<bool> is_ground(planes.size(), false);
-  for (const int g : FindGround(scene.samples, scene.tolerances, scene.up, planes)) {
-    scene.ground.push_back(planes[g]);
-    is_ground[g] = true;
-  }
+  const size_t num_planes = planes.size();
+  scene.ground = TakeGround(scene, regularity, planes);
   if (scene.ground.empty()) {
     if (auto floor = FitFloor(scene.samples, scene.tolerances, scene.up)) {
       scene.ground.push_back(std::move(*floor));
       findings.notes.push_back("the ground is seen in patches only: fitted as one plane");
     }
   }
-  std::vector<Plane> above;
-  for (size_t p = 0; p < planes.size(); ++p) {
-    if (!is_ground[p]) above.push_back(std::move(planes[p]));
-  }
   Clusters clusters =
-      SplitIntoBuildings(scene.samples, scene.tolerances, scene.up, scene.ground, above);
+      SplitIntoBuildings(scene.samples, scene.tolerances, scene.up, scene.ground, planes);
   scene.buildings = std::move(clusters.buildings);
+  ParallelFor(scene.buildings.size(), threads, [&](size_t b) {
+    Regularise(scene.samples, scene.tolerances, scene.up, regularity, scene.buildings[b]);
+  });
+  std::erase_if(scene.buildings, [](const auto& building) { return building.empty(); });
   findings.notes.push_back(
-      fmt::format("{} planes: {} ground, {} buildings; {} small objects left out", is_ground.size(),
+      fmt::format("{} planes: {} ground, {} buildings; {} small objects left out", num_planes,
                   scene.ground.size(), scene.buildings.size(), clusters.dropped));
   if (scene.ground.empty()) findings.warnings.push_back("the cloud shows no ground");
   return scene;

@@ -12,6 +12,7 @@
 
 #include "proxy/facets/arrangement.h"
 #include "proxy/facets/facets.h"
+#include "proxy/planes/regularise.h"
 #include "proxy/solids/closed_check.h"
 #include "proxy/solids/partition.h"
 #include "proxy/solids/solid_cells.h"
@@ -22,7 +23,7 @@ namespace {
 constexpr size_t kMostCells = 20000;
 constexpr double kLeastAgreement = 0.7;
 
-// The building's frame: x along the main direction, z up, the origin amid its points.
+// The building's frame: x along its main direction, z up, the origin amid its points.
 struct Setting {
   Eigen::Isometry3d local_from_world = Eigen::Isometry3d::Identity();
   Eigen::AlignedBox3d box;  // local
@@ -31,8 +32,10 @@ struct Setting {
 Setting SettingOf(const PlanarScene& scene, const std::vector<const PlaneView*>& views,
                   const Plane* ground) {
   Eigen::Matrix3d rotation;
-  const Eigen::Vector3d x =
-      (scene.main_direction - scene.up * scene.up.dot(scene.main_direction)).normalized();
+  std::vector<const Plane*> planes;
+  planes.reserve(views.size());
+  for (const PlaneView* view : views) planes.push_back(view->plane);
+  const Eigen::Vector3d x = MainDirection(scene.up, planes);
   rotation << x.transpose(), scene.up.cross(x).transpose(), scene.up.transpose();
   Eigen::AlignedBox3d box;
   for (const PlaneView* view : views) {

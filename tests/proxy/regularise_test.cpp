@@ -53,7 +53,7 @@ struct Planes {
     Measure(samples, 0.25, plane);
     planes.push_back(std::move(plane));
   }
-  Vector3d Run() { return Regularise(samples, tolerances, Vector3d::UnitZ(), {}, planes); }
+  void Run() { Regularise(samples, tolerances, Vector3d::UnitZ(), {}, planes); }
 };
 
 Vector3d Leaning(double azimuth_deg, double elevation_deg) {
