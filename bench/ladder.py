@@ -32,7 +32,7 @@ import surveys
 
 BENCH = pathlib.Path(__file__).parent
 HEAD = ["scene", "rung", "posed", "model error (m)", "its walls (m)", "walls complete",
-        "buildings complete", "closed", "facets / truth", "ids", "CPU s"]
+        "roofs (m)", "roofs complete", "buildings complete", "closed", "facets / truth", "ids", "CPU s"]
 PICTURES = ["painted", "SSIM on planes", "one ideal photo", "shift (m)"]
 
 
@@ -183,8 +183,7 @@ class Ladder:
                             ("errors", "cloud", "calib", "run", "evaluate"), again="errors")
         if not self.arguments.exact_map:
             plan = survey / "plan/plan.json"
-            chain.run("errors", [sys.executable, BENCH / "perturb_plan.py", plan, *self.errors()],
-                      plan)
+            chain.run("errors", loop.map_command(self.arguments, plan), plan)
         last = "texture" if self.is_painted(rung) else "proxy"
         run = [self.program, "run", survey, "--until", last, *self.arguments.run_args]
         if rung == "poses":
@@ -217,12 +216,6 @@ class Ladder:
     def is_painted(self, rung):
         return rung == "facets" or (self.arguments.textures and rung not in ("map", "nomap"))
 
-    def errors(self):
-        wanted = self.arguments
-        return ["--seed", wanted.map_seed, "--jitter", wanted.jitter, "--eaves", wanted.eaves,
-                "--gone", wanted.gone, "--missing", wanted.missing, "--simpler", wanted.simpler,
-                "--smaller", wanted.smaller]
-
     def row(self, rung):
         figures = self.climb(rung)
         poses, proxy, texture = figures["poses"], figures["proxy"], figures["texture"]
@@ -235,6 +228,8 @@ class Ladder:
                 surveys.number(proxy["building_error95_m"], 3),
                 surveys.number(proxy["wall_error95_m"], 3),
                 loop.percent(proxy["wall_completeness"]),
+                surveys.number(proxy["roof_error95_m"], 3),
+                loop.percent(proxy["roof_completeness"]),
                 loop.percent(proxy["building_completeness_all"]),
                 loop.of_all(proxy["watertight"], proxy["truth_buildings"]),
                 loop.of_all(proxy["facets"], proxy["truth_facets"]),
@@ -250,14 +245,7 @@ def main():
     loop.add_flight_arguments(parser)
     parser.add_argument("--rungs", default="map,nomap,cloud,poses,own")
     parser.add_argument("--textures", action="store_true")
-    parser.add_argument("--exact-map", action="store_true")
-    parser.add_argument("--map-seed", default="1")
-    parser.add_argument("--jitter", default="0.4")
-    parser.add_argument("--eaves", default="0.4")
-    parser.add_argument("--gone", default="3")
-    parser.add_argument("--missing", default="0")
-    parser.add_argument("--simpler", default="0")
-    parser.add_argument("--smaller", default="0")
+    loop.add_map_arguments(parser)
     arguments = parser.parse_args()
     try:
         ladder = Ladder(arguments)

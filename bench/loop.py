@@ -5,9 +5,12 @@
 
   bench/loop.py OUT [--style hamlet] [--seed 1] [--method cocapture] [--scale 0.25]
                 [--plan-args="--altitude 30"] [--fly-args="--rtk --held-out 5"] [--run-args "..."]
-                [--again plan|fly|run|evaluate] [--stucco PROGRAM]
+                [--exact-map] [--map-seed 1] [--jitter 0.4] [--eaves 0.4] [--gone 3]
+                [--missing 0] [--simpler 0] [--smaller 0]
+                [--again plan|fly|map|run|evaluate] [--stucco PROGRAM]
 
-Scale is that of the camera's pixels: 0.25 gives photos a quarter as wide. Printed are tables for
+The drone flies by the exact map; what is reconstructed goes by one with the errors of real ones
+(perturb_plan.py) unless --exact-map. Scale is that of the camera's pixels: 0.25 gives photos a quarter as wide. Printed are tables for
 docs/benchmarks.md: cost of the flight, poses and surfaces, pictures, and time. OUT/figures has all
 figures as JSON, OUT/logs what each step printed and cost. A step that is finished is not run again
 with the same words, but with --again from that step on; one that was stopped goes on. Times with a
@@ -23,7 +26,8 @@ import sys
 import steps
 import surveys
 
-STEPS = ("plan", "fly", "run", "evaluate")
+BENCH = pathlib.Path(__file__).parent
+STEPS = ("plan", "fly", "map", "run", "evaluate")
 FLIGHT = ["scene", "method", "photos", "hovers", "length (m)", "time (min)", "battery (%)",
           "Q_s", "Q_d", "Q_u", "Q_c"]
 GEOMETRY = ["scene", "method", "posed", "position (mm)", "rotation (deg)", "georeferenced (m)",
@@ -154,23 +158,45 @@ def add_flight_arguments(parser):
     parser.add_argument("--stucco", default=str(surveys.PROGRAM))
 
 
+def add_map_arguments(parser):
+    """What is wrong with the map, as perturb_plan.py has it."""
+    parser.add_argument("--exact-map", action="store_true")
+    parser.add_argument("--map-seed", default="1")
+    parser.add_argument("--jitter", default="0.4")
+    parser.add_argument("--eaves", default="0.4")
+    parser.add_argument("--gone", default="3")
+    for name in ("missing", "simpler", "smaller"):
+        parser.add_argument(f"--{name}", default="0")
+
+
+def map_command(arguments, plan):
+    return [sys.executable, "-B", BENCH / "perturb_plan.py", plan, "--seed", arguments.map_seed,
+            *(word for name in ("jitter", "eaves", "gone", "missing", "simpler", "smaller")
+              for word in (f"--{name}", getattr(arguments, name)))]
+
+
 def add_loop_arguments(parser):
     """What every command that goes on with a loop understands."""
     add_flight_arguments(parser)
+    add_map_arguments(parser)
     parser.add_argument("--again", choices=STEPS)
 
 
 def fly(arguments, method):
-    """One loop; its survey is OUT/STYLE-SEED-METHOD-SCALE. A run whose stages fail in part is
+    """One loop; its survey is OUT/STYLE-SEED-METHOD-SCALE, or with -exact after it. A run whose stages fail in part is
     measured as far as it came. Returns the scene's name and the figures."""
     program = arguments.stucco
     scene = make_scene(program, arguments.out, arguments.style, arguments.seed)
-    survey = arguments.out / f"{scene.name}-{method}-{arguments.scale}"
+    exact = "-exact" if arguments.exact_map else ""
+    survey = arguments.out / f"{scene.name}-{method}-{arguments.scale}{exact}"
     chain = steps.Chain(arguments.out / "logs", survey.name, STEPS, again=arguments.again)
     chain.run("plan", plan_command(program, scene, survey, method, arguments.plan_args),
               survey / "plan/plan.json")
     chain.run("fly", [program, "simulate", scene, survey, "-o", survey, "--scale", arguments.scale,
                       *arguments.fly_args], survey / "truth/flight.json", goes_on=True)
+    if not arguments.exact_map:
+        plan = survey / "plan/plan.json"
+        chain.run("map", map_command(arguments, plan), plan)
     try:
         chain.run("run", [program, "run", survey, *arguments.run_args], survey / ".stucco",
                   goes_on=True)

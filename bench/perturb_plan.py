@@ -7,7 +7,8 @@ Usage: perturb_plan.py PLAN_JSON [--shift 1.5] [--turn 0.3] [--jitter 0.4] [--ea
                        [--gone N] [--missing N] [--simpler N] [--smaller N]
                        [--seed 1]
 
-Rewrites plan.json in place: all buildings shifted and turned together, each shifted by itself (one
+Rewrites plan.json in place and keeps the exact one beside it, as plan.exact.json, where it starts
+from when it is called again: all buildings shifted and turned together, each shifted by itself (one
 standard deviation), outlines moved outwards (eaves), and N rectangles added that are not there; N
 buildings that stand missing from it; N outlines drawn more simply, without one of their corners
 that point inwards (an L becomes a rectangle), and N Ls without one of their wings.
@@ -129,6 +130,18 @@ def redraw(plan, count, draw, what):
         print(f"only {drawn} outlines {what}")
 
 
+def exact_plan(path):
+    """The plan as it was made, which is kept beside the one with errors."""
+    kept = path.with_suffix(".exact.json")
+    plan = json.loads(path.read_text())
+    if "map_errors" in plan:
+        return json.loads(kept.read_text())
+    scratch = kept.with_suffix(".new")
+    scratch.write_text(json.dumps(plan))
+    os.replace(scratch, kept)
+    return plan
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("plan", type=pathlib.Path)
@@ -139,7 +152,8 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     wanted = parser.parse_args()
     dice = random.Random(wanted.seed)
-    plan = json.loads(wanted.plan.read_text())
+    plan = exact_plan(wanted.plan)
+    plan["map_errors"] = {name: value for name, value in vars(wanted).items() if name != "plan"}
     missing = leave_out(plan, wanted.missing, dice) if wanted.missing else set()
     redraw(plan, wanted.simpler, simplify, "have corners that point inwards")
     redraw(plan, wanted.smaller, cut_wing, "are an L")
@@ -177,7 +191,7 @@ def main():
               max(p[0] for p in f["rings_m"][0]), max(p[1] for p in f["rings_m"][0]))
              for f in plan["footprints"]]
     added = 0
-    for _ in range(10000):
+    for _ in range(10000 if boxes else 0):
         if added == wanted.gone:
             break
         x, y = dice.uniform(min(xs), max(xs) - 6), dice.uniform(min(ys), max(ys) - 5)

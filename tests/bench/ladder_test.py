@@ -102,6 +102,11 @@ class PerturbedPlan(unittest.TestCase):
                 subprocess.run([sys.executable, BENCH / "perturb_plan.py", path, "--seed", str(seed),
                                 "--gone", "1"], check=True, stdout=subprocess.DEVNULL)
                 moved = json.loads(path.read_text())
+                exact = json.loads(path.with_suffix(".exact.json").read_text())
+                self.assertEqual(exact, plan())
+                again = [sys.executable, BENCH / "perturb_plan.py", path, "--seed", str(seed)]
+                subprocess.run([*again, "--gone", "1"], check=True, stdout=subprocess.DEVNULL)
+                self.assertEqual(json.loads(path.read_text()), moved)
             self.assertNotEqual(moved["footprints"][0]["rings_m"], [RING, COURT])
             facade = moved["facades"][2]
             length = sum((a - b) ** 2 for a, b in zip(facade["a_m"], facade["b_m"])) ** 0.5

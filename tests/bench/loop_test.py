@@ -49,7 +49,8 @@ half = os.environ.get("FAILS") == words[0] + " half" and "city" not in words
 if os.environ.get("FAILS") == words[0]:
     sys.exit("something is wrong")
 out = pathlib.Path(words[words.index("-o") + 1] if "-o" in words else words[1])
-files = {"plan": {"plan/plan.json": "{}"}, "run": {
+plan = '{"footprints": [], "facades": [], "views": []}'
+files = {"plan": {"plan/plan.json": plan}, "run": {
              ".stucco/manifests/dense.json": '{"usage": {"wall_s": 90.5, "cpu_s": 170.5}}'},
          "evaluate": {"evaluation/evaluation.json": os.environ["EVALUATION"]},
          "simulate": {"scene.json": "{}", "terrain.tif": ""} if "city" in words else
@@ -119,6 +120,22 @@ class Loop(WithStandIn):
         self.assertEqual(figures["stages"]["dense"]["cpu_s"], 170.5)
         self.assertGreater(figures["steps"]["fly"]["cpu_s"], 0)
         self.assertNotIn("facades", figures["texture"])
+
+    def map_errors(self, name):
+        plan = self.root / "out" / name / "plan"
+        self.assertNotIn("map_errors", json.loads((plan / "plan.exact.json").read_text()))
+        return json.loads((plan / "plan.json").read_text())["map_errors"]
+
+    def test_the_map_has_errors_unless_it_is_to_be_exact(self):
+        out, name = self.root / "out", "hamlet-1-cocapture-0.25"
+        self.call("loop.py", out)
+        self.assertEqual(self.map_errors(name)["seed"], 1)
+        self.last_commands()
+        self.call("loop.py", out, "--map-seed", "2", "--missing", "1")
+        self.assertEqual(self.last_commands(), ["run", "evaluate"])
+        self.assertEqual(self.map_errors(name)["missing"], 1)
+        self.call("loop.py", out, "--exact-map")
+        self.assertFalse((out / (name + "-exact") / "plan/plan.exact.json").exists())
 
     def test_does_not_repeat_what_is_there(self):
         out = self.root / "out"

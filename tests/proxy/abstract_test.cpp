@@ -253,6 +253,32 @@ TEST(AbstractCloud, TwoHousesAreTwoBuildings) {
   }
 }
 
+TEST(AbstractCloud, AHouseKeepsItsDirectionBesideALargerOne) {
+  constexpr double kTurned = 2.5;
+  auto turned = test::BoxHouse(6, 6, 5, {9, 0, 0});
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(kTurned * std::numbers::pi / 180, Vector3d::UnitZ()).toRotationMatrix();
+  for (auto& polygon : turned.polygons) {
+    for (Vector3d& p : polygon.ring) p = turn * p;
+  }
+  const Proxy proxy = Abstract(Capture({test::BoxHouse(10, 8, 6, {-11, 0, 0}), turned},
+                                       {test::GroundSquare(22)}, {.noise = 0.02}));
+  int walls = 0;
+  for (const char* id : {"C0001", "C0002"}) {
+    const Building* building = Find(proxy, id);
+    ASSERT_NE(building, nullptr);
+    EXPECT_TRUE(building->watertight);
+    for (const Facet& facet : building->facets) {
+      if (facet.facet_class != FacetClass::kWall) continue;
+      ++walls;
+      const bool is_turned = facet.outer[0].x() > 0;
+      const double azimuth = std::atan2(facet.normal.y(), facet.normal.x()) * 180 / std::numbers::pi;
+      EXPECT_NEAR(std::remainder(azimuth, 90), is_turned ? kTurned : 0, 0.4);
+    }
+  }
+  EXPECT_EQ(walls, 8);
+}
+
 TEST(AbstractCloud, HousesOnASlopeStandOnIt) {
   constexpr double kSlope = 0.158;  // 9 degrees
   auto ground = test::GroundSquare(24);
