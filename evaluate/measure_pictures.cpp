@@ -114,6 +114,10 @@ void SummariseCeilings(Evaluation& evaluation) {
   evaluation.ceiling_mean = MeanLikeness(ceilings);
   evaluation.plane_mean = MeanPart(planes);
   evaluation.relief_mean = MeanPart(reliefs);
+  for (const FacadeFigures& facade : facades) {
+    evaluation.occluded.free_m2 += facade.occluded.free_m2;
+    evaluation.occluded.through_m2 += facade.occluded.through_m2;
+  }
   const auto median = [&](double (*shift_of)(const FacadeFigures&)) {
     return MedianShift(facades, shift_of);
   };

@@ -115,6 +115,7 @@ Json FacadeJson(const FacadeFigures& facade) {
   json["ceiling"] = LikenessJson(facade.ceiling);
   json["plane"] = PartJson(facade.plane);
   json["relief"] = PartJson(facade.relief);
+  json["occluded"] = Number(facade.occluded.Share());
   json["truth_picture"] = facade.truth_picture;
   json["result_picture"] = facade.result_picture;
   json["error_picture"] = facade.error_picture;
@@ -129,6 +130,7 @@ Json TextureJson(const Evaluation& evaluation) {
   json["ceiling"] = LikenessJson(evaluation.ceiling_mean);
   json["plane"] = PartJson(evaluation.plane_mean);
   json["relief"] = PartJson(evaluation.relief_mean);
+  json["occluded"] = Number(evaluation.occluded.Share());
   json["facades"] = Json::array();
   for (const FacadeFigures& facade : evaluation.facades) {
     json["facades"].push_back(FacadeJson(facade));
@@ -174,7 +176,7 @@ std::string FacadesCsv(const Evaluation& evaluation) {
   std::string csv =
       "id,facet,area_m2,painted,ssim,ms_ssim,psnr,gmsd,flip,lpips,texel_m,misregistration_px,"
       "ceiling_ssim,plane_share,plane_ssim,plane_ceiling_ssim,plane_shift_m,relief_ssim,"
-      "relief_ceiling_ssim\r\n";
+      "relief_ceiling_ssim,occluded\r\n";
   for (const FacadeFigures& facade : evaluation.facades) {
     const PictureFigures& picture = facade.picture;
     csv += CsvField(facade.id) + "," + CsvField(facade.facet);
@@ -183,7 +185,7 @@ std::string FacadesCsv(const Evaluation& evaluation) {
           picture.flip, picture.lpips, facade.texel_m, facade.misregistration_px,
           facade.ceiling.ssim, facade.plane.share, facade.plane.result.ssim,
           facade.plane.ceiling.ssim, facade.plane.result.shift_m, facade.relief.result.ssim,
-          facade.relief.ceiling.ssim}) {
+          facade.relief.ceiling.ssim, facade.occluded.Share()}) {
       csv += "," + Cell(value);
     }
     csv += "\r\n";

@@ -79,6 +79,15 @@ struct LikenessOfPart {
   Likeness ceiling;
 };
 
+// Of a wall's painted area what some photo shows freely, and what of that was painted from a photo
+// in which something that is no part of the building stands before the wall.
+struct OccludedArea {
+  double free_m2 = 0;
+  double through_m2 = 0;
+
+  double Share() const { return free_m2 > 0 ? through_m2 / free_m2 : kNotMeasured; }
+};
+
 struct FacadeFigures {
   std::string id;     // of the truth
   std::string facet;  // of the result; empty: none
@@ -91,6 +100,7 @@ struct FacadeFigures {
   Likeness ceiling = {};                   // of everything that is compared
   LikenessOfPart plane = {};               // on the wall's plane
   LikenessOfPart relief = {};              // what stands out or lies back, with its rim
+  OccludedArea occluded = {};
   std::string truth_picture;  // for the page, relative to the output folder; may be empty
   std::string result_picture;
   std::string error_picture;  // FLIP's map
@@ -134,6 +144,7 @@ struct Evaluation {
   Likeness ceiling_mean;
   LikenessOfPart plane_mean;
   LikenessOfPart relief_mean;
+  OccludedArea occluded;  // of all facades
   std::vector<FacadeFigures> facades;
   double views_compared = kNotMeasured;  // mean of HeldOutFigures::compared
   PictureFigures views_mean;

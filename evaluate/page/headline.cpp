@@ -119,7 +119,9 @@ std::string Textures(const Evaluation& evaluation) {
             PictureFiguresHtml(evaluation.texture_mean) +
             FigureHtml("shift", Metres(evaluation.misregistration_m),
                        Decimal(evaluation.misregistration_px, 2) + " texels, median of facades") +
-            Ceilings(evaluation));
+            Ceilings(evaluation) +
+            FigureHtml("painted through something", Percent(evaluation.occluded.Share()),
+                       "of what some photo shows freely"));
   }
   if (HasAny(evaluation.views_mean)) {
     html += Group(

@@ -18,6 +18,7 @@
 #include "evaluate/picture/measure.h"
 #include "evaluate/picture/misregistration.h"
 #include "evaluate/picture/page_pictures.h"
+#include "evaluate/picture/painted_through.h"
 #include "evaluate/picture/tone.h"
 #include "survey/parallel.h"
 
@@ -281,6 +282,7 @@ FacadeFigures MeasureWall(const Measuring& measuring, const TruthFacet& wall,
         IdealDistance(*wall.truth, comparison.flight.photos, comparison.scene);
   }
   std::vector<MeasuredFacade> facets;
+  const std::vector<bool> not_of_building = LeftOut(comparison, BuildingOf(wall.truth->id));
   for (const Pairing& pairing : pairings) {
     std::optional<ComparedFacade> compared;
     const std::string problem =
@@ -289,6 +291,10 @@ FacadeFigures MeasureWall(const Measuring& measuring, const TruthFacet& wall,
     if (!compared) continue;
     facets.push_back(Measure(measuring, pairing, *compared, figures,
                              facets.empty() ? PictureStem(number, figures.id) : ""));
+    const auto [free_m2, through_m2] = PaintedThrough(
+        comparison, {*pairing.truth, *pairing.result, *pairing.texture, not_of_building});
+    figures.occluded.free_m2 += free_m2;
+    figures.occluded.through_m2 += through_m2;
   }
   Summarise(facets, figures);
   return figures;

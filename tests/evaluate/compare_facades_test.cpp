@@ -230,6 +230,39 @@ simulate::FlownPhoto SouthPhoto() {
   return photo;
 }
 
+// Of the south wall, whose every texel was painted from the photo of this number.
+OccludedArea PaintedBy(uint8_t label, const Renderer& scene, PaintedSurvey& survey) {
+  TexturedFacet& south = survey.textures.facets[0];
+  south.label_image = "labels.png";
+  south.photos = {"a.jpg", "b.jpg"};
+  Image labels{south.width_px, south.height_px, 1, {}};
+  labels.data.assign(static_cast<size_t>(south.width_px) * south.height_px, label);
+  WriteImage(labels, survey.folder / south.label_image);
+  return Compare(survey, scene)[0].occluded;
+}
+
+TEST(CompareFacades, WhatIsPaintedThroughATreeIsFoundByThePhotosOwnView) {
+  simulate::Scene with_tree = MadeHouseScene();
+  AddBoard("occluder/tree-1", 2, with_tree);
+  const Renderer scene(with_tree);
+  PaintedSurvey survey = PaintedHouse("through", scene);
+  KeepSouth(survey);
+  survey.occluders.assign(scene.scene().elements.size(), false);
+  survey.occluders.back() = true;
+  simulate::FlownPhoto beside = SouthPhoto();
+  beside.path = "b.jpg";  // a metre farther west
+  beside.cam_from_world.translation += beside.cam_from_world.rotation * Eigen::Vector3d(1, 0, 0);
+  survey.flight.photos = {SouthPhoto(), beside};
+  const OccludedArea behind = PaintedBy(1, scene, survey);
+  // The board hides 2 m by 1.7 m above the ground, of which the other photo shows the western half.
+  EXPECT_NEAR(behind.through_m2, 1.7, 0.3);
+  EXPECT_GT(behind.free_m2, behind.through_m2 + 1);
+  EXPECT_NEAR(behind.Share(), behind.through_m2 / behind.free_m2, 1e-12);
+  survey.occluders.back() = false;  // a part of the building, such as a balcony
+  EXPECT_EQ(PaintedBy(1, scene, survey).through_m2, 0);
+  EXPECT_EQ(PaintedBy(3, scene, survey).free_m2, 0);  // of a photo that nothing is known of
+}
+
 TEST(CompareFacades, TheCeilingIsWhatIdealPhotosShow) {
   const Renderer scene(MadeHouseScene());
   PaintedSurvey survey = PaintedHouse("ceiling", scene, {.shift = 4});

@@ -85,6 +85,7 @@ TEST(WriteEvaluation, WritesAFacadePerLine) {
   evaluation.facades[0].plane.share = 0.5;
   evaluation.facades[0].plane.result.shift_m = 0.125;
   evaluation.facades[0].relief.ceiling.ssim = 0.25;
+  evaluation.facades[0].occluded = {40, 5};
   evaluation.facades[1].id = "a \"b\", c";
   const auto output = std::filesystem::path(::testing::TempDir()) / "stucco_write_evaluation";
   std::filesystem::remove_all(output);
@@ -92,9 +93,9 @@ TEST(WriteEvaluation, WritesAFacadePerLine) {
   EXPECT_EQ(ReadFile(output / "facades.csv"),
             "id,facet,area_m2,painted,ssim,ms_ssim,psnr,gmsd,flip,lpips,texel_m,misregistration_px,"
             "ceiling_ssim,plane_share,plane_ssim,plane_ceiling_ssim,plane_shift_m,relief_ssim,"
-            "relief_ceiling_ssim\r\n"
-            "B0001/F00,,60,0,0.75,,,,,,,,0.875,0.5,,,0.125,,0.25\r\n"
-            "\"a \"\"b\"\", c\",,0,0,,,,,,,,,,,,,,,\r\n");
+            "relief_ceiling_ssim,occluded\r\n"
+            "B0001/F00,,60,0,0.75,,,,,,,,0.875,0.5,,,0.125,,0.25,0.125\r\n"
+            "\"a \"\"b\"\", c\",,0,0,,,,,,,,,,,,,,,,\r\n");
   EXPECT_EQ(Json::parse(ReadFile(output / "evaluation.json"))["texture"]["facades"][0]["id"],
             "B0001/F00");
 }
