@@ -237,6 +237,18 @@ TEST(RunTexture, MeasuresAndRemovesMisregistration) {
   EXPECT_GT(after.misregistration_px, 0);
 }
 
+TEST(RunTexture, APhotoWithAWrongPoseIsOutvoted) {
+  Survey survey;
+  survey.Add("a.jpg", {1.4, -4.4, 1.5}, {1.9, 0, 1.5});
+  survey.Add("b.jpg", {2.6, -4.4, 1.5}, {2.1, 0, 1.5});
+  survey.Add("c.jpg", {2, -4.4, 2.2}, {2, 0, 1.5});
+  survey.Add("nearest.jpg", {2, -4.0, 1.5}, {2, 0, 1.5});
+  survey.Disturb("nearest.jpg", 0.05);  // the wall lies 0.2 m beside where the others have it
+  const TexturedFacet facet = survey.Run().facets.at(0);
+  EXPECT_EQ(std::ranges::count(facet.photos, "nearest.jpg"), 0);
+  EXPECT_GT(TruthPsnr(survey, facet), 24);
+}
+
 TEST(RunTexture, LeavesFacetsThatNobodySeesWithoutPicture) {
   Survey survey;
   Facet back = MakeWall(4, 3);
