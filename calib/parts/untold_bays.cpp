@@ -77,7 +77,8 @@ int WallThatFills(const OnRepeatingWalls& repeating, int photo) {
   for (const int wall : repeating.wall_of[photo]) {
     if (wall >= 0) ++keypoints[wall];
   }
-  const auto most = std::ranges::max_element(keypoints, {}, [](const auto& of) { return of.second; });
+  const auto most =
+      std::ranges::max_element(keypoints, {}, [](const auto& of) { return of.second; });
   return most == keypoints.end() ? -1 : most->first;
 }
 

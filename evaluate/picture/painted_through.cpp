@@ -33,8 +33,7 @@ Shown WhatShows(const FlownPhoto& photo, const Place& place, const TextureCompar
                 const std::vector<bool>& not_of_building) {
   const Vector3d centre = photo.cam_from_world.Center();
   const Vector3d from_centre = place.position - centre;
-  if (!(-from_centre.dot(place.normal) >=
-        std::cos(kMaxShownIncidence_rad) * from_centre.norm())) {
+  if (!(-from_centre.dot(place.normal) >= std::cos(kMaxShownIncidence_rad) * from_centre.norm())) {
     return Shown::kNotAtAll;
   }
   const Vector3d in_camera = photo.cam_from_world * place.position;
@@ -101,18 +100,18 @@ OccludedArea PaintedThrough(const TextureComparison& comparison, const PaintedWa
   for (size_t spot = 0; spot < heights.size(); ++spot) {
     const size_t column = spot % plane.width_px;
     const size_t row = spot / plane.width_px;
-    const size_t texel = (row * texels + texels / 2) * picture.plane.width_px +
-                         column * texels + texels / 2;
+    const size_t texel =
+        (row * texels + texels / 2) * picture.plane.width_px + column * texels + texels / 2;
     const size_t label = labels.data[texel];
     if (picture.known[texel] == 0 || std::isnan(heights[spot]) || label > painters.size()) continue;
     const FlownPhoto* painter = painters[label - 1];
     if (painter == nullptr) continue;
-    const Place place{plane.origin +
-                          plane.metres_per_texel *
-                              ((static_cast<double>(column) + 0.5) * plane.u_axis +
-                               (static_cast<double>(row) + 0.5) * plane.v_axis) +
-                          heights[spot] * towards_us,
-                      wall.truth.normal};
+    const Place place{
+        plane.origin +
+            plane.metres_per_texel * ((static_cast<double>(column) + 0.5) * plane.u_axis +
+                                      (static_cast<double>(row) + 0.5) * plane.v_axis) +
+            heights[spot] * towards_us,
+        wall.truth.normal};
     const Shown shown = WhatShows(*painter, place, comparison, wall.not_of_building);
     if (shown != Shown::kFreely &&
         !AnyShowsFreely(photos, place, comparison, wall.not_of_building)) {

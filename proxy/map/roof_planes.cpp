@@ -121,16 +121,6 @@ std::vector<Plane> WallDirections(const FittedBuilding& building) {
   return walls;
 }
 
-// To where its samples lie closest together: planes that are nearly one were joined, such as a
-// roof and the rim of its parapet.
-void LayOnRoof(const Samples& samples, Plane& plane) {
-  std::vector<double> offsets;
-  offsets.reserve(plane.points.size());
-  for (const int i : plane.points) offsets.push_back(plane.normal.dot(samples.positions[i]));
-  std::ranges::sort(offsets);
-  plane.offset = MeanOfDensest(offsets, kFlat_m);
-}
-
 // Gives a step the direction of a wall that it is nearly parallel to: what stands on a roof is
 // small, so that its own direction is not known to a degree.
 void TurnAlong(std::span<const Plane> walls, const Samples& samples, Plane& step) {
@@ -202,7 +192,7 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
   std::erase_if(planes, [](const Plane& plane) {
     return plane.points.empty() || plane.normal.z() < kRoofNormal;
   });
-  for (Plane& plane : planes) LayOnRoof(evidence.samples, plane);
+  for (Plane& plane : planes) RefitToDensest(evidence.samples, kFlat_m, plane);
   DropParapets(evidence.samples, building.building, 2 * tolerances.level_of_detail, planes);
   std::stable_sort(planes.begin(), planes.end(),
                    [](const Plane& a, const Plane& b) { return a.area > b.area; });

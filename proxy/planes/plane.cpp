@@ -8,7 +8,21 @@
 #include <cmath>
 #include <cstdint>
 
+#include "proxy/planes/densest.h"
+
 namespace stucco {
+namespace {
+
+// Of the plane's points along its normal, in one order of summing on every library.
+std::vector<double> SortedOffsets(const Samples& samples, const Plane& plane) {
+  std::vector<double> offsets;
+  offsets.reserve(plane.points.size());
+  for (const int i : plane.points) offsets.push_back(plane.normal.dot(samples.positions[i]));
+  std::sort(offsets.begin(), offsets.end());
+  return offsets;
+}
+
+}  // namespace
 
 Eigen::Vector3d AnyPerpendicular(const Eigen::Vector3d& direction) {
   int axis = 0;
@@ -48,10 +62,7 @@ void Refit(const Samples& samples, Plane& plane) {
 
 void RefitOffset(const Samples& samples, double epsilon, Plane& plane) {
   if (plane.points.empty()) return;
-  std::vector<double> offsets;
-  offsets.reserve(plane.points.size());
-  for (const int i : plane.points) offsets.push_back(plane.normal.dot(samples.positions[i]));
-  std::sort(offsets.begin(), offsets.end());  // one order of summing on every library
+  const std::vector<double> offsets = SortedOffsets(samples, plane);
   const double median = offsets[offsets.size() / 2];
   double sum = 0;
   int count = 0;
@@ -61,6 +72,11 @@ void RefitOffset(const Samples& samples, double epsilon, Plane& plane) {
     ++count;
   }
   plane.offset = sum / count;
+}
+
+void RefitToDensest(const Samples& samples, double width, Plane& plane) {
+  if (plane.points.empty()) return;
+  plane.offset = MeanOfDensest(SortedOffsets(samples, plane), width);
 }
 
 void Measure(const Samples& samples, double cell, Plane& plane) {

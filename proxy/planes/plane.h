@@ -53,6 +53,10 @@ void Refit(const Samples& samples, Plane& plane);
 // With the normal held: offset from the median, then the mean of the points within `epsilon`.
 void RefitOffset(const Samples& samples, double epsilon, Plane& plane);
 
+// With the normal held: to where its points lie closest together, within `width`. A wall is drawn
+// back by its windows, and a flat roof up by the rim of its parapet.
+void RefitToDensest(const Samples& samples, double width, Plane& plane);
+
 // Sets rms and area (cells of side `cell` with a point).
 void Measure(const Samples& samples, double cell, Plane& plane);
 

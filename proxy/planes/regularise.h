@@ -17,10 +17,10 @@ struct RegulariseOptions {
   double align_tolerance_deg = 6;
 };
 
-// Sets the planes' roles: those near vertical are walls and stand upright, those near horizontal are
-// level, else they slope. Planes within the tolerance of vertical, and those that lean outwards a
-// little, are walls in any case, but keep their lean where standing upright would move their points
-// by more than level_of_detail.
+// Sets the planes' roles: those near vertical are walls and stand upright, those near horizontal
+// are level, else they slope. Planes within the tolerance of vertical, and those that lean outwards
+// a little, are walls in any case, but keep their lean where standing upright would move their
+// points by more than level_of_detail.
 void AssignRoles(const Samples& samples, const Tolerances& tolerances, const Eigen::Vector3d& up,
                  const RegulariseOptions& options, std::vector<Plane>& planes);
 

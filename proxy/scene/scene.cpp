@@ -22,6 +22,9 @@
 namespace stucco {
 namespace {
 
+constexpr double kFlatOfDetail =
+    0.4;  // 0.12 of 0.3 m: what stereo makes of a flat surface lies within
+
 constexpr char kCloudRemedy[] =
     "Look at dense/cloud.ply: the dense stage found too little surface. More overlapping photos, "
     "or "
@@ -145,8 +148,8 @@ void FindUp(const std::vector<Plane>& planes, const ProxyInput& input, const Pro
   }
 }
 
-// Takes the ground out of the planes; its pieces of one height and slope are one plane. The main one
-// first.
+// Takes the ground out of the planes; its pieces of one height and slope are one plane. The main
+// one first.
 std::vector<Plane> TakeGround(const PlanarScene& scene, RegulariseOptions regularity,
                               std::vector<Plane>& planes) {
   std::vector<Plane> ground;
@@ -160,8 +163,8 @@ std::vector<Plane> TakeGround(const PlanarScene& scene, RegulariseOptions regula
   regularity.align_tolerance_deg = 0;
   Regularise(scene.samples, scene.tolerances, scene.up, regularity, ground);
   const auto in_main = [&](const Plane& plane) {
-    return std::ranges::count_if(
-        plane.points, [&](int i) { return std::ranges::binary_search(of_main, i); });
+    return std::ranges::count_if(plane.points,
+                                 [&](int i) { return std::ranges::binary_search(of_main, i); });
   };
   std::rotate(ground.begin(), std::ranges::max_element(ground, {}, in_main), ground.end());
   return ground;
@@ -210,7 +213,11 @@ PlanarScene UnderstandCloud(const ProxyInput& input, const ProxyOptions& options
       SplitIntoBuildings(scene.samples, scene.tolerances, scene.up, scene.ground, planes);
   scene.buildings = std::move(clusters.buildings);
   ParallelFor(scene.buildings.size(), threads, [&](size_t b) {
-    Regularise(scene.samples, scene.tolerances, scene.up, regularity, scene.buildings[b]);
+    std::vector<Plane>& building = scene.buildings[b];
+    Regularise(scene.samples, scene.tolerances, scene.up, regularity, building);
+    for (Plane& plane : building) {
+      RefitToDensest(scene.samples, kFlatOfDetail * scene.tolerances.level_of_detail, plane);
+    }
   });
   std::erase_if(scene.buildings, [](const auto& building) { return building.empty(); });
   findings.notes.push_back(
