@@ -23,6 +23,7 @@ constexpr int kLeastShared = 30;
 constexpr size_t kLeastPhotos = 3;
 // What poses may be off by where records are better.
 constexpr double kTiedSigma_m = 0.05;
+constexpr double kAmongNeighbours_m = 0.01;  // of which the shift that they share is taken away
 constexpr double kTiedSigma_rad = 0.05 * std::numbers::pi / 180;
 
 // What a record of one kind is off by, in its standard deviations.
@@ -68,6 +69,45 @@ std::vector<int> GroupOf(const Scene& scene, const std::vector<bool>& agrees, in
   return group;
 }
 
+// What poses that are turned about their middle lie off their recorded positions, but for a common
+// shift: a sum of squares in standard deviations. Of photos that have both records.
+double SquaresTurned(const Scene& scene, const std::vector<int>& told,
+                     const Eigen::Quaterniond& turn) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const int photo : told) middle += scene.photos[photo].pose->Center();
+  middle /= static_cast<double>(told.size());
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  for (const int photo : told) {
+    const PositionPrior& prior = *scene.photos[photo].prior;
+    const double horizontal = std::hypot(prior.sigma_horizontal_m, kAmongNeighbours_m);
+    const double vertical = std::hypot(prior.sigma_vertical_m, kAmongNeighbours_m);
+    const Eigen::Vector3d centre = middle + turn * (scene.photos[photo].pose->Center() - middle);
+    const Eigen::Vector3d off =
+        (centre - prior.position).cwiseQuotient(Eigen::Vector3d(horizontal, horizontal, vertical));
+    sum += off;
+    squares += off.cwiseProduct(off);
+  }
+  return (squares - sum.cwiseProduct(sum) / static_cast<double>(told.size())).sum();
+}
+
+// Whether positions deny that the group is turned as its attitudes say: then it is the gimbals that
+// are off together, as those of one line of a flight are.
+bool PositionsDenyTheTurn(const Scene& scene, const std::vector<int>& group) {
+  std::vector<int> told;
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+  for (const int photo : group) {
+    const ScenePhoto& posed = scene.photos[photo];
+    if (!posed.attitude || !posed.prior) continue;
+    told.push_back(photo);
+    turn += RotationVector(posed.attitude->cam_from_world.conjugate() * posed.pose->rotation);
+  }
+  if (told.size() < kLeastPhotos) return false;
+  turn /= static_cast<double>(told.size());
+  return SquaresTurned(scene, told, FromRotationVector(turn)) >
+         SquaresTurned(scene, told, Eigen::Quaterniond::Identity()) + kUnlikelySquare;
+}
+
 // Adds those that are off the mean's way where the mean is more than chance.
 void Test(const std::vector<int>& group, const std::vector<Differences>& all,
           Difference Differences::*kind, std::set<int>& off) {
@@ -101,7 +141,7 @@ std::vector<int> ContradictingGroups(const Scene& scene, const std::vector<bool>
   for (int i = 0; i < count; ++i) {
     if (!agrees[i]) continue;
     const std::vector<int> group = GroupOf(scene, agrees, i);
-    Test(group, differences, &Differences::attitude, off);
+    if (!PositionsDenyTheTurn(scene, group)) Test(group, differences, &Differences::attitude, off);
     Test(group, differences, &Differences::position, off);
   }
   return {off.begin(), off.end()};

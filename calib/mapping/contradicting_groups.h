@@ -21,7 +21,9 @@ inline constexpr double kCommonShare = 0.5;
 // all the same way, as a part that hangs on the rest by little is when it is bent. Groups are a
 // photo and those that share most points with it; the mean of their differences in attitude and
 // position is tested at a level of 1e-4, with half of a record's variance taken to be common to
-// neighbours (receivers drift, compasses depend on the place). Of such a group those count that
+// neighbours (receivers drift, compasses depend on the place). Where attitudes are off together,
+// but turned as they say the photos would lie farther from their recorded positions by more than
+// chance, it is the attitudes that are off. Of such a group those count that
 // are off the mean's way by at least half of it. `agrees` are the photos whose poses agree with
 // their records by themselves; others belong to no group. Requires poses in the frame of the
 // priors.

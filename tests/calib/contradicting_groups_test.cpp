@@ -62,6 +62,26 @@ TEST_F(ContradictingGroupsTest, APartThatIsTurnedIsFoundAndMended) {
   EXPECT_TRUE(OffTogether(scene_).empty());
 }
 
+// One line of a flight whose gimbal was off, between positions that are good to a centimetre.
+TEST_F(ContradictingGroupsTest, WherePositionsDenyATurnTheGimbalsAreOff) {
+  records_ = MakeRecords(truth_, {.position_sigma_m = 0.01});
+  ApplyRecords(records_, MeasureRecordErrors(records_, scene_), scene_);
+  const auto turn_gimbals = [&] {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.0 * kDegree, Eigen::Vector3d::UnitZ()));
+    for (int photo = 0; photo < 8; ++photo) {
+      Eigen::Quaterniond& gimbal = scene_.photos[photo].attitude->cam_from_world;
+      gimbal = gimbal * turn;
+    }
+  };
+  turn_gimbals();
+  EXPECT_TRUE(ContradictingGroups(scene_, std::vector<bool>(30, true)).empty());
+  // Positions that are good to half a metre cannot deny it.
+  records_ = MakeRecords(truth_, {});
+  ApplyRecords(records_, MeasureRecordErrors(records_, scene_), scene_);
+  turn_gimbals();
+  EXPECT_GE(ContradictingGroups(scene_, std::vector<bool>(30, true)).size(), 4U);
+}
+
 // What is common to neighbours' records is no more than half of their variance: a single one that
 // is far off does not accuse the others.
 TEST_F(ContradictingGroupsTest, OneAloneIsNoGroup) {

@@ -285,28 +285,29 @@ TEST(AbstractCloud, AFlatRoofLiesBelowItsParapetAndAWallBeforeItsWindows) {
   const auto add = [&](const std::string& name, std::vector<Vector3d> ring) {
     house.polygons.push_back({name, std::move(ring)});
   };
-  // A rim of 0.6 m that stands 0.2 m above the roof, and three panes 0.15 m behind the south wall.
-  add("rim south", {{0, 0, 6.2}, {10, 0, 6.2}, {10, 0.6, 6.2}, {0, 0.6, 6.2}});
-  add("rim north", {{0, 7.4, 6.2}, {10, 7.4, 6.2}, {10, 8, 6.2}, {0, 8, 6.2}});
-  add("rim west", {{0, 0.6, 6.2}, {0.6, 0.6, 6.2}, {0.6, 7.4, 6.2}, {0, 7.4, 6.2}});
-  add("rim east", {{9.4, 0.6, 6.2}, {10, 0.6, 6.2}, {10, 7.4, 6.2}, {9.4, 7.4, 6.2}});
+  // A rim of 0.6 m that stands 0.2 m above the roof, and panes as far behind the south wall.
+  add("rim south", {{-5, -4, 6.2}, {5, -4, 6.2}, {5, -3.4, 6.2}, {-5, -3.4, 6.2}});
+  add("rim north", {{-5, 3.4, 6.2}, {5, 3.4, 6.2}, {5, 4, 6.2}, {-5, 4, 6.2}});
+  add("rim west", {{-5, -3.4, 6.2}, {-4.4, -3.4, 6.2}, {-4.4, 3.4, 6.2}, {-5, 3.4, 6.2}});
+  add("rim east", {{4.4, -3.4, 6.2}, {5, -3.4, 6.2}, {5, 3.4, 6.2}, {4.4, 3.4, 6.2}});
   Captured captured = Capture({house}, {test::GroundSquare(20)}, {.noise = 0.02});
   for (size_t i = 0; i < captured.cloud.positions.size(); ++i) {
     auto& p = captured.cloud.positions[i];
-    if (std::abs(p.y()) > 0.1f || p.z() < 1 || p.z() > 4) continue;
-    if (std::fmod(p.x(), 3.3f) < 1.5f) p.y() += 0.15f;
+    const bool on_wall = std::abs(p.y() + 4) < 0.1f && p.z() > 1 && p.z() < 4;
+    if (on_wall && std::fmod(p.x() + 5, 3.3f) < 1.5f) p.y() += 0.2f;
   }
   const Proxy proxy = Abstract(captured);
   const Building* building = Find(proxy, "C0001");
   ASSERT_NE(building, nullptr);
   for (const Facet& facet : building->facets) {
     if (facet.facet_class == FacetClass::kRoof && facet.area > 30) {
-      EXPECT_NEAR(facet.outer[0].z(), 6, 0.03);
+      EXPECT_NEAR(facet.outer[0].z(), 6, 0.02);
     }
     if (facet.facet_class == FacetClass::kWall && facet.normal.y() < -0.9) {
-      EXPECT_NEAR(facet.outer[0].y(), 0, 0.03);
+      EXPECT_NEAR(facet.outer[0].y(), -4, 0.02);
     }
   }
+  EXPECT_EQ(building->facets.size(), 6u);
 }
 
 TEST(AbstractCloud, HousesOnASlopeStandOnIt) {
