@@ -119,6 +119,15 @@ int WallOf(const Keypoint& keypoint, const Camera& camera, const std::vector<Wal
 
 }  // namespace
 
+bool OnRepeatingWalls::IsOnOne(int photo, int keypoint) const {
+  if (Shows(photo, keypoint)) return true;
+  const auto index = static_cast<size_t>(keypoint);
+  return photo < static_cast<int>(rectified.size()) &&
+         std::ranges::any_of(rectified[photo], [&](const auto& run) {
+           return run.first <= index && index < run.second;
+         });
+}
+
 bool OnRepeatingWalls::IsMostOf(int photo) const {
   const std::vector<int>& walls = wall_of[photo];
   const auto on_walls = std::ranges::count_if(walls, [](int wall) { return wall >= 0; });
@@ -190,9 +199,14 @@ std::map<int, double> FindRepeatingWalls(const DetectInput& input,
 OnRepeatingWalls FindOnRepeatingWalls(const DetectInput& input, const DetectedFeatures& features) {
   OnRepeatingWalls result;
   result.wall_of.resize(input.set.photos.size());
+  result.rectified.resize(input.set.photos.size());
   if (!input.set.guidance.views) return result;
   result.period_m = FindRepeatingWalls(input, features);
   if (result.period_m.empty()) return result;
+  for (const auto& [shown, run] : features.walls) {
+    if (!result.period_m.contains(shown.second)) continue;
+    result.rectified[shown.first].emplace_back(run.begin, run.begin + run.places.size());
+  }
   LookAgain(input, features, input.set.guidance.views->poses, result);
   return result;
 }

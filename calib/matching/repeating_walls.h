@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "calib/features/wall_features.h"
@@ -35,11 +37,16 @@ struct OnRepeatingWalls {
   std::map<int, double> period_m;         // by wall: as FindRepeatingWalls gives it
   std::vector<std::vector<int>> wall_of;  // by photo and keypoint found in the photo itself: -1 for
                                           // none; empty where the photo shows no such wall
+  // By photo: from which keypoint to before which were found on such walls rectified.
+  std::vector<std::vector<std::pair<size_t, size_t>>> rectified;
+
   // Not those of rectified walls, which come after the photo's own.
   bool Shows(int photo, int keypoint) const {
     const std::vector<int>& walls = wall_of[photo];
     return keypoint < static_cast<int>(walls.size()) && walls[keypoint] >= 0;
   }
+  // Those, too.
+  bool IsOnOne(int photo, int keypoint) const;
   // At least half of what is found in the photo lies on such walls.
   bool IsMostOf(int photo) const;
 };

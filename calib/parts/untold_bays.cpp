@@ -37,7 +37,7 @@ int NumTelling(const OnRepeatingWalls& repeating, const Scene& scene, int photo,
   const std::vector<int>& tracks = scene.tracks_of_photo[photo];
   int count = 0;
   for (int keypoint = 0; keypoint < static_cast<int>(tracks.size()); ++keypoint) {
-    if (tracks[keypoint] < 0 || repeating.Shows(photo, keypoint)) continue;
+    if (tracks[keypoint] < 0 || repeating.IsOnOne(photo, keypoint)) continue;
     const SceneTrack& track = scene.tracks[tracks[keypoint]];
     bool holds = false;
     bool tells = false;

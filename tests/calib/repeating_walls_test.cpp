@@ -60,6 +60,7 @@ class OnRepeatingWallsTest : public testing::Test {
       input.cameras.push_back(&captures_.cameras[0].intrinsics);
       features_.plain.push_back(SeeBays(pose, alike));
       WallRun& run = features_.walls[{static_cast<int>(features_.plain.size()) - 1, 0}];
+      run.begin = features_.plain.back().size();
       run.features = features_.plain.back();
       run.places = PlacesOnWall(run.features, SiteCamera(), ViewFrom(pose));
     }
@@ -98,6 +99,12 @@ TEST_F(OnRepeatingWallsTest, KnowWhichKeypointsLieOnThem) {
     EXPECT_TRUE(std::ranges::all_of(found.wall_of[photo], [](int wall) { return wall == 0; }));
     EXPECT_TRUE(found.Shows(photo, 0));
     EXPECT_TRUE(found.IsMostOf(photo));
+    const int own = static_cast<int>(features_.plain[photo].size());
+    EXPECT_FALSE(found.Shows(photo, own));
+    EXPECT_TRUE(found.IsOnOne(photo, 0));
+    EXPECT_TRUE(found.IsOnOne(photo, own));
+    EXPECT_TRUE(found.IsOnOne(photo, 2 * own - 1));
+    EXPECT_FALSE(found.IsOnOne(photo, 2 * own));
   }
 }
 
@@ -118,6 +125,7 @@ TEST_F(OnRepeatingWallsTest, AreNoneWhereBaysDiffer) {
   EXPECT_TRUE(found.period_m.empty());
   ASSERT_EQ(found.wall_of.size(), 3U);
   EXPECT_FALSE(found.Shows(0, 0));
+  EXPECT_FALSE(found.IsOnOne(0, static_cast<int>(features_.plain[0].size())));
   EXPECT_FALSE(found.IsMostOf(0));
 }
 

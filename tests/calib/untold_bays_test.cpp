@@ -115,6 +115,14 @@ TEST_F(UntoldBaysTest, PointsOfWhatDoesNotRepeatItselfTellThem) {
   EXPECT_THAT(Find(), SizeIs(kPhotos - 1));
 }
 
+TEST_F(UntoldBaysTest, WhatTheWallRectifiedShowsTellsNothing) {
+  Record(5);
+  ShowOneWall(600);
+  repeating_.wall_of[2].clear();
+  repeating_.rectified.assign(kPhotos, {{0, 10000}});
+  EXPECT_THAT(Find(), SizeIs(kPhotos - 1));
+}
+
 TEST_F(UntoldBaysTest, PhotosWithoutAPoseARecordOrSuchAWallAreNotJudged) {
   Record(5);
   scene_.photos[0].pose.reset();
