@@ -32,7 +32,8 @@ import surveys
 
 BENCH = pathlib.Path(__file__).parent
 HEAD = ["scene", "rung", "posed", "model error (m)", "its walls (m)", "walls complete",
-        "roofs (m)", "roofs complete", "buildings complete", "closed", "facets / truth", "ids", "CPU s"]
+        "roofs (m)", "roofs complete", "buildings complete", "closed",
+        "facets / truth", "ids", "CPU s"]
 PICTURES = ["painted", "SSIM on planes", "one ideal photo", "shift (m)"]
 
 

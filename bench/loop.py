@@ -10,11 +10,11 @@
                 [--again plan|fly|map|run|evaluate] [--stucco PROGRAM]
 
 The drone flies by the exact map; what is reconstructed goes by one with the errors of real ones
-(perturb_plan.py) unless --exact-map. Scale is that of the camera's pixels: 0.25 gives photos a quarter as wide. Printed are tables for
-docs/benchmarks.md: cost of the flight, poses and surfaces, pictures, and time. OUT/figures has all
-figures as JSON, OUT/logs what each step printed and cost. A step that is finished is not run again
-with the same words, but with --again from that step on; one that was stopped goes on. Times with a
-≥ are of such a step, after it went on.
+(perturb_plan.py) unless --exact-map. Scale is that of the camera's pixels: 0.25 gives photos a
+quarter as wide. Printed are tables for docs/benchmarks.md: cost of the flight, poses and surfaces,
+pictures, and time. OUT/figures has all figures as JSON, OUT/logs what each step printed and cost. A
+step that is finished is not run again with the same words, but with --again from that step on; one
+that was stopped goes on. Times with a ≥ are of such a step, after it went on.
 """
 import argparse
 import json
@@ -183,8 +183,8 @@ def add_loop_arguments(parser):
 
 
 def fly(arguments, method):
-    """One loop; its survey is OUT/STYLE-SEED-METHOD-SCALE, or with -exact after it. A run whose stages fail in part is
-    measured as far as it came. Returns the scene's name and the figures."""
+    """One loop; its survey is OUT/STYLE-SEED-METHOD-SCALE, or with -exact after it. A run whose
+    stages fail in part is measured as far as it came. Returns the scene's name and the figures."""
     program = arguments.stucco
     scene = make_scene(program, arguments.out, arguments.style, arguments.seed)
     exact = "-exact" if arguments.exact_map else ""

@@ -7,7 +7,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -52,15 +51,12 @@ Differences DifferencesOf(const ScenePhoto& photo) {
 
 // The photo and those that share most points with it, of those that agree with their records.
 std::vector<int> GroupOf(const Scene& scene, const std::vector<bool>& agrees, int photo) {
-  std::map<int, int> shared;
-  for (const int track : TracksSeenBy(scene, photo)) {
-    for (const SceneElement& e : scene.tracks[track].elements) {
-      if (e.used && e.photo != photo && agrees[e.photo]) ++shared[e.photo];
-    }
-  }
+  const std::vector<int> shared = PointsShared(scene, photo);
   std::vector<std::pair<int, int>> order;  // (-points, photo)
-  for (const auto& [other, points] : shared) {
-    if (points >= kLeastShared) order.emplace_back(-points, other);
+  for (size_t other = 0; other < shared.size(); ++other) {
+    if (agrees[other] && shared[other] >= kLeastShared) {
+      order.emplace_back(-shared[other], static_cast<int>(other));
+    }
   }
   std::ranges::sort(order);
   if (order.size() > kNearestTied) order.resize(kNearestTied);

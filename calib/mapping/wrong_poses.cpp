@@ -66,11 +66,7 @@ std::vector<Eigen::Vector3d> PointsOf(const Scene& scene, int photo) {
 
 // Photos that agree with their own records and share points with this one.
 int NumTrustedPartners(const Scene& scene, int photo) {
-  std::vector<int> shared(scene.photos.size(), 0);
-  for (const int track : TracksSeenBy(scene, photo)) {
-    for (const SceneElement& e : scene.tracks[track].elements) shared[e.photo] += e.used;
-  }
-  shared[photo] = 0;
+  const std::vector<int> shared = PointsShared(scene, photo);
   int count = 0;
   for (size_t i = 0; i < shared.size(); ++i) {
     if (shared[i] < kLeastPoints) continue;

@@ -139,22 +139,13 @@ class Judge {
  private:
   // The photo and those of the same wall that move with it.
   std::vector<const Beside*> GroupOf(int photo, const Beside& beside) const {
-    const std::vector<int> tracks = TracksSeenBy(scene_, photo);
-    std::map<int, size_t> shared;
-    for (const int track : tracks) {
-      for (const SceneElement& e : scene_.tracks[track].elements) {
-        if (e.used && e.photo != photo) ++shared[e.photo];
-      }
-    }
+    const int points = NumUsedObservations(scene_, photo);
+    const std::vector<int> shared = PointsShared(scene_, photo);
     std::vector<const Beside*> group = {&beside};
-    for (const auto& [other, points] : shared) {
-      const auto found = untold_.find(other);
-      if (found == untold_.end() || found->second.wall != beside.wall) continue;
-      const size_t fewer = std::min(tracks.size(), TracksSeenBy(scene_, other).size());
-      if (points >= kLeastShared &&
-          static_cast<double>(points) >= kLeastShare * static_cast<double>(fewer)) {
-        group.push_back(&found->second);
-      }
+    for (const auto& [other, of_other] : untold_) {
+      if (of_other.wall != beside.wall || shared[other] < kLeastShared) continue;
+      const int fewer = std::min(points, NumUsedObservations(scene_, other));
+      if (shared[other] >= kLeastShare * fewer) group.push_back(&of_other);
     }
     return group;
   }

@@ -114,6 +114,15 @@ std::vector<int> TracksSeenBy(const Scene& scene, int photo) {
   return seen;
 }
 
+std::vector<int> PointsShared(const Scene& scene, int photo) {
+  std::vector<int> shared(scene.photos.size(), 0);
+  for (const int track : TracksSeenBy(scene, photo)) {
+    for (const SceneElement& e : scene.tracks[track].elements) shared[e.photo] += e.used;
+  }
+  shared[photo] = 0;
+  return shared;
+}
+
 int NumUsedObservations(const Scene& scene, int photo) {
   return static_cast<int>(TracksSeenBy(scene, photo).size());
 }

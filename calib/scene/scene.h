@@ -133,6 +133,9 @@ std::vector<int> TracksOf(const Scene& scene, const std::vector<int>& photos);
 // Tracks whose points agree with the photo's keypoints, once each; in the keypoints' order.
 std::vector<int> TracksSeenBy(const Scene& scene, int photo);
 
+// By photo: in how many of the points that this one sees it has a part that agrees; 0 for itself.
+std::vector<int> PointsShared(const Scene& scene, int photo);
+
 // Elements in registered photos that agree with their track's point.
 int NumUsedObservations(const Scene& scene, int photo);
 

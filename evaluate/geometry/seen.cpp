@@ -20,19 +20,21 @@ constexpr double kLiftM = 0.01;  // off the surface, so that it does not hide it
 constexpr size_t kPointsOfTask = 256;
 
 bool Sees(const simulate::FlownPhoto& photo, const SurfacePoint& point, const SurfaceIndex& scene) {
-  const Vector3d centre = photo.cam_from_world.Center();
-  const Vector3d towards = centre - point.position;
-  if (!(point.normal.dot(towards) >= kLeastCosine * towards.norm())) return false;
-  const Camera& camera = photo.camera;
-  const Vector3d in_camera = photo.cam_from_world * point.position;
-  const std::optional<Eigen::Vector2d> pixel = camera.Project(in_camera);
-  if (!pixel || !camera.Contains(*pixel)) return false;
-  // Far outside the picture a distortion polynomial can turn back into it.
-  if (!camera.IsInvertibleAt(in_camera.hnormalized())) return false;
-  return !scene.Blocked(point.position + kLiftM * point.normal, centre);
+  return IsInPhoto(photo, point.position, point.normal) &&
+         !scene.Blocked(point.position + kLiftM * point.normal, photo.cam_from_world.Center());
 }
 
 }  // namespace
+
+bool IsInPhoto(const simulate::FlownPhoto& photo, const Vector3d& place, const Vector3d& normal) {
+  const Vector3d towards = photo.cam_from_world.Center() - place;
+  if (!(normal.dot(towards) >= kLeastCosine * towards.norm())) return false;
+  const Camera& camera = photo.camera;
+  const Vector3d in_camera = photo.cam_from_world * place;
+  const std::optional<Eigen::Vector2d> pixel = camera.Project(in_camera);
+  // Far outside the picture a distortion polynomial can turn back into it.
+  return pixel && camera.Contains(*pixel) && camera.IsInvertibleAt(in_camera.hnormalized());
+}
 
 std::vector<const simulate::FlownPhoto*> DeliveredPhotos(const simulate::Flight& flight) {
   std::vector<const simulate::FlownPhoto*> delivered;

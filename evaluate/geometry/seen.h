@@ -13,6 +13,11 @@ namespace stucco::evaluate {
 // The photos that the survey was given: neither lost nor held out.
 std::vector<const simulate::FlownPhoto*> DeliveredPhotos(const simulate::Flight& flight);
 
+// Whether the place lies in the photo, which looks at its surface from in front at less than 80
+// degrees from the normal (unit); something may stand in between.
+bool IsInPhoto(const simulate::FlownPhoto& photo, const Eigen::Vector3d& place,
+               const Eigen::Vector3d& normal);
+
 // Dense matching needs so many photos of a place: two that agree, and one that confirms it.
 constexpr char kPhotosToConfirm = 3;
 

@@ -9,7 +9,6 @@
 #include "evaluate/geometry/moved.h"
 #include "evaluate/geometry/seen.h"
 #include "evaluate/picture/facade_picture.h"
-#include "site/incidence.h"
 #include "survey/image.h"
 
 namespace stucco::evaluate {
@@ -31,17 +30,9 @@ struct Place {
 
 Shown WhatShows(const FlownPhoto& photo, const Place& place, const TextureComparison& comparison,
                 const std::vector<bool>& not_of_building) {
+  if (!IsInPhoto(photo, place.position, place.normal)) return Shown::kNotAtAll;
   const Vector3d centre = photo.cam_from_world.Center();
   const Vector3d from_centre = place.position - centre;
-  if (!(-from_centre.dot(place.normal) >= std::cos(kMaxShownIncidence_rad) * from_centre.norm())) {
-    return Shown::kNotAtAll;
-  }
-  const Vector3d in_camera = photo.cam_from_world * place.position;
-  const auto pixel = photo.camera.Project(in_camera);
-  if (!pixel || !photo.camera.Contains(*pixel) ||
-      !photo.camera.IsInvertibleAt(in_camera.hnormalized())) {
-    return Shown::kNotAtAll;
-  }
   const auto hit = comparison.scene.Cast(centre, from_centre);
   if (!hit || hit->distance > from_centre.norm() - kBefore_m) return Shown::kFreely;
   return not_of_building[hit->element] ? Shown::kThroughOther : Shown::kThroughOwn;
