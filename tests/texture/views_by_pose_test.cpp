@@ -87,13 +87,25 @@ TEST(NameViewsByPose, AViewHasOnePhoto) {
   EXPECT_EQ(photos.back().captured.view, "");
 }
 
-TEST(NameViewsByPose, LeavesNamesAndOtherFlightsAlone) {
+TEST(NameViewsByPose, NamesStayAndTellTheShiftToTheRest) {
   const Plan plan = StreetPlan();
-  std::vector<SurveyPhoto> named = Photos(plan, Eigen::Vector3d::Zero());
-  named[5].captured.view = "h0v1";
-  NameViewsByPose(plan, Here(), named);
-  EXPECT_EQ(named[0].captured.view, "");
+  // Farther off than a shift that is looked for, and half a stop along the street.
+  std::vector<SurveyPhoto> photos = Photos(plan, {2.5, -9, 240});
+  photos[4].captured.view = plan.views[4].id;
+  photos[9].captured.view = plan.views[9].id;
+  photos.push_back(PhotoOf(plan.views[4], plan, {2.5, -9, 240}));  // nearer than the named one
+  photos.push_back(photos[2]);
+  photos.back().captured.view = "a view of no plan";
+  NameViewsByPose(plan, Here(), photos);
+  for (size_t v = 0; v < plan.views.size(); ++v) {
+    EXPECT_EQ(photos[v].captured.view, plan.views[v].id);
+  }
+  EXPECT_EQ(photos[plan.views.size()].captured.view, "");
+  EXPECT_EQ(photos.back().captured.view, "a view of no plan");
+}
 
+TEST(NameViewsByPose, LeavesOtherFlightsAlone) {
+  const Plan plan = StreetPlan();
   std::vector<SurveyPhoto> elsewhere = Photos(plan, {0, 300, 0});
   NameViewsByPose(plan, Here(), elsewhere);
   EXPECT_EQ(elsewhere[0].captured.view, "");

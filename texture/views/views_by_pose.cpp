@@ -5,8 +5,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "survey/median.h"
@@ -63,43 +65,84 @@ std::optional<size_t> Nearest(const Stand& photo, const std::vector<Stand>& view
   return best;
 }
 
+Vector3d MedianOf(std::span<const Vector3d> offsets) {
+  Vector3d median;
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> along;
+    along.reserve(offsets.size());
+    for (const Vector3d& offset : offsets) along.push_back(offset[k]);
+    median[k] = Median(std::move(along)).value_or(0);
+  }
+  return median;
+}
+
 // By how much photos stand off the views that are nearest to them; heights do not count where the
 // weight of z is 0.
 Vector3d MedianOffset(const std::vector<Stand>& photos, const std::vector<Stand>& views,
                       const Vector3d& weights) {
-  std::vector<double> offsets[3];
+  std::vector<Vector3d> offsets;
   for (const Stand& photo : photos) {
     const auto view = Nearest(photo, views, weights, kLargestShift_m);
-    if (!view) continue;
-    const Vector3d offset = photo.position - views[*view].position;
-    for (int k = 0; k < 3; ++k) offsets[k].push_back(offset[k]);
+    if (view) offsets.push_back(photo.position - views[*view].position);
   }
-  Vector3d median;
-  for (int k = 0; k < 3; ++k) median[k] = Median(std::move(offsets[k])).value_or(0);
-  return median;
+  return MedianOf(offsets);
 }
 
 void Move(std::vector<Stand>& views, const Vector3d& offset) {
   for (Stand& view : views) view.position += offset;
 }
 
+// Brings views to where the photos stand: by the photos whose view is known, else by the views
+// that are nearest to each.
+void ShiftToPhotos(const std::vector<Stand>& photos,
+                   const std::vector<std::optional<size_t>>& view_of, std::vector<Stand>& views) {
+  std::vector<Vector3d> known;
+  for (size_t p = 0; p < photos.size(); ++p) {
+    if (view_of[p]) known.push_back(photos[p].position - views[*view_of[p]].position);
+  }
+  if (!known.empty()) {
+    Move(views, MedianOf(known));
+    return;
+  }
+  // Heights of plan and world may have nothing in common; places do.
+  Move(views, MedianOffset(photos, views, {1, 1, 0}));
+  for (int round = 0; round < kRounds; ++round) {
+    Move(views, MedianOffset(photos, views, Vector3d::Ones()));
+  }
+}
+
+// Of each photo the view that its file name says, where the plan has it.
+std::vector<std::optional<size_t>> ViewsByName(const Plan& plan,
+                                               std::span<const SurveyPhoto> photos) {
+  std::map<std::string, size_t> views;
+  for (size_t v = 0; v < plan.views.size(); ++v) views[plan.views[v].id] = v;
+  std::vector<std::optional<size_t>> found(photos.size());
+  for (size_t p = 0; p < photos.size(); ++p) {
+    const auto view = views.find(photos[p].captured.view);
+    if (view != views.end()) found[p] = view->second;
+  }
+  return found;
+}
+
 }  // namespace
 
 void NameViewsByPose(const Plan& plan, const Georef& georef, std::span<SurveyPhoto> photos) {
-  const auto has_view = [](const SurveyPhoto& photo) { return !photo.captured.view.empty(); };
-  if (georef.frame != "enu" || std::ranges::any_of(photos, has_view)) return;
+  if (georef.frame != "enu") return;
   std::vector<Stand> stands;
   for (const SurveyPhoto& photo : photos) stands.push_back(StandOf(photo));
   std::vector<Stand> views;
   for (const PlannedView& view : plan.views) views.push_back(StandOf(view, plan, georef));
-  // Heights of plan and world may have nothing in common; places do.
-  Move(views, MedianOffset(stands, views, {1, 1, 0}));
-  for (int round = 0; round < kRounds; ++round) {
-    Move(views, MedianOffset(stands, views, Vector3d::Ones()));
-  }
+  const std::vector<std::optional<size_t>> named = ViewsByName(plan, photos);
+  ShiftToPhotos(stands, named, views);
   std::vector<std::optional<size_t>> photo_of(views.size());
+  for (size_t p = 0; p < named.size(); ++p) {
+    if (named[p]) photo_of[*named[p]] = p;
+  }
+  const std::vector<std::optional<size_t>> photo_by_name = photo_of;
   size_t found = 0;
   for (size_t p = 0; p < stands.size(); ++p) {
+    if (named[p]) ++found;
+    if (!photos[p].captured.view.empty()) continue;
     const auto view = Nearest(stands[p], views, Vector3d::Ones(), kSamePlace_m);
     if (!view) continue;
     ++found;
@@ -107,7 +150,7 @@ void NameViewsByPose(const Plan& plan, const Georef& georef, std::span<SurveyPho
       return (stands[photo].position - views[*view].position).norm();
     };
     std::optional<size_t>& taken = photo_of[*view];
-    if (!taken || away(p) < away(*taken)) taken = p;
+    if (!photo_by_name[*view] && (!taken || away(p) < away(*taken))) taken = p;
   }
   if (2 * found < photos.size()) return;
   for (size_t v = 0; v < views.size(); ++v) {

@@ -10,12 +10,13 @@
 
 namespace stucco {
 
-// Where no photo's file name says which view of the plan it is (photos that were renamed, a model
-// of another program): writes `captured.view` of the photos that stand and look as a view does. A
-// shift of the whole frame against the plan (records without RTK, heights of another system) is
-// found first, as the median over the photos. A view has at most one photo, the nearest. Writes
-// nothing where a photo has a view already, where the frame is not "enu", and where fewer than half
-// of the photos stand at views: then the plan is another flight's.
+// Where file names do not say which view of the plan photos are (photos that were renamed, a model
+// of another program): writes `captured.view` of those that stand and look as a view does. A shift
+// of the whole frame against the plan (records without RTK, heights of another system) is found
+// first, as the median over the photos: over those whose names say their view, where there are any.
+// A view has at most one photo, the named one or the nearest; names stay as they are. Writes
+// nothing where the frame is not "enu", and where fewer than half of the photos stand at views:
+// then the plan is another flight's.
 void NameViewsByPose(const Plan& plan, const Georef& georef, std::span<SurveyPhoto> photos);
 
 }  // namespace stucco
