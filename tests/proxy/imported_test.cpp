@@ -140,6 +140,66 @@ TEST(ImportedSurfaces, HousesOnOneGroundAreBuildingsOfTheirOwn) {
   EXPECT_NEAR(buildings[2].facets[0].area, 28 * 26 - 80, 1e-9);
 }
 
+TEST(ImportedSurfaces, EdgesOfThreeFacesAreKeptAndCloseNothing) {
+  House box = Closed(test::BoxHouse(10, 8, 6, {5, 4, 0}));
+  box.polygons.push_back({"fin", {{0, 0, 0}, {0, 0, 6}, {-3, -3, 6}, {-3, -3, 0}}});
+  const std::vector<Building> buildings = BuildingsOf(MeshOf({box}));
+  ASSERT_EQ(buildings.size(), 1u);
+  EXPECT_FALSE(buildings[0].watertight);
+  EXPECT_EQ(ClassesOf(buildings[0]),
+            (std::map<FacetClass, int>{
+                {FacetClass::kWall, 5}, {FacetClass::kRoof, 1}, {FacetClass::kGround, 1}}));
+  double area = 0;
+  for (const Facet& facet : buildings[0].facets) area += facet.area;
+  EXPECT_NEAR(area, 2 * 80 + 36 * 6 + 6 * std::sqrt(18), 1e-6);
+}
+
+TEST(ImportedSurfaces, HousesThatTouchInOneEdgeAreBothWhole) {
+  const House one = Closed(test::BoxHouse(10, 8, 6, {5, 4, 0}));
+  const House other = Closed(test::BoxHouse(10, 8, 6, {15, 12, 0}));
+  size_t facets = 0;
+  for (const Building& building : BuildingsOf(MeshOf({one, other}))) {
+    for (const Facet& facet : building.facets) {
+      ++facets;
+      if (facet.facet_class != FacetClass::kWall) continue;
+      Vector3d middle = Vector3d::Zero();
+      for (const Vector3d& corner : facet.outer) middle += corner / 4;
+      // Outwards, from the middle of the house that the wall belongs to.
+      const Vector3d houses[] = {{5, 4, 3}, {15, 12, 3}};
+      const bool is_others = (middle - houses[1]).norm() < (middle - houses[0]).norm();
+      const Vector3d& house = houses[is_others ? 1 : 0];
+      EXPECT_GT(facet.normal.dot(middle - house), 0) << facet.id;
+    }
+  }
+  EXPECT_EQ(facets, 12u);
+}
+
+TEST(ImportedSurfaces, ABandOfOneSideIsTakenAsItIs) {
+  // Twelve quadrilaterals around a circle, turned by half a turn on their way round.
+  constexpr int kParts = 12;
+  std::vector<std::pair<Vector3d, Vector3d>> rungs;
+  for (int i = 0; i < kParts; ++i) {
+    const double around = 2 * M_PI * i / kParts;
+    const Vector3d out(std::cos(around), std::sin(around), 0);
+    const Vector3d half = std::cos(around / 2) * Vector3d::UnitZ() + std::sin(around / 2) * out;
+    rungs.emplace_back(10 * out - 2 * half, 10 * out + 2 * half);
+  }
+  std::vector<Ring3d> triangles;
+  for (int i = 0; i < kParts; ++i) {
+    const auto [a, b] = rungs[i];
+    auto [c, d] = rungs[(i + 1) % kParts];
+    if (i + 1 == kParts) std::swap(c, d);
+    triangles.push_back({a, b, d});
+    triangles.push_back({a, d, c});
+  }
+  size_t facets = 0;
+  for (const Building& building : BuildingsOf(OneObject(triangles))) {
+    EXPECT_FALSE(building.watertight);
+    facets += building.facets.size();
+  }
+  EXPECT_EQ(facets, 2u * kParts);
+}
+
 TEST(ImportedSurfaces, OutlinesThatTouchThemselvesPassNoCornerTwice) {
   // Four squares around a fifth that is missing, and one that touches them at a corner only.
   std::vector<Ring3d> squares;
