@@ -28,23 +28,51 @@ struct BuildingEvidence {
   bool walls_seen = true;  // false: a scan from above, without photos and walls
 };
 
-// Height of a level top: the middle of what lies above the footprint, else where its walls end.
-std::optional<double> TopOf(const BuildingEvidence& evidence) {
+// Leaves look every way, roofs up.
+bool AreLeaves(const Samples& samples) {
+  constexpr double kUp = 0.7;          // cosine of 45 degrees
+  constexpr double kMostLookUp = 0.5;  // of all
+  const auto up =
+      std::ranges::count_if(samples.normals, [](const auto& normal) { return normal.z() > kUp; });
+  return static_cast<double>(up) < kMostLookUp * static_cast<double>(samples.size());
+}
+
+// Heights of what lies on the building's walls and looks out of them, as leaves beside them do not.
+std::vector<double> HeightsOnWalls(const FittedBuilding& fitted, const Samples& near,
+                                   double reach) {
+  constexpr double kOutwards = 0.9;  // cosine of 25 degrees
+  std::vector<double> heights;
+  for (size_t i = 0; i < near.size(); ++i) {
+    const Eigen::Vector2d place = near.positions[i].head<2>();
+    const Eigen::Vector2d normal = near.normals[i].head<2>();
+    const bool on_wall = std::ranges::any_of(fitted.edges, [&](const FittedEdge& edge) {
+      return edge.fitted && OutwardsOf(edge.line).dot(normal) > kOutwards &&
+             Distance(edge.line, place) < reach;
+    });
+    if (on_wall) heights.push_back(near.positions[i].z());
+  }
+  return heights;
+}
+
+// Height of a level top: the middle of what lies above the footprint, else (nothing does, or leaves
+// do) where its walls end.
+std::optional<double> TopOf(const BuildingEvidence& evidence, const Tolerances& tolerances) {
   constexpr size_t kFewest = 30;
   constexpr double kWallTop = 0.95;
-  std::vector<double> heights;
-  for (const auto& p : evidence.roof.samples.positions) heights.push_back(p.z());
-  if (heights.size() >= kFewest) return Median(heights);
-  if (!(evidence.fitted.held > 0)) return std::nullopt;
-  heights.clear();
-  for (size_t i = 0; i < evidence.near.size(); ++i) {
-    if (LooksLikeWall(evidence.near.normals[i])) {
-      heights.push_back(evidence.near.positions[i].z());
-    }
+  const Samples& above = evidence.roof.samples;
+  if (above.size() >= kFewest && !AreLeaves(above)) {
+    std::vector<double> heights;
+    heights.reserve(above.size());
+    for (const auto& p : above.positions) heights.push_back(p.z());
+    return Median(std::move(heights));
   }
+  std::vector<double> heights =
+      HeightsOnWalls(evidence.fitted, evidence.near, tolerances.level_of_detail);
   if (heights.size() < kFewest) return std::nullopt;
-  std::sort(heights.begin(), heights.end());
-  return heights[static_cast<size_t>(kWallTop * static_cast<double>(heights.size() - 1))];
+  const auto top =
+      heights.begin() + static_cast<ptrdiff_t>(kWallTop * static_cast<double>(heights.size() - 1));
+  std::ranges::nth_element(heights, top);
+  return *top;
 }
 
 // Nobody sees the ground below a building; below trees one does, between the leaves.
@@ -256,7 +284,7 @@ ClosedBuilding BuildingCloser::Close(const MapBuilding& mapped, const FittedBuil
   evidence.fitted = fitted;
   evidence.roof = FindRoofPlanes(survey_, fitted, options_);
   evidence.near = SubsetOf(survey_.samples, survey_.bins.In(BoundsOf(fitted.building, kAround_m)));
-  evidence.top = TopOf(evidence);
+  evidence.top = TopOf(evidence, survey_.tolerances);
   evidence.map_top = mapped.z_m.to_m + plan_to_survey_m;
   evidence.walls_seen = !survey_.samples.camera_centers.empty() || fitted.held > 0;
   ClosedBuilding closed;

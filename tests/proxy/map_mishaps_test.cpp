@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Buildings of which the cloud or the map has less than the whole.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/proxy/map_scene.h"
+#include "tests/proxy/scene.h"
+
+namespace stucco {
+namespace {
+
+using test::Captured;
+using test::ClosedIn;
+using test::MadeModel;
+using test::MakeModel;
+using test::OfClass;
+using test::Rectangle;
+using test::VolumeOf;
+
+constexpr double kVolume_m3 = 12 * 9 * 6;
+
+const Ring& Outline() {
+  static const Ring ring = Rectangle(-6, -4.5, 6, 4.5);
+  return ring;
+}
+
+Captured CaptureBox(std::vector<std::string> hide, bool front_only = false) {
+  test::CaptureOptions options{.spacing = 0.2, .noise = 0.02};
+  options.hide = std::move(hide);
+  options.front_only = front_only;
+  return test::Capture({test::BoxHouse(12, 9, 6)}, {test::GroundSquare(25)}, options);
+}
+
+TEST(MapMishaps, TheHalfThatTheMapLacksIsBuiltAndNamed) {
+  const MadeModel made =
+      MakeModel(CaptureBox({}), {{"B0001", {Rectangle(-6, -4.5, 0, 4.5)}, 6}});
+  const Building* rest = test::Find(made.proxy, "C0001");
+  ASSERT_TRUE(rest != nullptr && rest->watertight);
+  EXPECT_NEAR(VolumeOf(ClosedIn(made, "B0001")) + VolumeOf(*rest), kVolume_m3, 10);
+  EXPECT_TRUE(std::ranges::any_of(made.findings.of_map, [](const ProxyFindings::OfMap& finding) {
+    return finding.text.starts_with("C0001: stands on no footprint of the map");
+  }));
+}
+
+TEST(MapMishaps, CrownsOverAHouseAreNotItsRoof) {
+  Captured captured = CaptureBox({"roof"});  // nobody sees it
+  for (const double x : {-5.0, -2.0, 1.0, 4.0}) {
+    for (const double y : {-3.0, 0.0, 3.0}) test::AddTree({x, y, 8.5}, 2.4, 2500, 3, captured);
+  }
+  const MadeModel made = MakeModel(captured, {{"B0001", {Outline()}, 9}});
+  const Building& house = ClosedIn(made, "B0001");
+  EXPECT_NEAR(VolumeOf(house), kVolume_m3, 30);
+  ASSERT_EQ(OfClass(house, FacetClass::kRoof).size(), 1u);
+  EXPECT_EQ(OfClass(house, FacetClass::kRoof)[0]->seen, 0);
+}
+
+TEST(MapMishaps, AHouseSeenFromOneSideIsClosed) {
+  const MadeModel made = MakeModel(CaptureBox({}, true), {{"B0001", {Outline()}, 9}});
+  const Building& house = ClosedIn(made, "B0001");
+  EXPECT_EQ(house.facets.size(), 6u);
+  EXPECT_NEAR(VolumeOf(house), kVolume_m3, 50);
+  EXPECT_TRUE(std::ranges::any_of(OfClass(house, FacetClass::kWall),
+                                  [](const Facet* wall) { return wall->seen == 0; }));
+}
+
+TEST(MapMishaps, AHouseWhoseGroundNobodySawEndsAtItsFoot) {
+  const MadeModel made = MakeModel(CaptureBox({"ground"}), {{"B0001", {Outline()}, 6}});
+  EXPECT_NEAR(VolumeOf(ClosedIn(made, "B0001")), kVolume_m3, 30);
+}
+
+}  // namespace
+}  // namespace stucco
