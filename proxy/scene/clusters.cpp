@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -33,23 +32,33 @@ std::map<Cell, int> LabelCells(const std::map<Cell, int>& cells) {
 struct Extent {
   double area = 0;
   double above_ground = 0;
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
+  double height = 0;  // from its lowest to its highest points
 };
 
+double At(double share, std::vector<double>& values) {
+  const auto nth =
+      values.begin() + static_cast<ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+// Heights without the last few points: leaves stand out of hedges.
 Extent ExtentOf(const Samples& samples, const Eigen::Vector3d& up, const Plane* ground,
                 const std::vector<Plane>& planes) {
+  constexpr double kStrays = 0.02;  // of the points
   Extent extent;
+  std::vector<double> heights;
+  std::vector<double> above_ground;
   for (const Plane& plane : planes) {
     extent.area += plane.area;
     for (const int i : plane.points) {
-      const double h = up.dot(samples.positions[i]);
-      extent.low = std::min(extent.low, h);
-      extent.high = std::max(extent.high, h);
-      if (ground == nullptr) continue;
-      extent.above_ground = std::max(extent.above_ground, ground->DistanceTo(samples.positions[i]));
+      heights.push_back(up.dot(samples.positions[i]));
+      if (ground != nullptr) above_ground.push_back(ground->DistanceTo(samples.positions[i]));
     }
   }
+  if (heights.empty()) return extent;
+  extent.height = At(1 - kStrays, heights) - At(kStrays, heights);
+  if (!above_ground.empty()) extent.above_ground = At(1 - kStrays, above_ground);
   return extent;
 }
 
@@ -96,7 +105,7 @@ Clusters SplitIntoBuildings(const Samples& samples, const Tolerances& tolerances
   for (auto& [label, group] : groups) {
     const Extent extent = ExtentOf(samples, up, GroundBelow(samples, up, ground, group), group);
     if (extent.area < fewest_areas * tolerances.min_area ||
-        std::max(extent.high - extent.low, extent.above_ground) <
+        std::max(extent.height, extent.above_ground) <
             fewest_details * tolerances.level_of_detail) {
       ++clusters.dropped;
       continue;

@@ -34,8 +34,7 @@ Captured CaptureBox(std::vector<std::string> hide, bool front_only = false) {
 }
 
 TEST(MapMishaps, TheHalfThatTheMapLacksIsBuiltAndNamed) {
-  const MadeModel made =
-      MakeModel(CaptureBox({}), {{"B0001", {Rectangle(-6, -4.5, 0, 4.5)}, 6}});
+  const MadeModel made = MakeModel(CaptureBox({}), {{"B0001", {Rectangle(-6, -4.5, 0, 4.5)}, 6}});
   const Building* rest = test::Find(made.proxy, "C0001");
   ASSERT_TRUE(rest != nullptr && rest->watertight);
   EXPECT_NEAR(VolumeOf(ClosedIn(made, "B0001")) + VolumeOf(*rest), kVolume_m3, 10);

@@ -268,6 +268,21 @@ TEST(SplitIntoBuildings, SplitsWhatStandsApartAndDropsCars) {
   EXPECT_EQ(clusters.dropped, 1);
 }
 
+TEST(SplitIntoBuildings, AFewLeavesMakeNoHouseOfAHedge) {
+  Planes p;
+  p.Add({0, 0, 0.7}, -Vector3d::UnitY(), 14, 1.4);
+  p.Add({0, 1.2, 0.7}, Vector3d::UnitY(), 14, 1.4);
+  p.Add({2, 0, 1.8}, -Vector3d::UnitY(), 0.2, 0.9);  // a twig in the plane of its front
+  std::vector<int>& front = p.planes[0].points;
+  front.insert(front.end(), p.planes[2].points.begin(), p.planes[2].points.end());
+  p.planes.pop_back();
+  const std::vector<Plane> ground(1);
+  const Clusters clusters =
+      SplitIntoBuildings(p.samples, p.tolerances, Vector3d::UnitZ(), ground, p.planes);
+  EXPECT_TRUE(clusters.buildings.empty());
+  EXPECT_EQ(clusters.dropped, 1);
+}
+
 TEST(SplitIntoBuildings, KeepsAHouseBesideAHall) {
   Planes p;
   p.Add({0, 0, 12}, Vector3d::UnitZ(), 90, 75);
