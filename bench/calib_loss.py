@@ -8,8 +8,8 @@
 SURVEY was calibrated. By the kind of photo that the plan has are printed how many have a pose and
 the medians of what calib/photos.csv counts, then every photo without a pose. Where truth/ has true
 poses (stucco simulate), every photo whose pose is farther off than the limits is printed too, and
-how the errors compare with the standard deviations in calibration.json. True and found frames are
-aligned by medians, which wrong poses do not move.
+how the errors compare with the standard deviations in calibration.json, and which photos are beyond
+four. True and found frames are aligned by medians, which wrong poses do not move.
 """
 import argparse
 import csv
@@ -23,6 +23,7 @@ import surveys
 
 FIGURES = ("candidates", "raw_matches", "verified_pairs", "verified_matches", "used_pairs",
            "keypoints", "wall_keypoints", "coincident_keypoints", "points_seen", "observations")
+FAR = 4  # standard deviations
 LISTED = ("candidates", "raw_matches", "verified_pairs", "verified_matches", "used_pairs",
           "points_seen")
 
@@ -138,7 +139,7 @@ def print_normalised(ratios):
         values = [ratio[which] for ratio in ratios.values()]
         rows.append([label, *(surveys.number(figure(values)) for figure in
                               (root_mean_square, statistics.median, max)),
-                     sum(value > 4 for value in values)])
+                     sum(value > FAR for value in values)])
     print("\nerrors over their standard deviations")
     print(surveys.markdown_table(["of the", "root mean square", "median", "largest", "above 4"],
                                  rows))
@@ -194,6 +195,10 @@ def main():
         ratios = normalised(limits.survey)
         if ratios:
             print_normalised(ratios)
+            print_list("beyond four of them",
+                       [row for row in rows if max(ratios.get(row["path"], (0,))) > FAR],
+                       lambda row: "{:.3f} m, {:.2f} degrees; {:.1f} and {:.1f} deviations".format(
+                           *errors[row["path"]], *ratios[row["path"]]))
 
 
 if __name__ == "__main__":
