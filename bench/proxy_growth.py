@@ -68,10 +68,10 @@ def scan_walls(town, density, dice):
     return np.vstack(walls)
 
 
-def write_footprints(town, path):
+def write_footprints(town, path, middle=MIDDLE):
     features = []
     for number, building in enumerate(town, 1):
-        rings = [(np.array(ring + ring[:1]) + MIDDLE).tolist() for ring in building["rings"]]
+        rings = [(np.array(ring + ring[:1]) + middle).tolist() for ring in building["rings"]]
         features.append({"type": "Feature", "properties": {"id": number},
                          "geometry": {"type": "Polygon", "coordinates": rings}})
     path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
