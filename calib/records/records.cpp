@@ -139,9 +139,10 @@ void MeasureFlight(const PositionFrame& frame, const FlightTie& tie,
   const Eigen::Vector3d shift = MedianShift(errors);
   for (PositionError& error : errors) error.recorded_minus_posed -= shift;
   SetSigmas(errors, flight);
-  // The standard deviation of a median of normal variables is 1.25 times that of the mean.
+  // The standard deviation of a median of normal variables is this many times that of the mean.
+  constexpr double kMedianOverMean = 1.25;
   const double own =
-      1.25 * flight.sigma_horizontal_m / std::sqrt(static_cast<double>(errors.size()));
+      kMedianOverMean * flight.sigma_horizontal_m / std::sqrt(static_cast<double>(errors.size()));
   Eigen::Vector2d arm = -frame.middle;
   for (const PositionError& error : errors) {
     arm += error.posed.head<2>() / static_cast<double>(errors.size());
