@@ -194,6 +194,43 @@ TEST(RunTexture, AWindowLiesBackAsAWhole) {
   for (const double x : {0.5, 3.4}) EXPECT_NEAR(relief->HeightAt(x, 1.5), 0, 0.05);
 }
 
+// Plain plaster between rows of windows looks alike as far back as they lie.
+TEST(RunTexture, PlainWallsStayBeforeTheirWindows) {
+  constexpr double kLength = 6;
+  constexpr double kHeight = 5;
+  constexpr double kDepth = 0.3;
+  constexpr double kSash = 0.5;  // all of it but a slit
+  Scene scene = [wall = WallScene(kLength, kHeight)](const Eigen::Vector3d& from,
+                                                     const Eigen::Vector3d& way) {
+    const auto colour = wall(from, way);
+    const double z = from.z() - from.y() / way.y() * way.z();
+    return colour ? Colour(Colour::Constant(140 + 10 * std::sin(2 * z))) : colour;
+  };
+  for (const double x : {0.8, 2.5, 4.2}) {
+    for (const double z : {0.7, 2.8}) {
+      scene = WindowScene({{x, z}, {x + 1.1, z + 1.4}, kDepth, kSash}, scene);
+    }
+  }
+  WallSurvey survey;
+  survey.SetProxy(MakeProxy({MakeWall(kLength, kHeight)}));
+  const Eigen::Vector3d middle(3, 0, 2.5);
+  survey.Add("a.jpg", {5.0, -6.0, 2.8}, middle, 1, scene);
+  survey.Add("b.jpg", {1.0, -6.0, 2.7}, middle, 1, scene);
+  survey.Add("c.jpg", {3.1, -6.0, 4.5}, middle, 1, scene);
+  survey.Add("d.jpg", {2.9, -6.0, 0.8}, middle, 1, scene);
+  const auto relief = ReliefOf(survey, 0.02);
+  ASSERT_NE(relief, nullptr);
+  for (const double x : {1.35, 3.05, 4.75}) {
+    for (const double z : {1.4, 3.5}) EXPECT_NEAR(relief->HeightAt(x, kHeight - z), -kDepth, 0.08);
+    EXPECT_NEAR(relief->HeightAt(x, kHeight - 2.45), 0, 0.03) << x;
+  }
+  for (const double x : {0.3, 2.2, 3.9, 5.7}) {
+    for (double z = 0.5; z < 4.5; z += 0.2) {
+      EXPECT_NEAR(relief->HeightAt(x, kHeight - z), 0, 0.03) << x << " " << z;
+    }
+  }
+}
+
 TEST(RunTexture, FindsNoReliefOnAFlatWall) {
   WallSurvey survey;
   survey.Add("a.jpg", {4.6, -4.0, 1.7}, {2, 0, 1.5});

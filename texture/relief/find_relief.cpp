@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <utility>
@@ -22,9 +24,12 @@ constexpr double kCell_m = 0.045;
 constexpr double kMostCells = 300'000;
 constexpr int kLeastTexels = 2;  // of a cell, a side
 constexpr int kBlock = 4;  // cells of a block, a side, that rectangles are first looked for in
-// Plain surfaces look alike on any plane: they cost little and count for nothing.
+// Plain surfaces look alike on any plane: they cost little and count for nothing; as cells where
+// photos agree no better they count against what lies back.
 constexpr float kTelling = 0.12f;  // mean correlation on either plane
 constexpr float kPlainCost = 0.01f;
+// To the edge of a plain pane half a metre off a side may go, over a plain wall not.
+constexpr float kPlainPaneCost = 0.03f;
 constexpr double kLeastTelling = 0.25;  // of a rectangle
 constexpr float kLeastGain = 0.06f;     // of the mean correlation of pairs, in what tells
 // Mean correlation: of all pairs for what stands out, as nothing hides it from any photo; of the
@@ -35,6 +40,8 @@ constexpr float kLeastOfCellOut = 0.2f;  // where less, a cell counts against st
 constexpr double kLeastSquarely = 0.1;   // of the pairs with the squarest photo
 constexpr double kLeastArea_m2 = 0.15;
 constexpr int kLeastSide = 5;           // cells
+constexpr int kLeastStrip = 3;          // likewise, of wall between windows
+constexpr double kSilent = 0.1;         // of what speaks for the middle row or column
 constexpr double kLeastSum_m2 = 0.015;  // of area times gain beyond the least
 // What stands before the plane belongs to the facet when three photos show it and none the facet
 // behind it; else it is a lamp, a car, a branch.
@@ -90,11 +97,11 @@ class RectangleFinder {
     for (int i = 0; i < kMostRectangles; ++i) {
       const int label = BestLabel();
       if (best_[label]->sum < kLeastSum_m2 / CellArea()) break;
-      const CellRectangle whole = Refined(best_[label]->cells, label);
-      if (const auto cells = Ended(whole, label)) {
+      const Opening opening = LargestOpening(Refined(best_[label]->cells, label), label);
+      if (const auto cells = Ended(opening, label)) {
         Take(*cells, label);
       } else {
-        Refuse(whole, label);
+        Refuse(opening.cells, label);
       }
     }
     return std::move(labels_);
@@ -140,7 +147,10 @@ class RectangleFinder {
     if (!IsFree(cell, label)) return 0;
     const int now = labels_[cell];
     const int front = std::max(label, now);
-    if (!Tells(cell, label) || (front > sweep_.plane && IsPlain(cell, front))) return -kPlainCost;
+    if (!Tells(cell, label) || (front > sweep_.plane && IsPlain(cell, front))) {
+      // The wall is where nothing speaks against it: rows of windows do not take it with them.
+      return label < sweep_.plane && now == sweep_.plane ? -kLeastGain : -kPlainCost;
+    }
     // Back between two things that stand out, which hide the wall there from some photos.
     if (now > sweep_.plane && label <= sweep_.plane) return Best(cell, label) - Best(cell, now);
     const float gain = All(cell, label) - All(cell, now) - kLeastGain;
@@ -192,32 +202,101 @@ class RectangleFinder {
     return out;
   }
 
+  // A rectangle, and how far its sides may move.
+  struct Opening {
+    CellRectangle cells;
+    CellRectangle bounds;
+  };
+
+  // Windows of one depth come as one rectangle where the wall between them is plain. A strip right
+  // across it in which hardly anything speaks for lying back is wall; frames cross what is one
+  // window. Of the parts the one for which most speaks.
+  Opening LargestOpening(const CellRectangle& cells, int label) const {
+    Opening opening = {cells, {0, 0, sweep_.raster.width, sweep_.raster.height}};
+    if (SideOf(label) != kBehindIt) return opening;
+    for (bool is_cut = true; is_cut;) {
+      const int before = opening.cells.Cells();
+      CellRectangle& part = opening.cells;
+      CellRectangle& bounds = opening.bounds;
+      Cut(ByColumn(part, label), part.left, part.right, bounds.left, bounds.right);
+      Cut(ByRow(part, label), part.top, part.bottom, bounds.top, bounds.bottom);
+      is_cut = part.Cells() < before;
+    }
+    return opening;
+  }
+
+  // What speaks for the label.
+  std::vector<double> ByColumn(const CellRectangle& cells, int label) const {
+    std::vector<double> sums(cells.right - cells.left, 0);
+    for (int y = cells.top; y < cells.bottom; ++y) {
+      for (int x = cells.left; x < cells.right; ++x) {
+        sums[x - cells.left] += std::max(0.0f, Worth(CellAt(x, y), label));
+      }
+    }
+    return sums;
+  }
+  std::vector<double> ByRow(const CellRectangle& cells, int label) const {
+    std::vector<double> sums(cells.bottom - cells.top, 0);
+    for (int y = cells.top; y < cells.bottom; ++y) {
+      for (int x = cells.left; x < cells.right; ++x) {
+        sums[y - cells.top] += std::max(0.0f, Worth(CellAt(x, y), label));
+      }
+    }
+    return sums;
+  }
+
+  // Draws [begin, end) together to the run, between strips of hardly anything, with the largest sum
+  // of `speaks`, and its bounds to the runs beside it.
+  static void Cut(const std::vector<double>& speaks, int& begin, int& end, int& low, int& high) {
+    struct Run {
+      int begin = 0;
+      int end = 0;
+      double sum = 0;
+    };
+    const auto count = static_cast<double>(speaks.size());
+    const double silent = kSilent * std::accumulate(speaks.begin(), speaks.end(), 0.0) / count;
+    std::vector<Run> runs;
+    for (int i = 0; i < std::ssize(speaks); ++i) {
+      if (speaks[i] <= silent) continue;
+      if (runs.empty() || i - runs.back().end >= kLeastStrip) runs.push_back({i, i, 0});
+      runs.back().end = i + 1;
+      runs.back().sum += speaks[i];
+    }
+    if (runs.empty()) return;
+    const auto largest = std::ranges::max_element(runs, {}, &Run::sum);
+    if (largest != runs.begin()) low = begin + std::prev(largest)->end;
+    if (std::next(largest) != runs.end()) high = begin + std::next(largest)->begin;
+    end = begin + largest->end;
+    begin += largest->begin;
+  }
+
   // The rectangle as it most likely ends; nothing where that is not sure.
-  std::optional<CellRectangle> Ended(const CellRectangle& whole, int label) const {
+  std::optional<CellRectangle> Ended(const Opening& opening, int label) const {
     if (SideOf(label) != kBehindIt) {
-      const CellRectangle cells = WithoutRim(whole, label);
+      const CellRectangle cells = WithoutRim(opening.cells, label);
       return IsSure(cells, label) ? std::optional(cells) : std::nullopt;
     }
     for (const double reach_m : kSnaps_m) {
       const CellRectangle cells =
-          Snapped(whole, label, static_cast<int>(reach_m / sweep_.raster.texel));
+          Snapped(opening, label, static_cast<int>(reach_m / sweep_.raster.texel));
       if (IsSure(cells, label)) return cells;
     }
     return std::nullopt;
   }
 
   // What lies back ends at edges of the wall: plain panes do not tell how far a reveal reaches.
-  CellRectangle Snapped(const CellRectangle& cells, int label, int reach) const {
-    const CellRectangle part = {std::max(0, cells.left - reach), std::max(0, cells.top - reach),
-                                std::min(sweep_.raster.width, cells.right + reach),
-                                std::min(sweep_.raster.height, cells.bottom + reach)};
+  CellRectangle Snapped(const Opening& opening, int label, int reach) const {
+    const auto& [cells, bounds] = opening;
+    const CellRectangle part = {
+        std::max(bounds.left, cells.left - reach), std::max(bounds.top, cells.top - reach),
+        std::min(bounds.right, cells.right + reach), std::min(bounds.bottom, cells.bottom + reach)};
     cv::Mat evidence(part.bottom - part.top, part.right - part.left, CV_32F, cv::Scalar(0));
     for (int y = part.top; y < part.bottom; ++y) {
       for (int x = part.left; x < part.right; ++x) {
         const size_t cell = CellAt(x, y);
-        if (!IsFree(cell, label) || !Tells(cell, label)) continue;
+        if (!IsFree(cell, label)) continue;
         evidence.at<float>(y - part.top, x - part.left) =
-            Best(cell, label) - Best(cell, labels_[cell]);
+            Tells(cell, label) ? Best(cell, label) - Best(cell, labels_[cell]) : -kPlainPaneCost;
       }
     }
     return edges_.Snap(cells, part, evidence, reach);
