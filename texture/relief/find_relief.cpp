@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
-#include <numeric>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <utility>
@@ -14,6 +12,7 @@
 
 #include "texture/relief/best_rectangle.h"
 #include "texture/relief/plane_sweep.h"
+#include "texture/relief/stretch.h"
 #include "texture/relief/sweep_tiles.h"
 #include "texture/relief/wall_edges.h"
 
@@ -40,8 +39,6 @@ constexpr float kLeastOfCellOut = 0.2f;  // where less, a cell counts against st
 constexpr double kLeastSquarely = 0.1;   // of the pairs with the squarest photo
 constexpr double kLeastArea_m2 = 0.15;
 constexpr int kLeastSide = 5;           // cells
-constexpr int kLeastStrip = 3;          // likewise, of wall between windows
-constexpr double kSilent = 0.1;         // of what speaks for the middle row or column
 constexpr double kLeastSum_m2 = 0.015;  // of area times gain beyond the least
 // What stands before the plane belongs to the facet when three photos show it and none the facet
 // behind it; else it is a lamp, a car, a branch.
@@ -214,60 +211,44 @@ class RectangleFinder {
   Opening LargestOpening(const CellRectangle& cells, int label) const {
     Opening opening = {cells, {0, 0, sweep_.raster.width, sweep_.raster.height}};
     if (SideOf(label) != kBehindIt) return opening;
-    for (bool is_cut = true; is_cut;) {
-      const int before = opening.cells.Cells();
-      CellRectangle& part = opening.cells;
-      CellRectangle& bounds = opening.bounds;
+    auto& [part, bounds] = opening;
+    for (int before = 0; part.Cells() != before;) {
+      before = part.Cells();
       Cut(ByColumn(part, label), part.left, part.right, bounds.left, bounds.right);
       Cut(ByRow(part, label), part.top, part.bottom, bounds.top, bounds.bottom);
-      is_cut = part.Cells() < before;
     }
     return opening;
   }
 
+  static void Cut(const std::vector<double>& speaks, int& begin, int& end, int& low, int& high) {
+    const Stretch stretch = LargestStretch(speaks);
+    if (stretch.low > 0) low = begin + stretch.low;
+    if (stretch.high < std::ssize(speaks)) high = begin + stretch.high;
+    end = begin + stretch.end;
+    begin += stretch.begin;
+  }
+
   // What speaks for the label.
   std::vector<double> ByColumn(const CellRectangle& cells, int label) const {
-    std::vector<double> sums(cells.right - cells.left, 0);
-    for (int y = cells.top; y < cells.bottom; ++y) {
-      for (int x = cells.left; x < cells.right; ++x) {
-        sums[x - cells.left] += std::max(0.0f, Worth(CellAt(x, y), label));
-      }
+    std::vector<double> sums;
+    sums.reserve(cells.right - cells.left);
+    for (int x = cells.left; x < cells.right; ++x) {
+      sums.push_back(Speaks({x, cells.top, x + 1, cells.bottom}, label));
     }
     return sums;
   }
   std::vector<double> ByRow(const CellRectangle& cells, int label) const {
-    std::vector<double> sums(cells.bottom - cells.top, 0);
+    std::vector<double> sums;
+    sums.reserve(cells.bottom - cells.top);
     for (int y = cells.top; y < cells.bottom; ++y) {
-      for (int x = cells.left; x < cells.right; ++x) {
-        sums[y - cells.top] += std::max(0.0f, Worth(CellAt(x, y), label));
-      }
+      sums.push_back(Speaks({cells.left, y, cells.right, y + 1}, label));
     }
     return sums;
   }
-
-  // Draws [begin, end) together to the run, between strips of hardly anything, with the largest sum
-  // of `speaks`, and its bounds to the runs beside it.
-  static void Cut(const std::vector<double>& speaks, int& begin, int& end, int& low, int& high) {
-    struct Run {
-      int begin = 0;
-      int end = 0;
-      double sum = 0;
-    };
-    const auto count = static_cast<double>(speaks.size());
-    const double silent = kSilent * std::accumulate(speaks.begin(), speaks.end(), 0.0) / count;
-    std::vector<Run> runs;
-    for (int i = 0; i < std::ssize(speaks); ++i) {
-      if (speaks[i] <= silent) continue;
-      if (runs.empty() || i - runs.back().end >= kLeastStrip) runs.push_back({i, i, 0});
-      runs.back().end = i + 1;
-      runs.back().sum += speaks[i];
-    }
-    if (runs.empty()) return;
-    const auto largest = std::ranges::max_element(runs, {}, &Run::sum);
-    if (largest != runs.begin()) low = begin + std::prev(largest)->end;
-    if (std::next(largest) != runs.end()) high = begin + std::next(largest)->begin;
-    end = begin + largest->end;
-    begin += largest->begin;
+  double Speaks(const CellRectangle& cells, int label) const {
+    double sum = 0;
+    ForAll(cells, [&](size_t cell) { sum += std::max(0.0f, Worth(cell, label)); });
+    return sum;
   }
 
   // The rectangle as it most likely ends; nothing where that is not sure.
