@@ -89,12 +89,13 @@ Standing AbsenceOf(const BuildingEvidence& evidence) {
   return ShowsGround(evidence) ? Standing::kGone : Standing::kUnseen;
 }
 
+constexpr double kHeld = 0.4;  // of the walls of what stands, by length, that planes hold
+
 // Leaves are no planes. What stands open may still be a roof on posts or a ring of walls with a
 // yard.
 Standing StandingOf(const BuildingEvidence& evidence) {
   constexpr double kRoofed = 0.3;       // of the footprint
   constexpr double kSmooth = 0.75;      // of what lies above it
-  constexpr double kHeld = 0.4;         // of the walls
   constexpr double kHeldAround = 0.75;  // of the walls, where the ground shows between them
   const double area = Area(evidence.fitted.building);
   const RoofEvidence& roof = evidence.roof;
@@ -316,13 +317,15 @@ ClosedBuilding BuildingCloser::Close(const MapBuilding& mapped, const FittedBuil
   return closed;
 }
 
-bool IsNewBuilding(const ClosedBuilding& closed, bool shows_walls) {
+NewBuilding JudgeNew(const ClosedBuilding& closed, bool shows_walls) {
   constexpr double kSeen = 0.6;  // of its roofs
   const bool modelled =
       closed.detail == SolidDetail::kFull || closed.detail == SolidDetail::kCoarse;
-  if (closed.standing != Standing::kStands || !modelled) return false;
+  if (closed.standing != Standing::kStands || !modelled) return NewBuilding::kNone;
   const SeenShares seen = SharesOf(closed.facets);
-  return seen.roofs > kSeen && (seen.walls > kWalled || !shows_walls);
+  if (!(seen.roofs > kSeen)) return NewBuilding::kNone;
+  if (seen.walls > kWalled || !shows_walls) return NewBuilding::kSure;
+  return closed.fitted.held > kHeld ? NewBuilding::kUnsure : NewBuilding::kNone;
 }
 
 }  // namespace stucco

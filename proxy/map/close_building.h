@@ -56,9 +56,15 @@ class BuildingCloser {
   Eigen::Matrix3d world_from_upright_;
 };
 
+enum class NewBuilding {
+  kNone,
+  kUnsure,  // a roof on what looks like walls, of which too little is seen to build it
+  kSure,
+};
+
 // What stands on no footprint is a building only where its roof is smooth and seen, as crowns are
 // rough, and its walls are seen, where the survey shows walls: below a dense crown only leaves
 // stand upright.
-bool IsNewBuilding(const ClosedBuilding& closed, bool shows_walls);
+NewBuilding JudgeNew(const ClosedBuilding& closed, bool shows_walls);
 
 }  // namespace stucco

@@ -152,9 +152,23 @@ Building AsBuilding(const std::string& id, const std::string& source,
           .facets = closed.facets};
 }
 
+// Says where something stands that is not built.
+void NoteUnsure(const FittedBuilding& unsure, const Workshop& with, ProxyFindings& findings) {
+  const Eigen::AlignedBox2d box = BoundsOf(unsure.building, 0);
+  const Eigen::Vector3d middle(box.center().x(), box.center().y(), unsure.ground);
+  const Eigen::Vector3d place = UprightFromWorld(with.scene.up).transpose() * middle;
+  findings.of_map.push_back(
+      {fmt::format("a house seems to stand on no footprint of the map, {:.0f} m2 at {:.0f} m east "
+                   "and {:.0f} m north, of whose walls the cloud shows too little to build it: add "
+                   "it to the map, or photograph its walls",
+                   Area(unsure.building), place.x(), place.y()),
+       true});
+}
+
 // What the map lacks, closed on footprints of its own.
 std::vector<ClosedBuilding> CloseNew(const UprightSurvey& survey,
-                                     std::span<const Building> of_the_map, const Workshop& with) {
+                                     std::span<const Building> of_the_map, const Workshop& with,
+                                     ProxyFindings& findings) {
   const auto footprints = FindNewFootprints(with.scene, survey, of_the_map);
   std::vector<MapBuilding> as_mapped;
   as_mapped.reserve(footprints.size());
@@ -162,7 +176,9 @@ std::vector<ClosedBuilding> CloseNew(const UprightSurvey& survey,
   auto closed = CloseAsFitted(survey, as_mapped, footprints, 0, with);
   const bool shows_walls = !survey.samples.camera_centers.empty();  // a scan from above does not
   std::erase_if(closed, [&](const ClosedBuilding& building) {
-    return !IsNewBuilding(building, shows_walls);
+    const NewBuilding judged = JudgeNew(building, shows_walls);
+    if (judged == NewBuilding::kUnsure) NoteUnsure(building.fitted, with, findings);
+    return judged != NewBuilding::kSure;
   });
   return closed;
 }
@@ -341,7 +357,7 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
   houses.plan_to_survey_m = HeightShift(survey, found.buildings);
   houses.closed = CloseAll(survey, found, houses.plan_to_survey_m, with);
   houses.mapped = std::move(found.buildings);
-  auto others = CloseNew(survey, BuildingsOf(houses), with);
+  auto others = CloseNew(survey, BuildingsOf(houses), with, findings);
   JoinWings(survey, with, houses, others, findings);
   for (size_t b = 0; b < houses.closed.size(); ++b) {
     Report(houses.mapped[b].id, houses.closed[b], houses.mapped[b].to_capture, findings);

@@ -140,5 +140,20 @@ TEST(NewBuildings, ARoofWithoutWallsIsACrown) {
   EXPECT_FALSE(is_new(false));
 }
 
+// Its roof lies on walls of which only a strip below the eaves is seen.
+TEST(NewBuildings, AHouseWhoseWallsAreHardlySeenIsNamed) {
+  test::House tower = FlatHouse(Rectangle(14, -4, 24, 4), 16);
+  for (auto& polygon : tower.polygons) {
+    for (auto& p : polygon.ring) p.z() = std::max(p.z(), 13.2);
+  }
+  const auto captured = test::Capture({FlatHouse(Rectangle(-6, -4, 6, 4), 6), tower},
+                                      {test::GroundSquare(25)}, kDenseCapture);
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-6, -4, 6, 4)}, 6}});
+  EXPECT_EQ(test::Find(made.proxy, "C0001"), nullptr);
+  EXPECT_TRUE(std::ranges::any_of(made.findings.of_map, [](const ProxyFindings::OfMap& finding) {
+    return finding.warns && finding.text.starts_with("a house seems to stand on no footprint");
+  }));
+}
+
 }  // namespace
 }  // namespace stucco
