@@ -42,12 +42,37 @@ double AttitudeSquare(const ScenePhoto& photo) {
   return angle * angle / variance;
 }
 
-double PositionSquare(const ScenePhoto& photo) {
-  if (!photo.prior) return 0;
-  const Eigen::Vector3d error = photo.pose->Center() - photo.prior->position;
+// How far a place is from where a photo was recorded.
+double PlaceSquare(const Eigen::Vector3d& place, const PositionPrior& prior) {
+  const Eigen::Vector3d error = place - prior.position;
   const double own = std::pow(kPoseSigma_m, 2);
-  return error.head<2>().squaredNorm() / (std::pow(photo.prior->sigma_horizontal_m, 2) + own) +
-         error.z() * error.z() / (std::pow(photo.prior->sigma_vertical_m, 2) + own);
+  return error.head<2>().squaredNorm() / (std::pow(prior.sigma_horizontal_m, 2) + own) +
+         error.z() * error.z() / (std::pow(prior.sigma_vertical_m, 2) + own);
+}
+
+double PositionSquare(const ScenePhoto& photo) {
+  return photo.prior ? PlaceSquare(photo.pose->Center(), *photo.prior) : 0;
+}
+
+bool AgreesWithItsRecord(const ScenePhoto& photo) {
+  return AttitudeSquare(photo) <= kUnlikelySquare && PositionSquare(photo) <= kUnlikelySquare;
+}
+
+// Whether photos of the same hover say that a photo's record is right and its pose wrong: one that
+// agrees with its own record stands where this photo was recorded, and none stands beside its pose.
+bool HoverIsElsewhere(const Scene& scene, const ScenePhoto& photo) {
+  if (photo.hover < 0 || scene.hover_sigma_m <= 0) return false;
+  const double variance =
+      2 * (std::pow(scene.hover_sigma_m, 2) + std::pow(kPoseSigma_m, 2));  // of a difference
+  bool elsewhere = false;
+  for (const ScenePhoto& mate : scene.photos) {
+    if (&mate == &photo || mate.hover != photo.hover || !mate.pose) continue;
+    if (!mate.prior || !AgreesWithItsRecord(mate)) continue;
+    const Eigen::Vector3d place = mate.pose->Center();
+    if ((place - photo.pose->Center()).squaredNorm() <= kUnlikelySquare * variance) return false;
+    elsewhere |= PlaceSquare(place, *photo.prior) <= kUnlikelySquare;
+  }
+  return elsewhere;
 }
 
 // Not what lies much farther off: that is a wild position, which matches may contradict.
@@ -70,8 +95,7 @@ int NumTrustedPartners(const Scene& scene, int photo) {
   int count = 0;
   for (size_t i = 0; i < shared.size(); ++i) {
     if (shared[i] < kLeastPoints) continue;
-    const ScenePhoto& other = scene.photos[i];
-    count += AttitudeSquare(other) <= kUnlikelySquare && PositionSquare(other) <= kUnlikelySquare;
+    count += AgreesWithItsRecord(scene.photos[i]);
   }
   return count;
 }
@@ -187,7 +211,9 @@ RecordVerdict JudgePose(const Scene& scene, int photo) {
     return attitude + position > kUnlikelySixSquare ? RecordVerdict::kContradicts
                                                     : RecordVerdict::kAgrees;
   }
-  if (MayBeBaysOff(scene.photos[photo])) return RecordVerdict::kContradicts;
+  if (MayBeBaysOff(scene.photos[photo]) || HoverIsElsewhere(scene, scene.photos[photo])) {
+    return RecordVerdict::kContradicts;
+  }
   const bool holds =
       NumTrustedPartners(scene, photo) >= kEnoughPartners || SeesSeveralPlanes(scene, photo);
   return holds && attitude <= kDoubtfulSquare ? RecordVerdict::kPositionOff

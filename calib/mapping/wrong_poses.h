@@ -23,7 +23,8 @@ enum class RecordVerdict {
 // at a level of 1e-2, is not believed against a pose that four photos share points with which agree
 // with their own records, nor against one whose points lie on several planes, since what repeats
 // along one wall does not fit the others; but a photo that may be whole bays off is judged by its
-// position, within 15 m, as its neighbours match it, windows, balconies and all, a bay off too.
+// position, within 15 m, as its neighbours match it, windows, balconies and all, a bay off too; and
+// so is one whose hover stands where it was recorded, by another photo that agrees with its record.
 // Requires a pose in the frame of the priors.
 RecordVerdict JudgePose(const Scene& scene, int photo);
 

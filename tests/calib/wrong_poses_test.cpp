@@ -166,6 +166,29 @@ TEST_F(WrongPosesTest, APositionIsBelievedWhereThePoseMayBeBaysOff) {
   EXPECT_EQ(JudgePose(scene_, 5), RecordVerdict::kPositionOff);
 }
 
+// It was taken where the other photo of its hover was, which both records tell.
+TEST_F(WrongPosesTest, APositionIsBelievedWhereItsHoverStandsThere) {
+  ScenePhoto& photo = scene_.photos[5];
+  ScenePhoto& mate = scene_.photos[6];
+  const Eigen::Vector3d hover = photo.prior->position;
+  mate.pose = Pose{mate.pose->rotation, -(mate.pose->rotation * hover)};
+  mate.prior->position = hover;
+  const Eigen::Vector3d away = hover + Eigen::Vector3d(0, 5, 0);
+  photo.pose = Pose{photo.pose->rotation, -(photo.pose->rotation * away)};
+  EXPECT_EQ(JudgePose(scene_, 5), RecordVerdict::kPositionOff);
+  photo.hover = mate.hover = 2;
+  EXPECT_EQ(JudgePose(scene_, 5), RecordVerdict::kPositionOff);  // how far apart is not known
+  scene_.hover_sigma_m = 0.05;
+  EXPECT_EQ(JudgePose(scene_, 5), RecordVerdict::kContradicts);
+  // Both stand where the other was recorded: it is this photo's record that is wrong.
+  mate.pose = Pose{mate.pose->rotation, -(mate.pose->rotation * away)};
+  mate.prior->position = away;
+  EXPECT_EQ(JudgePose(scene_, 5), RecordVerdict::kPositionOff);
+  // A mate whose own record contradicts it is no witness.
+  mate.pose = Pose{mate.pose->rotation, -(mate.pose->rotation * hover)};
+  EXPECT_EQ(JudgePose(scene_, 5), RecordVerdict::kPositionOff);
+}
+
 TEST_F(WrongPosesTest, RecordsThatContradictMostPosesAreWrongThemselves) {
   for (size_t i = 0; i < 18; ++i) {
     scene_.photos[i].attitude->cam_from_world =
