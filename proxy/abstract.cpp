@@ -220,8 +220,14 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   PlanarScene scene = UnderstandCloud(input, options, threads, findings);
   std::optional<MapModel> mapped;
   if (GoesByMap(input, options)) mapped = BuildFromMap(scene, input, options, threads, findings);
-  if (mapped) scene.buildings = OffTheMap(scene, mapped->outlines, findings);
-  const auto named = mapped ? std::ranges::count(mapped->buildings, "cloud", &Building::source) : 0;
+  MapModel closed;  // on footprints
+  if (mapped) {
+    closed = std::move(*mapped);
+  } else if (options.solids && input.georef.metric) {
+    closed = BuildWithoutMap(scene, input, options, threads, findings);
+  }
+  if (!closed.outlines.empty()) scene.buildings = OffTheMap(scene, closed.outlines, findings);
+  const auto named = std::ranges::count(closed.buildings, "cloud", &Building::source);
   PlaneTable table = TableOf(scene, static_cast<size_t>(named));
   const auto view = [&] {
     return ViewPlanes(scene, table.planes, table.planes.size() - scene.ground.size(), threads);
@@ -245,11 +251,9 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
                 [&](size_t b) { RequireSoundAsWritten(scene.up, solids[b]); });
     TakeSolids(std::move(solids), mapped.has_value(), proxy.buildings, findings);
   }
-  if (mapped) {
-    proxy.buildings.insert(proxy.buildings.begin(),
-                           std::make_move_iterator(mapped->buildings.begin()),
-                           std::make_move_iterator(mapped->buildings.end()));
-  }
+  proxy.buildings.insert(proxy.buildings.begin(),
+                         std::make_move_iterator(closed.buildings.begin()),
+                         std::make_move_iterator(closed.buildings.end()));
   if (proxy.metric) LeaveOutSmallThings(proxy.buildings, findings);
   FollowTerrain(scene, proxy.buildings, findings);
   std::erase_if(proxy.buildings, [](const Building& building) { return building.facets.empty(); });

@@ -301,6 +301,17 @@ void JoinWings(const UprightSurvey& survey, const Workshop& with, Houses& houses
   wings = std::move(apart);
 }
 
+// Buildings that no map names.
+void AddOthers(const std::vector<ClosedBuilding>& others, MapModel& model,
+               ProxyFindings& findings) {
+  for (size_t o = 0; o < others.size(); ++o) {
+    MapBuilding& outline = model.outlines.emplace_back(others[o].fitted.building);
+    outline.id = fmt::format("C{:04}", o + 1);
+    findings.notes.push_back(NoteOf(outline.id, others[o]));
+    model.buildings.push_back(AsBuilding(outline.id, "cloud", others[o]));
+  }
+}
+
 // A map that lies elsewhere is worth a word to those who fly by it.
 void NoteShift(const MapRegistration& place, ProxyFindings& findings) {
   constexpr double kMuch_m = 0.5;
@@ -363,14 +374,23 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
     Report(houses.mapped[b].id, houses.closed[b], houses.mapped[b].to_capture, findings);
   }
   MapModel model{.buildings = BuildingsOf(houses), .outlines = std::move(houses.mapped)};
-  for (const ClosedBuilding& other : others) {
-    MapBuilding& outline = model.outlines.emplace_back(other.fitted.building);
-    outline.id = fmt::format("C{:04}", model.outlines.size() - houses.closed.size());
-    findings.notes.push_back(NoteOf(outline.id, other));
+  const size_t mapped = model.outlines.size();
+  AddOthers(others, model, findings);
+  for (size_t o = mapped; o < model.outlines.size(); ++o) {
+    const MapBuilding& outline = model.outlines[o];
     findings.of_map.push_back({fmt::format("{}: stands on no footprint of the map, {:.0f} m2",
                                            outline.id, Area(outline))});
-    model.buildings.push_back(AsBuilding(outline.id, "cloud", other));
   }
+  return model;
+}
+
+MapModel BuildWithoutMap(const PlanarScene& scene, const ProxyInput& input,
+                         const ProxyOptions& options, int threads, ProxyFindings& findings) {
+  assert(input.georef.metric);
+  ProxyFindings of_no_map;  // a house that cannot be built on its footprint is built without
+  MapModel model;
+  AddOthers(CloseNew(UprightSurveyOf(scene), {}, {scene, input, options, threads}, of_no_map),
+            model, findings);
   return model;
 }
 
