@@ -183,17 +183,29 @@ void TakeSolids(std::vector<Solid> solids, bool mapped, std::vector<Building>& b
   }
 }
 
+// Takes facets off the planes of open buildings that are laid through leaves.
+void TakeLeaves(const PlanarScene& scene, const PlaneTable& table, double normal_angle_deg,
+                std::vector<std::vector<Facet>>& facets) {
+  for (size_t p = 0; p < facets.size(); ++p) {
+    if (table.building[p] < 0 || facets[p].empty()) continue;
+    if (LooksLikeLeaves(scene.samples, table.planes[p], normal_angle_deg)) facets[p].clear();
+  }
+}
+
 // What does not close and shows no face as large as a house's smallest is a tree, a car or a hedge:
 // a crown is fitted by planes of a few square metres, a house that is seen from one side has a wall
 // or a roof.
 void LeaveOutSmallThings(std::vector<Building>& buildings, ProxyFindings& findings) {
   constexpr double kLeastFace_m2 = 10;
   for (Building& building : buildings) {
-    if (building.watertight || building.id == "G0" || building.facets.empty()) continue;
-    const auto largest = std::ranges::max_element(building.facets, {}, &Facet::area);
-    if (largest->area >= kLeastFace_m2) continue;
-    findings.notes.push_back(fmt::format(
-        "{}: left out: no building, its largest face has {:.1f} m2", building.id, largest->area));
+    if (building.watertight || building.id == "G0") continue;
+    double largest = 0;
+    for (const Facet& facet : building.facets) largest = std::max(largest, facet.area);
+    if (largest >= kLeastFace_m2) continue;
+    findings.notes.push_back(
+        fmt::format("{}: left out: no building, its largest face that is none of leaves has "
+                    "{:.1f} m2",
+                    building.id, largest));
     building.facets.clear();
   }
 }
@@ -244,6 +256,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   Proxy proxy;
   proxy.up = scene.up;
   proxy.metric = input.georef.metric;
+  if (proxy.metric) TakeLeaves(scene, table, options.normal_angle_deg, facets);
   proxy.buildings = OpenBuildings(table, scene.buildings.size(), std::move(facets));
   if (options.solids) {
     auto solids = CloseBuildings(scene, table, views, options, threads);
@@ -251,10 +264,9 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
                 [&](size_t b) { RequireSoundAsWritten(scene.up, solids[b]); });
     TakeSolids(std::move(solids), mapped.has_value(), proxy.buildings, findings);
   }
-  proxy.buildings.insert(proxy.buildings.begin(),
-                         std::make_move_iterator(closed.buildings.begin()),
-                         std::make_move_iterator(closed.buildings.end()));
   if (proxy.metric) LeaveOutSmallThings(proxy.buildings, findings);
+  proxy.buildings.insert(proxy.buildings.begin(), std::make_move_iterator(closed.buildings.begin()),
+                         std::make_move_iterator(closed.buildings.end()));
   FollowTerrain(scene, proxy.buildings, findings);
   std::erase_if(proxy.buildings, [](const Building& building) { return building.facets.empty(); });
   if (proxy.buildings.empty()) {

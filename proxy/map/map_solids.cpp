@@ -20,6 +20,7 @@
 #include "proxy/map/off_the_map.h"
 #include "proxy/map/outline_fit.h"
 #include "proxy/map/wings.h"
+#include "proxy/planes/consolidate.h"
 #include "survey/median.h"
 #include "survey/parallel.h"
 
@@ -169,7 +170,8 @@ void NoteUnsure(const FittedBuilding& unsure, const Workshop& with, ProxyFinding
 std::vector<ClosedBuilding> CloseNew(const UprightSurvey& survey,
                                      std::span<const Building> of_the_map, const Workshop& with,
                                      ProxyFindings& findings) {
-  const auto footprints = FindNewFootprints(with.scene, survey, of_the_map);
+  const auto footprints =
+      FindNewFootprints(with.scene, survey, of_the_map, with.options.normal_angle_deg);
   std::vector<MapBuilding> as_mapped;
   as_mapped.reserve(footprints.size());
   for (const FittedBuilding& footprint : footprints) as_mapped.push_back(footprint.building);
@@ -301,15 +303,40 @@ void JoinWings(const UprightSurvey& survey, const Workshop& with, Houses& houses
   wings = std::move(apart);
 }
 
-// Buildings that no map names.
+// Buildings that no map names. What nobody saw of their walls is on no footprint of a map either.
 void AddOthers(const std::vector<ClosedBuilding>& others, MapModel& model,
                ProxyFindings& findings) {
   for (size_t o = 0; o < others.size(); ++o) {
     MapBuilding& outline = model.outlines.emplace_back(others[o].fitted.building);
     outline.id = fmt::format("C{:04}", o + 1);
     findings.notes.push_back(NoteOf(outline.id, others[o]));
-    model.buildings.push_back(AsBuilding(outline.id, "cloud", others[o]));
+    Building& building = model.buildings.emplace_back(AsBuilding(outline.id, "cloud", others[o]));
+    for (Facet& facet : building.facets) {
+      if (facet.source == "footprint") facet.source = "extruded";
+    }
   }
+}
+
+// Whether a wall that leans stands on a building's outline: then it is no footprint extruded.
+bool HasLeaningWall(const FittedBuilding& fitted, const UprightSurvey& survey,
+                    const Workshop& with) {
+  constexpr double kLeast_m2 = 10;
+  constexpr double kReach_m = 1;
+  constexpr double kLeans = 0.01;  // sine: regularised walls stand upright, or lean
+  const Eigen::Matrix3d upright_from_world = UprightFromWorld(with.scene.up);
+  const auto leans = [&](const Plane& plane) {
+    const Eigen::Vector3d normal = upright_from_world * plane.normal;
+    if (!LooksLikeWall(normal) || std::abs(normal.z()) < kLeans) return false;
+    if (plane.area < kLeast_m2) return false;
+    if (LooksLikeLeaves(with.scene.samples, plane, with.options.normal_angle_deg)) return false;
+    const auto near = std::ranges::count_if(plane.points, [&](int i) {
+      return ToOutline(fitted.building, survey.samples.positions[i].head<2>()) < kReach_m;
+    });
+    return 2 * static_cast<size_t>(near) > plane.points.size();
+  };
+  return std::ranges::any_of(with.scene.buildings, [&](const std::vector<Plane>& cluster) {
+    return std::ranges::any_of(cluster, leans);
+  });
 }
 
 // A map that lies elsewhere is worth a word to those who fly by it.
@@ -387,10 +414,18 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
 MapModel BuildWithoutMap(const PlanarScene& scene, const ProxyInput& input,
                          const ProxyOptions& options, int threads, ProxyFindings& findings) {
   assert(input.georef.metric);
-  ProxyFindings of_no_map;  // a house that cannot be built on its footprint is built without
+  constexpr double kHeld = 0.5;  // of the walls, by length: of a front alone no outline is known
+  const UprightSurvey survey = UprightSurveyOf(scene);
+  const Workshop with{scene, input, options, threads};
+  ProxyFindings of_a_map;  // what cannot be built like this is built of its planes: no finding
+  auto closed = CloseNew(survey, {}, with, of_a_map);
+  const bool shows_walls = !survey.samples.camera_centers.empty();
+  std::erase_if(closed, [&](const ClosedBuilding& building) {
+    return (shows_walls && building.fitted.held < kHeld) ||
+           HasLeaningWall(building.fitted, survey, with);
+  });
   MapModel model;
-  AddOthers(CloseNew(UprightSurveyOf(scene), {}, {scene, input, options, threads}, of_no_map),
-            model, findings);
+  AddOthers(closed, model, findings);
   return model;
 }
 

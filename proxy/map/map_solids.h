@@ -32,8 +32,9 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
                                      const ProxyOptions& options, int threads,
                                      ProxyFindings& findings);
 
-// The same of a survey without a map, on footprints found in the cloud alone: the houses whose roofs
-// and walls are seen well enough. Requires a georef in metres.
+// The same of a survey without a map, on footprints found in the cloud alone: the houses that walls
+// are seen around, by half of their length, and of which no large wall leans. Requires a georef in
+// metres.
 MapModel BuildWithoutMap(const PlanarScene& scene, const ProxyInput& input,
                          const ProxyOptions& options, int threads, ProxyFindings& findings);
 

@@ -15,6 +15,7 @@
 #include "proxy/map/floors.h"
 #include "proxy/map/move_edges.h"
 #include "proxy/map/registration.h"
+#include "proxy/planes/consolidate.h"
 
 namespace stucco {
 namespace {
@@ -68,15 +69,24 @@ WallLine LineOf(const Segment2d& edge) {
 
 // What of one cluster of planes lies beside all floors.
 struct Beside {
-  std::vector<Eigen::Vector2d> roof;  // samples, without eaves and balconies
+  std::vector<int> roof;  // samples, without eaves and balconies
   std::vector<WallLine> walls;
+};
+
+// Samples that a plane of a roof has beside all floors.
+struct RoofBeside {
+  Eigen::Vector3d normal;
+  std::vector<int> samples;
 };
 
 class NewFootprints {
  public:
   NewFootprints(const PlanarScene& scene, const UprightSurvey& survey,
-                std::span<const Building> closed)
-      : scene_(scene), survey_(survey), floors_(FloorsOf(closed, UprightFromWorld(scene.up))) {
+                std::span<const Building> closed, double normal_angle_deg)
+      : scene_(scene),
+        survey_(survey),
+        floors_(FloorsOf(closed, UprightFromWorld(scene.up))),
+        normal_angle_deg_(normal_angle_deg) {
     for (const Polygon& floor : floors_) boxes_.push_back(stucco::BoundsOf(floor));
   }
 
@@ -85,6 +95,7 @@ class NewFootprints {
     if (beside.roof.empty()) return;
     PlaneRaster raster = RasterOver(beside.roof);
     const cv::Mat roofed = Roofed(beside, raster);
+    CountGround(raster);
     cv::Mat patches, figures, middles;
     const int count = cv::connectedComponentsWithStats(roofed, patches, figures, middles, 4);
     for (int patch = 1; patch < count; ++patch) {
@@ -105,63 +116,68 @@ class NewFootprints {
     constexpr size_t kFewest = 12;
     Beside beside;
     const Eigen::Matrix3d upright_from_world = UprightFromWorld(scene_.up);
-    std::vector<std::pair<Eigen::Vector3d, std::vector<Eigen::Vector3d>>> roofs;
+    std::vector<RoofBeside> roofs;
     for (const Plane& plane : cluster) {
       const Eigen::Vector3d normal = upright_from_world * plane.normal;
-      std::vector<Eigen::Vector3d> outside;
+      std::vector<int> outside;
       double low = INFINITY, high = -INFINITY;
       for (const int i : plane.points) {
         const Eigen::Vector3d& p = survey_.samples.positions[i];
         if (IsInside(floors_, boxes_, p.head<2>())) continue;
-        outside.push_back(p);
+        outside.push_back(i);
         low = std::min(low, p.z());
         high = std::max(high, p.z());
       }
       if (normal.z() > kRoof) {
-        roofs.emplace_back(normal, std::move(outside));
+        if (LooksLikeLeaves(scene_.samples, plane, normal_angle_deg_)) continue;
+        roofs.push_back({normal, std::move(outside)});
       } else if (LooksLikeWall(normal) && outside.size() >= kFewest && high - low > kRaised_m) {
         // The inner faces of parapets are lower, and look at the roof.
         beside.walls.push_back(WallOf(plane, normal, outside));
       }
     }
-    for (const auto& [normal, samples] : roofs) AddRoof(normal, samples, beside);
+    for (const RoofBeside& roof : roofs) AddRoof(roof, beside);
     return beside;
   }
 
   // The roof of a wing that leans on a wall goes on far before it; balconies end there.
-  static void AddRoof(const Eigen::Vector3d& normal, const std::vector<Eigen::Vector3d>& samples,
-                      Beside& beside) {
+  void AddRoof(const RoofBeside& from, Beside& beside) const {
     constexpr double kMostLeaning = 0.5;
-    std::vector<Eigen::Vector2d> roof;
+    constexpr double kSameWay = 0.87;  // cosine of 30 degrees: leaves that touch a roof look away
+    std::vector<int> roof;
     size_t leaning = 0;
-    for (const Eigen::Vector3d& p : samples) {
+    for (const int i : from.samples) {
+      const Eigen::Vector3d& p = survey_.samples.positions[i];
       bool leans = false, is_eaves = false;
       for (const WallLine& wall : beside.walls) {
-        const WallLine::Before place = wall.PlaceOf(p, normal);
+        const WallLine::Before place = wall.PlaceOf(p, from.normal);
         leans = leans || place == WallLine::Before::kLeaning;
         is_eaves = is_eaves || place == WallLine::Before::kAsEaves;
       }
       if (leans) ++leaning;
-      if (!is_eaves) roof.emplace_back(p.head<2>());
+      if (!is_eaves && survey_.samples.normals[i].dot(from.normal) > kSameWay) roof.push_back(i);
     }
-    if (static_cast<double>(leaning) > kMostLeaning * static_cast<double>(samples.size())) return;
+    if (leaning > kMostLeaning * static_cast<double>(from.samples.size())) return;
     beside.roof.insert(beside.roof.end(), roof.begin(), roof.end());
   }
 
-  static WallLine WallOf(const Plane& plane, const Eigen::Vector3d& normal,
-                         const std::vector<Eigen::Vector3d>& samples) {
+  WallLine WallOf(const Plane& plane, const Eigen::Vector3d& normal,
+                  const std::vector<int>& samples) const {
     WallLine wall;
     wall.outwards = normal.head<2>().normalized();
     wall.offset = plane.offset / normal.head<2>().norm();
     std::vector<double> along;
     along.reserve(samples.size());
-    for (const auto& p : samples) along.push_back(wall.Along().dot(p.head<2>()));
+    for (const int i : samples) {
+      along.push_back(wall.Along().dot(survey_.samples.positions[i].head<2>()));
+    }
     std::ranges::sort(along);
     const size_t stray = along.size() / 50;
     wall.from = along[stray];
     wall.to = along[along.size() - 1 - stray];
     wall.tops.assign(static_cast<size_t>((wall.to - wall.from) / WallLine::kBin_m) + 1, -INFINITY);
-    for (const auto& p : samples) {
+    for (const int i : samples) {
+      const Eigen::Vector3d& p = survey_.samples.positions[i];
       const double at = wall.Along().dot(p.head<2>());
       if (at < wall.from || at > wall.to) continue;
       double& top = wall.tops[static_cast<size_t>((at - wall.from) / WallLine::kBin_m)];
@@ -170,10 +186,10 @@ class NewFootprints {
     return wall;
   }
 
-  PlaneRaster RasterOver(const std::vector<Eigen::Vector2d>& points) const {
+  PlaneRaster RasterOver(const std::vector<int>& samples) const {
     PlaneRaster raster;
     Eigen::AlignedBox2d box;
-    for (const auto& p : points) box.extend(p);
+    for (const int i : samples) box.extend(survey_.samples.positions[i].head<2>());
     raster.cell = std::max(2 * survey_.tolerances.spacing, survey_.tolerances.level_of_detail / 2);
     raster.origin = box.min().array() - 2 * kOverhang_m;
     const Eigen::Vector2d size = box.sizes().array() + 4 * kOverhang_m;
@@ -184,13 +200,38 @@ class NewFootprints {
     return raster;
   }
 
-  // Cells under a roof, without eaves, and without strips that are as narrow.
-  static cv::Mat Roofed(const Beside& beside, const PlaneRaster& raster) {
-    cv::Mat roofed = cv::Mat::zeros(raster.height, raster.width, CV_8U);
-    for (const Eigen::Vector2d& p : beside.roof) {
-      const int at = raster.IndexAt(p);
-      if (at >= 0) roofed.at<uint8_t>(at / raster.width, at % raster.width) = 255;
+  // Cells in which more samples lie on roofs than elsewhere: crowns that touch a roof have some
+  // leaves on its plane, and below eaves one sees the ground. Walls do not count.
+  cv::Mat MostlyRoof(const Beside& beside, const PlaneRaster& raster) const {
+    constexpr double kSideways = 0.5;  // cosine of 60 degrees
+    cv::Mat votes = cv::Mat::zeros(raster.height, raster.width, CV_32S);
+    const auto vote = [&](int sample, int weight) {
+      const int at = raster.IndexAt(survey_.samples.positions[sample].head<2>());
+      if (at >= 0) votes.at<int>(at / raster.width, at % raster.width) += weight;
+    };
+    const Eigen::AlignedBox2d box(raster.origin, raster.Center(raster.width, raster.height));
+    for (const int i : survey_.bins.In(box)) {
+      if (survey_.samples.normals[i].z() > kSideways) vote(i, -1);
     }
+    for (const int i : beside.roof) vote(i, 2);
+    return votes > 0;
+  }
+
+  // Where one sees the ground nothing stands.
+  void CountGround(PlaneRaster& raster) const {
+    const Eigen::AlignedBox2d box(raster.origin, raster.Center(raster.width, raster.height));
+    for (const Plane& ground : scene_.ground) {
+      for (const int i : ground.points) {
+        const Eigen::Vector2d p = survey_.samples.positions[i].head<2>();
+        const int at = box.contains(p) ? raster.IndexAt(p) : -1;
+        if (at >= 0 && raster.through[at] < 255) ++raster.through[at];
+      }
+    }
+  }
+
+  // Cells under a roof, without eaves, and without strips that are as narrow.
+  cv::Mat Roofed(const Beside& beside, const PlaneRaster& raster) const {
+    cv::Mat roofed = MostlyRoof(beside, raster);
     const auto disc = [&](double radius_m) {
       const int size = 2 * static_cast<int>(std::ceil(radius_m / raster.cell)) + 1;
       return cv::getStructuringElement(cv::MORPH_ELLIPSE, {size, size});
@@ -219,11 +260,11 @@ class NewFootprints {
         }
       }
     }
-    const auto evidence = Classify(raster, tolerances.level_of_detail, 0);
+    const auto evidence = Classify(raster, kOverhang_m, 0);
     std::vector<char> seen(evidence.size());
     for (size_t i = 0; i < seen.size(); ++i) seen[i] = evidence[i] == Evidence::kSeen ? 1 : 0;
     const auto outlines = Outline(raster, evidence, DistancesTo(raster, seen), creases,
-                                  {.detail = tolerances.level_of_detail,
+                                  {.detail = 2 * tolerances.level_of_detail,
                                    .min_area = kSmallest_m2,
                                    .epsilon = tolerances.epsilon,
                                    .reach = kOverhang_m / 2,
@@ -281,6 +322,7 @@ class NewFootprints {
   const UprightSurvey& survey_;
   std::vector<Polygon> floors_;
   std::vector<Eigen::AlignedBox2d> boxes_;  // of the floors
+  double normal_angle_deg_;
 };
 
 }  // namespace
@@ -326,8 +368,9 @@ std::vector<std::vector<Plane>> OffTheMap(const PlanarScene& scene,
 }
 
 std::vector<FittedBuilding> FindNewFootprints(const PlanarScene& scene, const UprightSurvey& survey,
-                                              std::span<const Building> closed) {
-  const NewFootprints finder(scene, survey, closed);
+                                              std::span<const Building> closed,
+                                              double normal_angle_deg) {
+  const NewFootprints finder(scene, survey, closed, normal_angle_deg);
   std::vector<FittedBuilding> found;
   for (const std::vector<Plane>& cluster : scene.buildings) finder.Find(cluster, found);
   return found;

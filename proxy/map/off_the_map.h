@@ -23,9 +23,10 @@ std::vector<std::vector<Plane>> OffTheMap(const PlanarScene& scene,
 
 // Footprints of what stands beside the floors of `closed` buildings: wings that a map lacks, and
 // houses that are newer than it. Roofs above the ground, at least 10 m2 of them and nowhere a strip
-// as eaves are, within the walls below them (outline.h). Their walls have no facades; samples are
-// those of `survey`, which is the scene's, upright.
+// as eaves are, within the walls below them (outline.h); crowns of trees are no roofs. Their walls
+// have no facades; samples are those of `survey`, which is the scene's, upright.
 std::vector<FittedBuilding> FindNewFootprints(const PlanarScene& scene, const UprightSurvey& survey,
-                                              std::span<const Building> closed);
+                                              std::span<const Building> closed,
+                                              double normal_angle_deg);
 
 }  // namespace stucco

@@ -187,6 +187,11 @@ double NormalScatterDeg(const Samples& samples, const Plane& plane) {
   return plane.points.empty() ? 0 : sum / double(plane.points.size()) * 180 / std::numbers::pi;
 }
 
+bool LooksLikeLeaves(const Samples& samples, const Plane& plane, double normal_angle_deg) {
+  constexpr double kLeastScatter = 0.36;  // of normal_angle_deg
+  return NormalScatterDeg(samples, plane) > kLeastScatter * normal_angle_deg;
+}
+
 void DropClutter(const Samples& samples, const Tolerances& tolerances, double normal_angle_deg,
                  std::vector<Plane>& planes) {
   // Points spread evenly over [-epsilon, epsilon] have an rms of 0.577 epsilon.

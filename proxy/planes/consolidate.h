@@ -42,4 +42,9 @@ void DropClutter(const Samples& samples, const Tolerances& tolerances, double no
 // Mean angle between the plane's normal and those of its points.
 double NormalScatterDeg(const Samples& samples, const Plane& plane);
 
+// Whether a plane is more likely laid through a crown than through a roof or wall: leaves look
+// every way. Over the walls and roofs of three made surveys the normals scatter by 3 to 13 degrees,
+// over crowns by 10 to 26; below 10 m2 both are found in between.
+bool LooksLikeLeaves(const Samples& samples, const Plane& plane, double normal_angle_deg);
+
 }  // namespace stucco
