@@ -317,26 +317,29 @@ void AddOthers(const std::vector<ClosedBuilding>& others, MapModel& model,
   }
 }
 
-// Whether a wall that leans stands on a building's outline: then it is no footprint extruded.
-bool HasLeaningWall(const FittedBuilding& fitted, const UprightSurvey& survey,
-                    const Workshop& with) {
-  constexpr double kLeast_m2 = 10;
+// Whether much of what stands on a building's outline leans: then it is no footprint extruded.
+bool Leans(const ClosedBuilding& closed, const UprightSurvey& survey, const Workshop& with) {
+  constexpr double kMost = 0.1;  // of the walls
   constexpr double kReach_m = 1;
-  constexpr double kLeans = 0.01;  // sine: regularised walls stand upright, or lean
+  constexpr double kUpright = 0.01;  // sine: regularised walls stand upright, or lean
   const Eigen::Matrix3d upright_from_world = UprightFromWorld(with.scene.up);
   const auto leans = [&](const Plane& plane) {
     const Eigen::Vector3d normal = upright_from_world * plane.normal;
-    if (!LooksLikeWall(normal) || std::abs(normal.z()) < kLeans) return false;
-    if (plane.area < kLeast_m2) return false;
+    if (!LooksLikeWall(normal) || std::abs(normal.z()) < kUpright) return false;
     if (LooksLikeLeaves(with.scene.samples, plane, with.options.normal_angle_deg)) return false;
     const auto near = std::ranges::count_if(plane.points, [&](int i) {
-      return ToOutline(fitted.building, survey.samples.positions[i].head<2>()) < kReach_m;
+      return ToOutline(closed.fitted.building, survey.samples.positions[i].head<2>()) < kReach_m;
     });
     return 2 * static_cast<size_t>(near) > plane.points.size();
   };
-  return std::ranges::any_of(with.scene.buildings, [&](const std::vector<Plane>& cluster) {
-    return std::ranges::any_of(cluster, leans);
-  });
+  double leaning = 0, walls = 0;
+  for (const std::vector<Plane>& cluster : with.scene.buildings) {
+    for (const Plane& plane : cluster) leaning += leans(plane) ? plane.area : 0;
+  }
+  for (const Facet& facet : closed.facets) {
+    if (facet.facet_class == FacetClass::kWall) walls += facet.area;
+  }
+  return leaning > kMost * walls;
 }
 
 // A map that lies elsewhere is worth a word to those who fly by it.
@@ -421,8 +424,14 @@ MapModel BuildWithoutMap(const PlanarScene& scene, const ProxyInput& input,
   auto closed = CloseNew(survey, {}, with, of_a_map);
   const bool shows_walls = !survey.samples.camera_centers.empty();
   std::erase_if(closed, [&](const ClosedBuilding& building) {
-    return (shows_walls && building.fitted.held < kHeld) ||
-           HasLeaningWall(building.fitted, survey, with);
+    const bool open = shows_walls && building.fitted.held < kHeld;
+    if (!open && !Leans(building, survey, with)) return false;
+    findings.notes.push_back(fmt::format(
+        "a house of {:.0f} m2 is built of its planes, not on its footprint: {}",
+        Area(building.fitted.building),
+        open ? fmt::format("walls were found along {:.0f} % of that", 100 * building.fitted.held)
+             : "its walls lean"));
+    return true;
   });
   MapModel model;
   AddOthers(closed, model, findings);

@@ -33,7 +33,7 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
                                      ProxyFindings& findings);
 
 // The same of a survey without a map, on footprints found in the cloud alone: the houses that walls
-// are seen around, by half of their length, and of which no large wall leans. Requires a georef in
+// are seen around, by half of their length, and of which the walls do not lean. Requires a georef in
 // metres.
 MapModel BuildWithoutMap(const PlanarScene& scene, const ProxyInput& input,
                          const ProxyOptions& options, int threads, ProxyFindings& findings);

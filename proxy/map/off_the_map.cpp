@@ -22,6 +22,8 @@ namespace {
 
 constexpr double kSmallest_m2 = 10;
 constexpr double kOverhang_m = 1.2;
+// Roofs go on over this much of which one sees neither them nor anything below.
+constexpr double kUnseen_m = 3;
 
 bool IsInside(std::span<const Polygon> floors, std::span<const Eigen::AlignedBox2d> boxes,
               const Eigen::Vector2d& p) {
@@ -94,18 +96,25 @@ class NewFootprints {
     const Beside beside = BesideFloors(cluster);
     if (beside.roof.empty()) return;
     PlaneRaster raster = RasterOver(beside.roof);
-    const cv::Mat roofed = Roofed(beside, raster);
-    CountGround(raster);
-    cv::Mat patches, figures, middles;
-    const int count = cv::connectedComponentsWithStats(roofed, patches, figures, middles, 4);
+    const cv::Mat votes = VotesForRoof(beside, raster);
+    const cv::Mat roofed = Roofed(votes, raster);
+    cv::Mat joined, patches;
+    cv::morphologyEx(roofed, joined, cv::MORPH_CLOSE, Disc(kUnseen_m / 2, raster));
+    joined.setTo(0, votes < 0);
+    cv::bitwise_or(joined, roofed, joined);
+    const int count = cv::connectedComponents(joined, patches, 4);
     for (int patch = 1; patch < count; ++patch) {
-      const int cells = figures.at<int>(patch, cv::CC_STAT_AREA);
-      if (cells * raster.cell * raster.cell < kSmallest_m2) continue;
+      int cells = 0;
       for (int y = 0; y < raster.height; ++y) {
         for (int x = 0; x < raster.width; ++x) {
-          raster.hits[raster.Index(x, y)] = patches.at<int>(y, x) == patch ? 1 : 0;
+          const bool is_hit = roofed.at<uint8_t>(y, x) && patches.at<int>(y, x) == patch;
+          cells += is_hit;
+          raster.hits[raster.Index(x, y)] = is_hit ? 1 : 0;
+          raster.through[raster.Index(x, y)] =
+              static_cast<uint8_t>(std::clamp(-votes.at<int>(y, x), 0, 255));
         }
       }
+      if (cells * raster.cell * raster.cell < kSmallest_m2) continue;
       AddOutlines(raster, beside.walls, found);
     }
   }
@@ -200,9 +209,9 @@ class NewFootprints {
     return raster;
   }
 
-  // Cells in which more samples lie on roofs than elsewhere: crowns that touch a roof have some
+  // By cells, how many more samples lie on roofs than elsewhere: crowns that touch a roof have some
   // leaves on its plane, and below eaves one sees the ground. Walls do not count.
-  cv::Mat MostlyRoof(const Beside& beside, const PlaneRaster& raster) const {
+  cv::Mat VotesForRoof(const Beside& beside, const PlaneRaster& raster) const {
     constexpr double kSideways = 0.5;  // cosine of 60 degrees
     cv::Mat votes = cv::Mat::zeros(raster.height, raster.width, CV_32S);
     const auto vote = [&](int sample, int weight) {
@@ -214,32 +223,21 @@ class NewFootprints {
       if (survey_.samples.normals[i].z() > kSideways) vote(i, -1);
     }
     for (const int i : beside.roof) vote(i, 2);
-    return votes > 0;
+    return votes;
   }
 
-  // Where one sees the ground nothing stands.
-  void CountGround(PlaneRaster& raster) const {
-    const Eigen::AlignedBox2d box(raster.origin, raster.Center(raster.width, raster.height));
-    for (const Plane& ground : scene_.ground) {
-      for (const int i : ground.points) {
-        const Eigen::Vector2d p = survey_.samples.positions[i].head<2>();
-        const int at = box.contains(p) ? raster.IndexAt(p) : -1;
-        if (at >= 0 && raster.through[at] < 255) ++raster.through[at];
-      }
-    }
+  static cv::Mat Disc(double radius_m, const PlaneRaster& raster) {
+    const int size = 2 * static_cast<int>(std::ceil(radius_m / raster.cell)) + 1;
+    return cv::getStructuringElement(cv::MORPH_ELLIPSE, {size, size});
   }
 
   // Cells under a roof, without eaves, and without strips that are as narrow.
-  cv::Mat Roofed(const Beside& beside, const PlaneRaster& raster) const {
-    cv::Mat roofed = MostlyRoof(beside, raster);
-    const auto disc = [&](double radius_m) {
-      const int size = 2 * static_cast<int>(std::ceil(radius_m / raster.cell)) + 1;
-      return cv::getStructuringElement(cv::MORPH_ELLIPSE, {size, size});
-    };
-    cv::morphologyEx(roofed, roofed, cv::MORPH_CLOSE, disc(kOverhang_m / 2));
+  static cv::Mat Roofed(const cv::Mat& votes, const PlaneRaster& raster) {
+    cv::Mat roofed = votes > 0;
+    cv::morphologyEx(roofed, roofed, cv::MORPH_CLOSE, Disc(kOverhang_m / 2, raster));
     cv::Mat wide;
-    cv::morphologyEx(roofed, wide, cv::MORPH_OPEN, disc(kOverhang_m));
-    cv::dilate(wide, wide, disc(kOverhang_m / 2));  // the corners that this took off
+    cv::morphologyEx(roofed, wide, cv::MORPH_OPEN, Disc(kOverhang_m, raster));
+    cv::dilate(wide, wide, Disc(kOverhang_m / 2, raster));  // the corners that this took off
     cv::Mat kept;
     cv::bitwise_and(roofed, wide, kept);
     return kept;
@@ -260,7 +258,7 @@ class NewFootprints {
         }
       }
     }
-    const auto evidence = Classify(raster, kOverhang_m, 0);
+    const auto evidence = Classify(raster, kUnseen_m, 0);
     std::vector<char> seen(evidence.size());
     for (size_t i = 0; i < seen.size(); ++i) seen[i] = evidence[i] == Evidence::kSeen ? 1 : 0;
     const auto outlines = Outline(raster, evidence, DistancesTo(raster, seen), creases,
@@ -276,11 +274,13 @@ class NewFootprints {
                std::abs(Cross(line.direction, edge.b - line.point)) < kOnIt_m;
       });
     };
-    for (Polygon outline : outlines) {
-      for (Ring& ring : outline.rings) {
+    for (const Polygon& outline : outlines) {
+      Polygon squared = outline;
+      for (Ring& ring : squared.rings) {
         ring = WithCorners(std::move(ring), is_held, 2 * kOverhang_m);
       }
-      if (IsSimple(outline)) found.push_back(FootprintOf(outline, walls));
+      // Where it touches itself it is for the solid to show whether it closes.
+      found.push_back(FootprintOf(IsSimple(squared) ? squared : outline, walls));
     }
   }
 
