@@ -41,6 +41,7 @@ struct WallLine {
   double offset = 0;
   double from = 0, to = 0;   // along the direction to the left of `outwards`
   std::vector<double> tops;  // of the wall, by half metres from `from`
+  bool sure = false;         // large, and none of leaves
 
   Eigen::Vector2d Along() const { return {-outwards.y(), outwards.x()}; }
 
@@ -143,6 +144,8 @@ class NewFootprints {
       } else if (LooksLikeWall(normal) && outside.size() >= kFewest && high - low > kRaised_m) {
         // The inner faces of parapets are lower, and look at the roof.
         beside.walls.push_back(WallOf(plane, normal, outside));
+        beside.walls.back().sure = plane.area > kSmallest_m2 &&
+                                   !LooksLikeLeaves(scene_.samples, plane, normal_angle_deg_);
       }
     }
     for (const RoofBeside& roof : roofs) AddRoof(roof, beside);
@@ -223,7 +226,23 @@ class NewFootprints {
       if (survey_.samples.normals[i].z() > kSideways) vote(i, -1);
     }
     for (const int i : beside.roof) vote(i, 2);
+    for (const WallLine& wall : beside.walls) {
+      if (wall.sure) VoteBehind(wall, raster, votes);
+    }
     return votes;
+  }
+
+  // Right behind a wall is its house, where nothing else is seen.
+  static void VoteBehind(const WallLine& wall, const PlaneRaster& raster, cv::Mat& votes) {
+    for (double at = wall.from; at < wall.to; at += raster.cell / 2) {
+      for (double off = raster.cell / 2; off < kOverhang_m; off += raster.cell / 2) {
+        const int cell =
+            raster.IndexAt(wall.Along() * at + wall.outwards * (wall.offset - off));
+        if (cell < 0) continue;
+        int& count = votes.at<int>(cell / raster.width, cell % raster.width);
+        if (count == 0) count = 1;
+      }
+    }
   }
 
   static cv::Mat Disc(double radius_m, const PlaneRaster& raster) {
@@ -277,7 +296,7 @@ class NewFootprints {
     for (const Polygon& outline : outlines) {
       Polygon squared = outline;
       for (Ring& ring : squared.rings) {
-        ring = WithCorners(std::move(ring), is_held, 2 * kOverhang_m);
+        ring = WithCorners(std::move(ring), is_held, 2 * kUnseen_m);
       }
       // Where it touches itself it is for the solid to show whether it closes.
       found.push_back(FootprintOf(IsSimple(squared) ? squared : outline, walls));
