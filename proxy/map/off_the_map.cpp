@@ -144,8 +144,8 @@ class NewFootprints {
       } else if (LooksLikeWall(normal) && outside.size() >= kFewest && high - low > kRaised_m) {
         // The inner faces of parapets are lower, and look at the roof.
         beside.walls.push_back(WallOf(plane, normal, outside));
-        beside.walls.back().sure = plane.area > kSmallest_m2 &&
-                                   !LooksLikeLeaves(scene_.samples, plane, normal_angle_deg_);
+        beside.walls.back().sure =
+            plane.area > kSmallest_m2 && !LooksLikeLeaves(scene_.samples, plane, normal_angle_deg_);
       }
     }
     for (const RoofBeside& roof : roofs) AddRoof(roof, beside);
@@ -236,8 +236,7 @@ class NewFootprints {
   static void VoteBehind(const WallLine& wall, const PlaneRaster& raster, cv::Mat& votes) {
     for (double at = wall.from; at < wall.to; at += raster.cell / 2) {
       for (double off = raster.cell / 2; off < kOverhang_m; off += raster.cell / 2) {
-        const int cell =
-            raster.IndexAt(wall.Along() * at + wall.outwards * (wall.offset - off));
+        const int cell = raster.IndexAt(wall.Along() * at + wall.outwards * (wall.offset - off));
         if (cell < 0) continue;
         int& count = votes.at<int>(cell / raster.width, cell % raster.width);
         if (count == 0) count = 1;

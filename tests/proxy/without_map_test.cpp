@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Houses closed on footprints that the cloud alone shows.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "proxy/abstract.h"
+#include "proxy/planes/consolidate.h"
+#include "proxy/solids/closed_check.h"
+#include "tests/proxy/map_scene.h"
+#include "tests/proxy/scene.h"
+
+namespace stucco {
+namespace {
+
+using test::AreaOf;
+using test::Court;
+using test::FlatHouse;
+using test::kDenseCapture;
+using test::Rectangle;
+using test::VolumeOf;
+
+test::MadeModel ModelOf(const test::Captured& captured) {
+  test::MadeModel made;
+  made.proxy = AbstractCloud(test::InputOf(captured, test::MapGeoref()), {}, 2, made.findings);
+  EXPECT_EQ(FindProblem(made.proxy), std::nullopt);
+  return made;
+}
+
+const Building& ClosedAlone(const test::MadeModel& made) {
+  static const Building kNone;
+  const Building* building = test::Find(made.proxy, "C0001");
+  EXPECT_EQ(test::Find(made.proxy, "C0002"), nullptr);
+  EXPECT_NE(building, nullptr);
+  if (building == nullptr) return kNone;
+  EXPECT_TRUE(building->watertight);
+  EXPECT_EQ(building->detail, "full");
+  EXPECT_EQ(building->source, "cloud");
+  EXPECT_EQ(FindOpening(building->facets), std::nullopt);
+  return *building;
+}
+
+TEST(WithoutAMap, HousesThatTouchAreOneSolid) {
+  const auto captured = test::Capture(
+      {FlatHouse(Rectangle(-10, -4, -2, 4), 6), FlatHouse(Rectangle(-2, -4, 10, 4), 9)},
+      {test::GroundSquare(25)}, kDenseCapture);
+  const auto made = ModelOf(captured);
+  const Building& houses = ClosedAlone(made);
+  EXPECT_NEAR(VolumeOf(houses), 8 * 8 * 6 + 12 * 8 * 9, 20);
+  EXPECT_NEAR(AreaOf(houses, FacetClass::kRoof), 20 * 8, 4);
+  // The higher one shows 3 m of its wall above the lower one.
+  EXPECT_NEAR(AreaOf(houses, FacetClass::kWall), (8 + 2 * 8) * 6 + (8 + 2 * 12) * 9 + 8 * 3, 12);
+}
+
+TEST(WithoutAMap, AYardStaysOpen) {
+  test::House house = FlatHouse(Rectangle(-12, -12, 12, 12), 5);
+  const test::House yard = FlatHouse(Court(-5, -5, 5, 5), 5);
+  house.polygons.pop_back();
+  for (const auto& wall : yard.polygons) {
+    if (&wall != &yard.polygons.back()) house.polygons.push_back(wall);
+  }
+  for (const auto& [name, ring] : {std::pair{"south", Rectangle(-12, -12, 12, -5)},
+                                   {"north", Rectangle(-12, 5, 12, 12)},
+                                   {"west", Rectangle(-12, -5, -5, 5)},
+                                   {"east", Rectangle(5, -5, 12, 5)}}) {
+    test::TruePolygon& roof = house.polygons.emplace_back();
+    roof.name = name;
+    for (const auto& p : ring) roof.ring.emplace_back(p.x(), p.y(), 5);
+  }
+  const auto captured = test::Capture({house}, {test::GroundSquare(30)}, kDenseCapture);
+  const auto made = ModelOf(captured);
+  EXPECT_NEAR(VolumeOf(ClosedAlone(made)), (24 * 24 - 10 * 10) * 5, 60);
+}
+
+// The same house whole, and with a strip of its roof that no photo shows.
+TEST(WithoutAMap, ARoofGoesOnWhereNothingIsSeen) {
+  for (const bool hidden : {false, true}) {
+    test::House house = FlatHouse(Rectangle(-8, -4, 8, 4), 6);
+    house.polygons.pop_back();
+    for (const auto& [name, from, to] : {std::tuple{"west roof", -8.0, -2.0},
+                                         {"strip", -2.0, 1.0},
+                                         {"east roof", 1.0, 8.0}}) {
+      house.polygons.push_back(
+          {name, {{from, -4, 6}, {to, -4, 6}, {to, 4, 6}, {from, 4, 6}}});
+    }
+    test::CaptureOptions options = kDenseCapture;
+    if (hidden) options.hide = {"strip"};
+    const auto made = ModelOf(test::Capture({house}, {test::GroundSquare(25)}, options));
+    const Building& closed = ClosedAlone(made);
+    EXPECT_NEAR(VolumeOf(closed), 16 * 8 * 6, 12) << hidden;
+    EXPECT_EQ(closed.facets.size(), 6u) << hidden;
+  }
+}
+
+TEST(WithoutAMap, AnAlleyStaysOpen) {
+  const auto captured = test::Capture(
+      {FlatHouse(Rectangle(-11, -4, -1, 4), 5), FlatHouse(Rectangle(1, -4, 11, 4), 5)},
+      {test::GroundSquare(25)}, kDenseCapture);
+  const auto made = ModelOf(captured);
+  double volume = 0;
+  int closed = 0;
+  for (const Building& building : made.proxy.buildings) {
+    if (!building.watertight) continue;
+    ++closed;
+    volume += VolumeOf(building);
+  }
+  EXPECT_EQ(closed, 2);
+  EXPECT_NEAR(volume, 2 * 10 * 8 * 5, 20);
+}
+
+// Crowns that lean over a wall reach above the roof and below it.
+TEST(WithoutAMap, TreesAgainstAHouseAreNoPartOfIt) {
+  auto captured = test::Capture({FlatHouse(Rectangle(-8, -4, 8, 4), 6)}, {test::GroundSquare(25)},
+                                kDenseCapture);
+  test::AddTree({9.5, 1, 5.5}, 2.5, 9000, 4, captured);
+  test::AddTree({-3, -6, 5}, 2.2, 7000, 5, captured);
+  const auto made = ModelOf(captured);
+  const Building& house = ClosedAlone(made);
+  EXPECT_NEAR(VolumeOf(house), 16 * 8 * 6, 25);
+  EXPECT_NEAR(AreaOf(house, FacetClass::kRoof), 16 * 8, 5);
+}
+
+// A scan from above shows roofs and ground, and no walls.
+TEST(WithoutAMap, AScanFromAboveGivesSolids) {
+  auto captured = test::Capture({test::GableHouse(12, 8, 6, 9.5)}, {test::GroundSquare(25)},
+                                {.spacing = 0.3, .noise = 0.02, .hide = {"south", "north", "east",
+                                                                         "west"}});
+  captured.photos.clear();
+  captured.cloud.views.clear();
+  const auto made = ModelOf(captured);
+  const Building& house = ClosedAlone(made);
+  EXPECT_NEAR(VolumeOf(house), 744, 40);
+  for (const Facet& facet : house.facets) {
+    if (facet.facet_class == FacetClass::kWall) {
+      EXPECT_EQ(facet.source, "extruded");
+    }
+  }
+}
+
+TEST(LooksLikeLeaves, WhereNormalsLookEveryWay) {
+  Samples samples;
+  Plane plane;
+  for (int i = 0; i < 100; ++i) {
+    const double turn = i % 2 == 0 ? 0.1 : -0.1;  // 5.7 degrees
+    samples.positions.emplace_back(i % 10, i / 10, 0);
+    samples.normals.emplace_back(std::sin(turn), 0, std::cos(turn));
+    plane.points.push_back(i);
+  }
+  EXPECT_FALSE(LooksLikeLeaves(samples, plane, 35));
+  for (int i = 0; i < 100; ++i) {
+    const double turn = i % 2 == 0 ? 0.3 : -0.3;  // 17 degrees
+    samples.normals[i] = {std::sin(turn), 0, std::cos(turn)};
+  }
+  EXPECT_TRUE(LooksLikeLeaves(samples, plane, 35));
+}
+
+}  // namespace
+}  // namespace stucco
