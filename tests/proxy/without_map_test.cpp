@@ -80,11 +80,9 @@ TEST(WithoutAMap, ARoofGoesOnWhereNothingIsSeen) {
   for (const bool hidden : {false, true}) {
     test::House house = FlatHouse(Rectangle(-8, -4, 8, 4), 6);
     house.polygons.pop_back();
-    for (const auto& [name, from, to] : {std::tuple{"west roof", -8.0, -2.0},
-                                         {"strip", -2.0, 1.0},
-                                         {"east roof", 1.0, 8.0}}) {
-      house.polygons.push_back(
-          {name, {{from, -4, 6}, {to, -4, 6}, {to, 4, 6}, {from, 4, 6}}});
+    for (const auto& [name, from, to] :
+         {std::tuple{"west roof", -8.0, -2.0}, {"strip", -2.0, 1.0}, {"east roof", 1.0, 8.0}}) {
+      house.polygons.push_back({name, {{from, -4, 6}, {to, -4, 6}, {to, 4, 6}, {from, 4, 6}}});
     }
     test::CaptureOptions options = kDenseCapture;
     if (hidden) options.hide = {"strip"};
@@ -125,9 +123,9 @@ TEST(WithoutAMap, TreesAgainstAHouseAreNoPartOfIt) {
 
 // A scan from above shows roofs and ground, and no walls.
 TEST(WithoutAMap, AScanFromAboveGivesSolids) {
-  auto captured = test::Capture({test::GableHouse(12, 8, 6, 9.5)}, {test::GroundSquare(25)},
-                                {.spacing = 0.3, .noise = 0.02, .hide = {"south", "north", "east",
-                                                                         "west"}});
+  auto captured =
+      test::Capture({test::GableHouse(12, 8, 6, 9.5)}, {test::GroundSquare(25)},
+                    {.spacing = 0.3, .noise = 0.02, .hide = {"south", "north", "east", "west"}});
   captured.photos.clear();
   captured.cloud.views.clear();
   const auto made = ModelOf(captured);
