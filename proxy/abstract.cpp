@@ -184,11 +184,12 @@ void TakeSolids(std::vector<Solid> solids, bool mapped, std::vector<Building>& b
 }
 
 // Takes facets off the planes of open buildings that are laid through leaves.
-void TakeLeaves(const PlanarScene& scene, const PlaneTable& table, double normal_angle_deg,
+void TakeLeaves(const PlanarScene& scene, const PlaneTable& table,
                 std::vector<std::vector<Facet>>& facets) {
   for (size_t p = 0; p < facets.size(); ++p) {
     if (table.building[p] < 0 || facets[p].empty()) continue;
-    if (LooksLikeLeaves(scene.samples, table.planes[p], normal_angle_deg)) facets[p].clear();
+    const double scatter_deg = NormalScatterDeg(scene.samples, table.planes[p]);
+    if (scatter_deg > scene.leaf_scatter_deg) facets[p].clear();
   }
 }
 
@@ -256,7 +257,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   Proxy proxy;
   proxy.up = scene.up;
   proxy.metric = input.georef.metric;
-  if (proxy.metric) TakeLeaves(scene, table, options.normal_angle_deg, facets);
+  if (proxy.metric) TakeLeaves(scene, table, facets);
   proxy.buildings = OpenBuildings(table, scene.buildings.size(), std::move(facets));
   if (options.solids) {
     auto solids = CloseBuildings(scene, table, views, options, threads);

@@ -17,10 +17,10 @@
 
 #include "proxy/map/close_building.h"
 #include "proxy/map/closer_look.h"
+#include "proxy/map/judge_found.h"
 #include "proxy/map/off_the_map.h"
 #include "proxy/map/outline_fit.h"
 #include "proxy/map/wings.h"
-#include "proxy/planes/consolidate.h"
 #include "survey/median.h"
 #include "survey/parallel.h"
 
@@ -170,8 +170,7 @@ void NoteUnsure(const FittedBuilding& unsure, const Workshop& with, ProxyFinding
 std::vector<ClosedBuilding> CloseNew(const UprightSurvey& survey,
                                      std::span<const Building> of_the_map, const Workshop& with,
                                      ProxyFindings& findings) {
-  const auto footprints =
-      FindNewFootprints(with.scene, survey, of_the_map, with.options.normal_angle_deg);
+  const auto footprints = FindNewFootprints(with.scene, survey, of_the_map);
   std::vector<MapBuilding> as_mapped;
   as_mapped.reserve(footprints.size());
   for (const FittedBuilding& footprint : footprints) as_mapped.push_back(footprint.building);
@@ -317,31 +316,6 @@ void AddOthers(const std::vector<ClosedBuilding>& others, MapModel& model,
   }
 }
 
-// Whether much of what stands on a building's outline leans: then it is no footprint extruded.
-bool Leans(const ClosedBuilding& closed, const UprightSurvey& survey, const Workshop& with) {
-  constexpr double kMost = 0.1;  // of the walls
-  constexpr double kReach_m = 1;
-  constexpr double kUpright = 0.01;  // sine: regularised walls stand upright, or lean
-  const Eigen::Matrix3d upright_from_world = UprightFromWorld(with.scene.up);
-  const auto leans = [&](const Plane& plane) {
-    const Eigen::Vector3d normal = upright_from_world * plane.normal;
-    if (!LooksLikeWall(normal) || std::abs(normal.z()) < kUpright) return false;
-    if (LooksLikeLeaves(with.scene.samples, plane, with.options.normal_angle_deg)) return false;
-    const auto near = std::ranges::count_if(plane.points, [&](int i) {
-      return ToOutline(closed.fitted.building, survey.samples.positions[i].head<2>()) < kReach_m;
-    });
-    return 2 * static_cast<size_t>(near) > plane.points.size();
-  };
-  double leaning = 0, walls = 0;
-  for (const std::vector<Plane>& cluster : with.scene.buildings) {
-    for (const Plane& plane : cluster) leaning += leans(plane) ? plane.area : 0;
-  }
-  for (const Facet& facet : closed.facets) {
-    if (facet.facet_class == FacetClass::kWall) walls += facet.area;
-  }
-  return leaning > kMost * walls;
-}
-
 // A map that lies elsewhere is worth a word to those who fly by it.
 void NoteShift(const MapRegistration& place, ProxyFindings& findings) {
   constexpr double kMuch_m = 0.5;
@@ -417,20 +391,15 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
 MapModel BuildWithoutMap(const PlanarScene& scene, const ProxyInput& input,
                          const ProxyOptions& options, int threads, ProxyFindings& findings) {
   assert(input.georef.metric);
-  constexpr double kHeld = 0.5;  // of the walls, by length: of a front alone no outline is known
   const UprightSurvey survey = UprightSurveyOf(scene);
-  const Workshop with{scene, input, options, threads};
   ProxyFindings of_a_map;  // what cannot be built like this is built of its planes: no finding
-  auto closed = CloseNew(survey, {}, with, of_a_map);
-  const bool shows_walls = !survey.samples.camera_centers.empty();
-  std::erase_if(closed, [&](const ClosedBuilding& building) {
-    const bool open = shows_walls && building.fitted.held < kHeld;
-    if (!open && !Leans(building, survey, with)) return false;
-    findings.notes.push_back(fmt::format(
-        "a house of {:.0f} m2 is built of its planes, not on its footprint: {}",
-        Area(building.fitted.building),
-        open ? fmt::format("walls were found along {:.0f} % of that", 100 * building.fitted.held)
-             : "its walls lean"));
+  auto closed = CloseNew(survey, {}, {scene, input, options, threads}, of_a_map);
+  std::erase_if(closed, [&](const ClosedBuilding& house) {
+    const std::string why_not = WhyNotOnFootprint(house, scene, survey);
+    if (why_not.empty()) return false;
+    findings.notes.push_back(
+        fmt::format("a house of {:.0f} m2 is built of its planes, not on its footprint: {}",
+                    Area(house.fitted.building), why_not));
     return true;
   });
   MapModel model;

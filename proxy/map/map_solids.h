@@ -32,9 +32,8 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
                                      const ProxyOptions& options, int threads,
                                      ProxyFindings& findings);
 
-// The same of a survey without a map, on footprints found in the cloud alone: the houses that walls
-// are seen around, by half of their length, and of which the walls do not lean. Requires a georef
-// in metres.
+// The same of a survey without a map, on footprints found in the cloud alone: houses that are
+// extrusions of these (judge_found.h). Requires a georef in metres.
 MapModel BuildWithoutMap(const PlanarScene& scene, const ProxyInput& input,
                          const ProxyOptions& options, int threads, ProxyFindings& findings);
 

@@ -85,11 +85,8 @@ struct RoofBeside {
 class NewFootprints {
  public:
   NewFootprints(const PlanarScene& scene, const UprightSurvey& survey,
-                std::span<const Building> closed, double normal_angle_deg)
-      : scene_(scene),
-        survey_(survey),
-        floors_(FloorsOf(closed, UprightFromWorld(scene.up))),
-        normal_angle_deg_(normal_angle_deg) {
+                std::span<const Building> closed)
+      : scene_(scene), survey_(survey), floors_(FloorsOf(closed, UprightFromWorld(scene.up))) {
     for (const Polygon& floor : floors_) boxes_.push_back(stucco::BoundsOf(floor));
   }
 
@@ -121,6 +118,10 @@ class NewFootprints {
   }
 
  private:
+  bool LooksLikeLeaves(const Plane& plane) const {
+    return NormalScatterDeg(scene_.samples, plane) > scene_.leaf_scatter_deg;
+  }
+
   Beside BesideFloors(const std::vector<Plane>& cluster) const {
     constexpr double kRoof = 0.26;  // cosine: 75 degrees of pitch
     constexpr size_t kFewest = 12;
@@ -139,13 +140,12 @@ class NewFootprints {
         high = std::max(high, p.z());
       }
       if (normal.z() > kRoof) {
-        if (LooksLikeLeaves(scene_.samples, plane, normal_angle_deg_)) continue;
+        if (LooksLikeLeaves(plane)) continue;
         roofs.push_back({normal, std::move(outside)});
       } else if (LooksLikeWall(normal) && outside.size() >= kFewest && high - low > kRaised_m) {
         // The inner faces of parapets are lower, and look at the roof.
         beside.walls.push_back(WallOf(plane, normal, outside));
-        beside.walls.back().sure =
-            plane.area > kSmallest_m2 && !LooksLikeLeaves(scene_.samples, plane, normal_angle_deg_);
+        beside.walls.back().sure = plane.area > kSmallest_m2 && !LooksLikeLeaves(plane);
       }
     }
     for (const RoofBeside& roof : roofs) AddRoof(roof, beside);
@@ -340,7 +340,6 @@ class NewFootprints {
   const UprightSurvey& survey_;
   std::vector<Polygon> floors_;
   std::vector<Eigen::AlignedBox2d> boxes_;  // of the floors
-  double normal_angle_deg_;
 };
 
 }  // namespace
@@ -386,9 +385,8 @@ std::vector<std::vector<Plane>> OffTheMap(const PlanarScene& scene,
 }
 
 std::vector<FittedBuilding> FindNewFootprints(const PlanarScene& scene, const UprightSurvey& survey,
-                                              std::span<const Building> closed,
-                                              double normal_angle_deg) {
-  const NewFootprints finder(scene, survey, closed, normal_angle_deg);
+                                              std::span<const Building> closed) {
+  const NewFootprints finder(scene, survey, closed);
   std::vector<FittedBuilding> found;
   for (const std::vector<Plane>& cluster : scene.buildings) finder.Find(cluster, found);
   return found;

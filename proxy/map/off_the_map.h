@@ -26,7 +26,6 @@ std::vector<std::vector<Plane>> OffTheMap(const PlanarScene& scene,
 // as eaves are, within the walls below them (outline.h); crowns of trees are no roofs. Their walls
 // have no facades; samples are those of `survey`, which is the scene's, upright.
 std::vector<FittedBuilding> FindNewFootprints(const PlanarScene& scene, const UprightSurvey& survey,
-                                              std::span<const Building> closed,
-                                              double normal_angle_deg);
+                                              std::span<const Building> closed);
 
 }  // namespace stucco

@@ -187,9 +187,24 @@ double NormalScatterDeg(const Samples& samples, const Plane& plane) {
   return plane.points.empty() ? 0 : sum / double(plane.points.size()) * 180 / std::numbers::pi;
 }
 
-bool LooksLikeLeaves(const Samples& samples, const Plane& plane, double normal_angle_deg) {
-  constexpr double kLeastScatter = 0.36;  // of normal_angle_deg
-  return NormalScatterDeg(samples, plane) > kLeastScatter * normal_angle_deg;
+double LeafScatterDeg(const Samples& samples, std::span<const std::vector<Plane>> buildings) {
+  constexpr double kMore_deg = 6;
+  constexpr double kSmoothest = 0.25;               // the rest may be trees
+  std::vector<std::pair<double, double>> scatters;  // with areas
+  double area = 0;
+  for (const std::vector<Plane>& building : buildings) {
+    for (const Plane& plane : building) {
+      scatters.emplace_back(NormalScatterDeg(samples, plane), plane.area);
+      area += plane.area;
+    }
+  }
+  std::ranges::sort(scatters);
+  double below = 0;
+  for (const auto& [scatter, of_plane] : scatters) {
+    below += of_plane;
+    if (below >= kSmoothest * area) return scatter + kMore_deg;
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 void DropClutter(const Samples& samples, const Tolerances& tolerances, double normal_angle_deg,

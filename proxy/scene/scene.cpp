@@ -11,6 +11,7 @@
 
 #include "proxy/cloud/grid_index.h"
 #include "proxy/cloud/normals.h"
+#include "proxy/planes/consolidate.h"
 #include "proxy/planes/find_planes.h"
 #include "proxy/planes/regularise.h"
 #include "proxy/planes/upright.h"
@@ -220,6 +221,7 @@ PlanarScene UnderstandCloud(const ProxyInput& input, const ProxyOptions& options
     }
   });
   std::erase_if(scene.buildings, [](const auto& building) { return building.empty(); });
+  scene.leaf_scatter_deg = LeafScatterDeg(scene.samples, scene.buildings);
   findings.notes.push_back(
       fmt::format("{} planes: {} ground, {} buildings; {} small objects left out", num_planes,
                   scene.ground.size(), scene.buildings.size(), clusters.dropped));

@@ -23,6 +23,7 @@ struct PlanarScene {
   std::vector<Plane> ground;                  // the main one first
   std::vector<std::vector<Plane>> buildings;  // largest first
   std::vector<int> support;                   // samples on any plane, ascending
+  double leaf_scatter_deg = 0;  // planes on which normals scatter by more are laid through leaves
 };
 
 // Steps 1 to 5 of the README: samples, planes, up, regularisation, ground and buildings. Throws

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -138,21 +140,40 @@ TEST(WithoutAMap, AScanFromAboveGivesSolids) {
   }
 }
 
-TEST(LooksLikeLeaves, WhereNormalsLookEveryWay) {
+TEST(LeafScatterDeg, IsWellAboveWhatSmoothPlanesHave) {
   Samples samples;
-  Plane plane;
-  for (int i = 0; i < 100; ++i) {
-    const double turn = i % 2 == 0 ? 0.1 : -0.1;  // 5.7 degrees
-    samples.positions.emplace_back(i % 10, i / 10, 0);
-    samples.normals.emplace_back(std::sin(turn), 0, std::cos(turn));
-    plane.points.push_back(i);
+  std::vector<std::vector<Plane>> buildings(2);
+  const auto add = [&](std::vector<Plane>& building, double scatter_deg, double area) {
+    Plane& plane = building.emplace_back();
+    plane.area = area;
+    for (int i = 0; i < 40; ++i) {
+      const double turn = (i % 2 == 0 ? scatter_deg : -scatter_deg) * std::numbers::pi / 180;
+      plane.points.push_back(static_cast<int>(samples.size()));
+      samples.positions.emplace_back(i, i % 7, 0);
+      samples.normals.emplace_back(std::sin(turn), 0, std::cos(turn));
+    }
+  };
+  add(buildings[0], 4, 20);
+  add(buildings[0], 8, 50);
+  for (int i = 0; i < 9; ++i) add(buildings[1], 18, 5);  // many, and small
+  EXPECT_NEAR(LeafScatterDeg(samples, buildings), 8 + 6, 0.01);
+  EXPECT_GT(LeafScatterDeg(samples, {}), 90);
+}
+
+// Beams on posts, and a canopy on four of these: their sides are seen from within.
+TEST(WithoutAMap, AFrameIsNoHouse) {
+  test::House frame;
+  for (const double y : {-4.0, -1.0, 2.0}) {
+    const test::House beam = test::BoxHouse(16, 2, 6, {0, y, 0});
+    frame.polygons.insert(frame.polygons.end(), beam.polygons.begin(), beam.polygons.end());
   }
-  EXPECT_FALSE(LooksLikeLeaves(samples, plane, 35));
-  for (int i = 0; i < 100; ++i) {
-    const double turn = i % 2 == 0 ? 0.3 : -0.3;  // 17 degrees
-    samples.normals[i] = {std::sin(turn), 0, std::cos(turn)};
+  const auto made =
+      ModelOf(test::Capture({frame}, {test::GroundSquare(25)}, {.spacing = 0.1, .noise = 0.02}));
+  for (const Building& building : made.proxy.buildings) {
+    if (!building.watertight) continue;
+    // Each by itself is one; between them nothing is.
+    EXPECT_LT(AreaOf(building, FacetClass::kRoof), 3 * 16 * 2 + 8) << building.id;
   }
-  EXPECT_TRUE(LooksLikeLeaves(samples, plane, 35));
 }
 
 }  // namespace
