@@ -56,6 +56,9 @@ struct WallLine {
     const bool more = tops[static_cast<size_t>((at - from) / kBin_m)] > roof + kAboveRoof_m;
     return more ? Before::kLeaning : Before::kAsEaves;
   }
+  bool IsSeenAt(double at) const {
+    return std::isfinite(tops[static_cast<size_t>((at - from) / kBin_m)]);
+  }
   CutLine Crease() const {
     return {
         .point = outwards * offset, .direction = Along(), .crease = true, .from = from, .to = to};
@@ -232,14 +235,16 @@ class NewFootprints {
     return votes;
   }
 
-  // Right behind a wall is its house, where nothing else is seen.
-  static void VoteBehind(const WallLine& wall, const PlaneRaster& raster, cv::Mat& votes) {
+  // Right behind a wall is its house, whatever stands on its edge: trees lean on it from before it.
+  void VoteBehind(const WallLine& wall, const PlaneRaster& raster, cv::Mat& votes) const {
     for (double at = wall.from; at < wall.to; at += raster.cell / 2) {
+      if (!wall.IsSeenAt(at)) continue;
       for (double off = raster.cell / 2; off < kOverhang_m; off += raster.cell / 2) {
-        const int cell = raster.IndexAt(wall.Along() * at + wall.outwards * (wall.offset - off));
-        if (cell < 0) continue;
+        const Eigen::Vector2d p = wall.Along() * at + wall.outwards * (wall.offset - off);
+        const int cell = raster.IndexAt(p);
+        if (cell < 0 || IsInside(floors_, boxes_, p)) continue;
         int& count = votes.at<int>(cell / raster.width, cell % raster.width);
-        if (count == 0) count = 1;
+        count = std::max(count, 1);
       }
     }
   }
