@@ -4,13 +4,14 @@
 """How the model's time and memory grow with the number of buildings.
 
 Usage: proxy_growth.py OUT [--buildings 40 160 640] [--density 6] [--noise 0.02] [--seed 1]
-                       [--stucco PROGRAM]
+                       [--no-map] [--stucco PROGRAM]
 
 Towns of make_town.py, whose blocks are the same at every size, are scanned: DENSITY points a square
 metre at random on roofs, walls and the level ground around, moved by NOISE (metres, one standard
 deviation of each axis). Each is imported with its footprints, without heights, and run until proxy.
 Printed are wall and CPU seconds, peak memory, and the exponent of the CPU time over buildings from
-one size to the next: 1 is linear. Also how many buildings are closed. Needs NumPy.
+one size to the next: 1 is linear. Also how many buildings are closed. With --no-map the model is
+made from the cloud alone (proxy.use_map): houses that touch may be one then. Needs NumPy.
 """
 import argparse
 import json
@@ -93,7 +94,8 @@ def measure(count, wanted):
     airborne.run(wanted.stucco, "init", survey, "--photos", folder / "no-photos")
     airborne.run(wanted.stucco, "import", survey, folder / "scan.ply", "--map",
                  folder / "footprints.geojson", "--crs", CRS)
-    airborne.run(wanted.stucco, "run", survey, "--until", "proxy")
+    settings = ["--set", "proxy.use_map=false"] if wanted.no_map else []
+    airborne.run(wanted.stucco, "run", survey, "--until", "proxy", *settings)
     buildings = json.loads((survey / "proxy/facets.json").read_text())["buildings"]
     return {"points": len(points), **surveys.stage_costs(survey)["proxy"],
             "closed": sum(building["watertight"] for building in buildings)}
@@ -117,6 +119,7 @@ def main():
     parser.add_argument("--density", type=float, default=6)
     parser.add_argument("--noise", type=float, default=0.02)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--no-map", action="store_true")
     parser.add_argument("--stucco", type=pathlib.Path,
                         default=pathlib.Path(__file__).parents[1] / "build/dev/cli/stucco")
     wanted = parser.parse_args()

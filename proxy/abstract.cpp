@@ -188,14 +188,13 @@ void TakeLeaves(const PlanarScene& scene, const PlaneTable& table,
                 std::vector<std::vector<Facet>>& facets) {
   for (size_t p = 0; p < facets.size(); ++p) {
     if (table.building[p] < 0 || facets[p].empty()) continue;
-    const double scatter_deg = NormalScatterDeg(scene.samples, table.planes[p]);
-    if (scatter_deg > scene.leaf_scatter_deg) facets[p].clear();
+    if (IsOfLeaves(scene, table.planes[p])) facets[p].clear();
   }
 }
 
-// What does not close and shows no face as large as a house's smallest is a tree, a car or a hedge:
-// a crown is fitted by planes of a few square metres, a house that is seen from one side has a wall
-// or a roof.
+// Without a map: what does not close and shows no face as large as a house's smallest is a tree, a
+// car or a hedge: a crown is fitted by planes of a few square metres, a house that is seen from one
+// side has a wall or a roof.
 void LeaveOutSmallThings(std::vector<Building>& buildings, ProxyFindings& findings) {
   constexpr double kLeastFace_m2 = 10;
   for (Building& building : buildings) {
@@ -265,7 +264,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
                 [&](size_t b) { RequireSoundAsWritten(scene.up, solids[b]); });
     TakeSolids(std::move(solids), mapped.has_value(), proxy.buildings, findings);
   }
-  if (proxy.metric) LeaveOutSmallThings(proxy.buildings, findings);
+  if (proxy.metric && !mapped) LeaveOutSmallThings(proxy.buildings, findings);
   proxy.buildings.insert(proxy.buildings.begin(), std::make_move_iterator(closed.buildings.begin()),
                          std::make_move_iterator(closed.buildings.end()));
   FollowTerrain(scene, proxy.buildings, findings);

@@ -11,6 +11,10 @@
 
 namespace stucco {
 
+// A facet in the ground plan of the upright frame, its corners in their order: those of what looks
+// up counter-clockwise.
+Polygon InGroundPlan(const Facet& facet, const Eigen::Matrix3d& upright_from_world);
+
 // What the closed ones among `buildings` stand on, in the ground plan of the upright frame.
 std::vector<Polygon> FloorsOf(std::span<const Building> buildings,
                               const Eigen::Matrix3d& upright_from_world);

@@ -394,8 +394,9 @@ MapModel BuildWithoutMap(const PlanarScene& scene, const ProxyInput& input,
   const UprightSurvey survey = UprightSurveyOf(scene);
   ProxyFindings of_a_map;  // what cannot be built like this is built of its planes: no finding
   auto closed = CloseNew(survey, {}, {scene, input, options, threads}, of_a_map);
+  const FoundHouses found(scene, survey);
   std::erase_if(closed, [&](const ClosedBuilding& house) {
-    const std::string why_not = WhyNotOnFootprint(house, scene, survey);
+    const std::string why_not = found.WhyNot(house);
     if (why_not.empty()) return false;
     findings.notes.push_back(
         fmt::format("a house of {:.0f} m2 is built of its planes, not on its footprint: {}",

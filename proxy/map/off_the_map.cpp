@@ -15,7 +15,6 @@
 #include "proxy/map/floors.h"
 #include "proxy/map/move_edges.h"
 #include "proxy/map/registration.h"
-#include "proxy/planes/consolidate.h"
 
 namespace stucco {
 namespace {
@@ -96,35 +95,27 @@ class NewFootprints {
   void Find(const std::vector<Plane>& cluster, std::vector<FittedBuilding>& found) const {
     const Beside beside = BesideFloors(cluster);
     if (beside.roof.empty()) return;
-    PlaneRaster raster = RasterOver(beside.roof);
+    const PlaneRaster raster = RasterOver(beside.roof);
     const cv::Mat votes = VotesForRoof(beside, raster);
     const cv::Mat roofed = Roofed(votes, raster);
-    cv::Mat joined, patches;
+    cv::Mat joined, patches, figures, middles;
     cv::morphologyEx(roofed, joined, cv::MORPH_CLOSE, Disc(kUnseen_m / 2, raster));
     joined.setTo(0, votes < 0);
     cv::bitwise_or(joined, roofed, joined);
-    const int count = cv::connectedComponents(joined, patches, 4);
+    const int count = cv::connectedComponentsWithStats(joined, patches, figures, middles, 4);
     for (int patch = 1; patch < count; ++patch) {
-      int cells = 0;
-      for (int y = 0; y < raster.height; ++y) {
-        for (int x = 0; x < raster.width; ++x) {
-          const bool is_hit = roofed.at<uint8_t>(y, x) && patches.at<int>(y, x) == patch;
-          cells += is_hit;
-          raster.hits[raster.Index(x, y)] = is_hit ? 1 : 0;
-          raster.through[raster.Index(x, y)] =
-              static_cast<uint8_t>(std::clamp(-votes.at<int>(y, x), 0, 255));
-        }
-      }
-      if (cells * raster.cell * raster.cell < kSmallest_m2) continue;
-      AddOutlines(raster, beside.walls, found);
+      const int* box = figures.ptr<int>(patch);
+      const cv::Rect around = WithMargin({box[cv::CC_STAT_LEFT], box[cv::CC_STAT_TOP],
+                                          box[cv::CC_STAT_WIDTH], box[cv::CC_STAT_HEIGHT]},
+                                         raster);
+      cv::Mat hits = patches(around) == patch;
+      cv::bitwise_and(hits, roofed(around), hits);
+      if (cv::countNonZero(hits) * raster.cell * raster.cell < kSmallest_m2) continue;
+      AddOutlines(PatchOf(raster, around, hits, votes(around)), beside.walls, found);
     }
   }
 
  private:
-  bool LooksLikeLeaves(const Plane& plane) const {
-    return NormalScatterDeg(scene_.samples, plane) > scene_.leaf_scatter_deg;
-  }
-
   Beside BesideFloors(const std::vector<Plane>& cluster) const {
     constexpr double kRoof = 0.26;  // cosine: 75 degrees of pitch
     constexpr size_t kFewest = 12;
@@ -143,12 +134,12 @@ class NewFootprints {
         high = std::max(high, p.z());
       }
       if (normal.z() > kRoof) {
-        if (LooksLikeLeaves(plane)) continue;
+        if (IsOfLeaves(scene_, plane)) continue;
         roofs.push_back({normal, std::move(outside)});
       } else if (LooksLikeWall(normal) && outside.size() >= kFewest && high - low > kRaised_m) {
         // The inner faces of parapets are lower, and look at the roof.
         beside.walls.push_back(WallOf(plane, normal, outside));
-        beside.walls.back().sure = plane.area > kSmallest_m2 && !LooksLikeLeaves(plane);
+        beside.walls.back().sure = plane.area > kSmallest_m2 && !IsOfLeaves(scene_, plane);
       }
     }
     for (const RoofBeside& roof : roofs) AddRoof(roof, beside);
@@ -210,8 +201,6 @@ class NewFootprints {
     const Eigen::Vector2d size = box.sizes().array() + 4 * kOverhang_m;
     raster.width = static_cast<int>(size.x() / raster.cell) + 1;
     raster.height = static_cast<int>(size.y() / raster.cell) + 1;
-    raster.hits.assign(static_cast<size_t>(raster.width) * raster.height, 0);
-    raster.through = raster.hits;
     return raster;
   }
 
@@ -247,6 +236,32 @@ class NewFootprints {
         count = std::max(count, 1);
       }
     }
+  }
+
+  // With room around it for all that an outline looks at.
+  static cv::Rect WithMargin(const cv::Rect& box, const PlaneRaster& raster) {
+    const int margin = static_cast<int>(std::ceil(2 * kUnseen_m / raster.cell));
+    return cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin,
+                    box.height + 2 * margin) &
+           cv::Rect(0, 0, raster.width, raster.height);
+  }
+
+  // A part of a raster: seen where one patch has a roof, open where more votes are against one.
+  static PlaneRaster PatchOf(const PlaneRaster& whole, const cv::Rect& part, const cv::Mat& hits,
+                             const cv::Mat& votes) {
+    PlaneRaster patch;
+    patch.frame = whole.frame;
+    patch.cell = whole.cell;
+    patch.origin = whole.origin + whole.cell * Eigen::Vector2d(part.x, part.y);
+    patch.width = part.width;
+    patch.height = part.height;
+    for (int y = 0; y < part.height; ++y) {
+      for (int x = 0; x < part.width; ++x) {
+        patch.hits.push_back(hits.at<uint8_t>(y, x) != 0 ? 1 : 0);
+        patch.through.push_back(static_cast<uint8_t>(std::clamp(-votes.at<int>(y, x), 0, 255)));
+      }
+    }
+    return patch;
   }
 
   static cv::Mat Disc(double radius_m, const PlaneRaster& raster) {
@@ -380,9 +395,9 @@ std::vector<std::vector<Plane>> OffTheMap(const PlanarScene& scene,
     }
     if (planes.empty()) continue;
     if (area > kWorthAWord) {
-      findings.notes.push_back(fmt::format(
-          "on no footprint of the map: {} planes, {:.0f} m2, at {:.0f} m east and {:.0f} m north",
-          planes.size(), area, middle.x() / area, middle.y() / area));
+      findings.notes.push_back(
+          fmt::format("on no footprint: {} planes, {:.0f} m2, at {:.0f} m east and {:.0f} m north",
+                      planes.size(), area, middle.x() / area, middle.y() / area));
     }
     left.push_back(std::move(planes));
   }

@@ -173,6 +173,10 @@ std::vector<Plane> TakeGround(const PlanarScene& scene, RegulariseOptions regula
 
 }  // namespace
 
+bool IsOfLeaves(const PlanarScene& scene, const Plane& plane) {
+  return NormalScatterDeg(scene.samples, plane) > scene.leaf_scatter_deg;
+}
+
 PlanarScene UnderstandCloud(const ProxyInput& input, const ProxyOptions& options, int threads,
                             ProxyFindings& findings) {
   PlanarScene scene;

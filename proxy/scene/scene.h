@@ -23,8 +23,11 @@ struct PlanarScene {
   std::vector<Plane> ground;                  // the main one first
   std::vector<std::vector<Plane>> buildings;  // largest first
   std::vector<int> support;                   // samples on any plane, ascending
-  double leaf_scatter_deg = 0;  // planes on which normals scatter by more are laid through leaves
+  double leaf_scatter_deg = 0;                // LeafScatterDeg
 };
+
+// Whether a plane is laid through leaves: its normals scatter by more than leaf_scatter_deg.
+bool IsOfLeaves(const PlanarScene& scene, const Plane& plane);
 
 // Steps 1 to 5 of the README: samples, planes, up, regularisation, ground and buildings. Throws
 // Error (kStageFailed) when there are too few points or no planes.
