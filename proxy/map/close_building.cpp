@@ -116,7 +116,7 @@ constexpr double kWalled = 0.2;  // of the walls of what stands, the least that 
 
 // Of walls and roofs, the share that the cloud shows; 0 where there are none.
 struct SeenShares {
-  double walls = 0;  // without party walls where facades are known
+  double walls = 0;  // of what others do not hide; without party walls where facades are known
   double roofs = 0;
 };
 
@@ -128,7 +128,7 @@ SeenShares SharesOf(const std::vector<Facet>& facets) {
     const bool wall = facet.facet_class == FacetClass::kWall;
     if (wall && has_facades && facet.planned_facades.empty()) continue;
     if (!wall && facet.facet_class != FacetClass::kRoof) continue;
-    (wall ? all.walls : all.roofs) += facet.area;
+    (wall ? all.walls : all.roofs) += facet.area * (1 - facet.party);
     (wall ? seen.walls : seen.roofs) += facet.area * facet.seen;
   }
   return {.walls = all.walls > 0 ? seen.walls / all.walls : 0,

@@ -63,8 +63,8 @@ enum class NewBuilding {
 };
 
 // What stands on no footprint is a building only where its roof is smooth and seen, as crowns are
-// rough, and its walls are seen, where the survey shows walls: below a dense crown only leaves
-// stand upright.
+// rough, and its walls are seen, where the survey shows walls and others do not hide them
+// (Facet::party): below a dense crown only leaves stand upright.
 NewBuilding JudgeNew(const ClosedBuilding& closed, bool shows_walls);
 
 }  // namespace stucco

@@ -21,6 +21,7 @@
 #include "proxy/map/off_the_map.h"
 #include "proxy/map/outline_fit.h"
 #include "proxy/map/wings.h"
+#include "proxy/solids/party_walls.h"
 #include "survey/median.h"
 #include "survey/parallel.h"
 
@@ -166,6 +167,17 @@ void NoteUnsure(const FittedBuilding& unsure, const Workshop& with, ProxyFinding
        true});
 }
 
+// How much of the walls of new buildings the map's and each other hide: nobody can see these.
+void MeasureHidden(std::span<const Building> of_the_map, const Workshop& with,
+                   std::vector<ClosedBuilding>& closed) {
+  std::vector<Building> all(of_the_map.begin(), of_the_map.end());
+  for (const ClosedBuilding& house : closed) all.push_back(AsBuilding("", "cloud", house));
+  MeasureParty(with.scene.up, all);
+  for (size_t c = 0; c < closed.size(); ++c) {
+    closed[c].facets = std::move(all[of_the_map.size() + c].facets);
+  }
+}
+
 // What the map lacks, closed on footprints of its own.
 std::vector<ClosedBuilding> CloseNew(const UprightSurvey& survey,
                                      std::span<const Building> of_the_map, const Workshop& with,
@@ -175,6 +187,7 @@ std::vector<ClosedBuilding> CloseNew(const UprightSurvey& survey,
   as_mapped.reserve(footprints.size());
   for (const FittedBuilding& footprint : footprints) as_mapped.push_back(footprint.building);
   auto closed = CloseAsFitted(survey, as_mapped, footprints, 0, with);
+  MeasureHidden(of_the_map, with, closed);
   const bool shows_walls = !survey.samples.camera_centers.empty();  // a scan from above does not
   std::erase_if(closed, [&](const ClosedBuilding& building) {
     const NewBuilding judged = JudgeNew(building, shows_walls);

@@ -155,5 +155,31 @@ TEST(NewBuildings, AHouseWhoseWallsAreHardlySeenIsNamed) {
   }));
 }
 
+// Between its neighbours it shows the upper halves of two short walls, less than a fifth of all its
+// walls: the long ones are nobody's to see.
+TEST(NewBuildings, WallsThatNeighboursHideAreNotAskedFor) {
+  test::House gap = FlatHouse(Rectangle(-3, -8, 3, 8), 10);
+  const size_t walls = gap.polygons.size() - 1;
+  for (size_t w = 0; w < walls; ++w) {
+    test::TruePolygon below = gap.polygons[w];
+    below.name = "unseen";
+    for (auto& p : below.ring) p.z() = std::min(p.z(), 5.0);
+    for (auto& p : gap.polygons[w].ring) p.z() = std::max(p.z(), 5.0);
+    gap.polygons.push_back(below);
+  }
+  test::CaptureOptions options = kDenseCapture;
+  options.hide = {"unseen"};
+  const auto captured = test::Capture(
+      {FlatHouse(Rectangle(-15, -8, -3, 8), 10), gap, FlatHouse(Rectangle(3, -8, 15, 8), 10)},
+      {test::GroundSquare(30)}, options);
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-15, -8, -3, 8)}, 10},
+                                              {"B0002", {Rectangle(3, -8, 15, 8)}, 10}});
+  double volume = 0;
+  for (const Building& building : made.proxy.buildings) {
+    if (building.watertight) volume += VolumeOf(building);
+  }
+  EXPECT_NEAR(volume, 30 * 16 * 10, 60);
+}
+
 }  // namespace
 }  // namespace stucco
