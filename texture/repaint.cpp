@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "survey/error.h"
 #include "survey/files.h"
@@ -35,6 +37,7 @@ struct Work {
   PaintScene scene;
   const StageContext& context;
   const TextureSet& old;
+  std::span<const SurveyPhoto> of_survey;           // those that the pictures of `old` are from
   std::vector<const Facet*> facets = {};            // by facet of `old`
   std::vector<FacetLook> looks = {};                // likewise
   PhotosLight light = {};                           // of the new photos, against each other
@@ -152,7 +155,7 @@ std::vector<EpochFacet> WritePictures(const Work& work, TextureSet& textures) {
   }
   const std::vector<std::string> names = FileNames(ids);
   EpochStyle style{work.request.epoch, work.request.replace, work.input.photos, {}, work.options};
-  for (const SurveyPhoto& photo : ReadSurveyPhotos(work.context.survey)) {
+  for (const SurveyPhoto& photo : work.of_survey) {
     style.taken_at[photo.path()] = photo.cam_from_world.Center();
   }
   std::vector<EpochFacet> found(ids.size());
@@ -186,6 +189,8 @@ std::vector<EpochFacet> RepaintSurvey(const TextureOptions& options, const Repai
   const TextureSet old = ReadTextureSet(context.survey / kTexturesFile);
   TextureInput input = ReadSurfaces(context, options);
   input.photos = request.photos;
+  const std::vector<SurveyPhoto> of_survey = ReadSurveyPhotos(context.survey);
+  input.cloud = SightedByOthers(std::move(input.cloud), of_survey, input.photos);
   for (const char* folder : {"textures", "labels", "orthophotos", kReliefFolder}) {
     fs::create_directories(context.out / folder);
   }
@@ -199,7 +204,8 @@ std::vector<EpochFacet> RepaintSurvey(const TextureOptions& options, const Repai
                        input.proxy.up.normalized(),
                        input.proxy.metric},
             context,
-            old};
+            old,
+            of_survey};
   work.facets = FacetsOf(old, input.proxy);
   {
     PhotoCache as_taken(context.photos, context.memory_limit_bytes / 3);

@@ -100,6 +100,30 @@ TEST(FilesKey, ChangesWithWhatTheFacetDependsOnOnly) {
   EXPECT_NE(key(), original);
 }
 
+TEST(FilesKey, OfWallsWithReliefChangesWithAllPhotosThatMaySeeThem) {
+  TextureInput input;
+  input.proxy.metric = true;
+  const Facet wall = test::MakeWall(4, 3);
+  input.photos = {test::LookFrom("a", {2, -5, 1}, {2, 0, 1}, {100, 100, 100}),
+                  test::LookFrom("no candidate", {1, -5, 1}, {2, 0, 1}, {100, 100, 100}),
+                  test::LookFrom("behind", {2, 5, 1}, {2, 0, 1}, {100, 100, 100})};
+  FacetLook look;
+  look.candidates = {{0, 1, 1}};
+  PhotosLight light{std::vector<Eigen::Vector3d>(3, Eigen::Vector3d::Ones()),
+                    std::vector<Falloff>(3)};
+  TextureOptions options;
+  const auto key = [&] { return FilesKey(wall, look, input, light, options); };
+  const std::string original = key();
+  input.photos[2].captured.hash = "other";
+  EXPECT_EQ(key(), original);
+  input.photos[1].captured.hash = "other";
+  EXPECT_NE(key(), original);
+  look.grid = TexelGrid();  // relief comes with it
+  const std::string on_grid = key();
+  input.photos[1].captured.hash = "yet another";
+  EXPECT_EQ(key(), on_grid);
+}
+
 TEST(FilesKey, ChangesWithThePlannedPhotosOfTheFacade) {
   TextureInput input;
   Facet wall = test::MakeWall(4, 3);

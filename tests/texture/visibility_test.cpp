@@ -36,6 +36,33 @@ TEST(OcclusionScene, StaysExactFarFromTheOrigin) {
       scene.Blocked(far + Eigen::Vector3d(2, -0.02, 1), far + Eigen::Vector3d(2, -0.01, 1)));
 }
 
+TEST(SightedByOthers, WhoLooksFromAboutWhereAViewerStoodSeesItToo) {
+  SurveyPhoto before = LookFrom("before.jpg", {0, -10, 1}, {0, 0, 1}, {400, 300, 400});
+  SurveyPhoto elsewhere = LookFrom("elsewhere.jpg", {8, -10, 1}, {0, 0, 1}, {400, 300, 400});
+  before.id = PhotoId{7};
+  elsewhere.id = PhotoId{1};
+  SurveyPhoto beside = LookFrom("new/beside.jpg", {0.5, -10, 1}, {0, 0, 1}, {400, 300, 400});
+  SurveyPhoto far_off = LookFrom("new/far.jpg", {4, -10, 1}, {0, 0, 1}, {400, 300, 400});
+  beside.id = PhotoId{1};  // numbered by itself, as elsewhere.jpg is
+  far_off.id = PhotoId{7};
+  SightedPoints points;
+  points.positions = {{0, 5, 1}, {0, 5, 1}, {0, 5, 1}};
+  points.views = {7, 1, 1, 99};
+  points.ends = {2, 3, 4};  // the last is of a photo that is gone
+  const std::vector<SurveyPhoto> of_points = {before, elsewhere};
+  const std::vector<SurveyPhoto> others = {beside, far_off};
+  const SightedPoints found = SightedByOthers(points, of_points, others);
+  EXPECT_EQ(found.positions, points.positions);
+  EXPECT_TRUE(found.IsSeenBy(0, beside.id));
+  EXPECT_FALSE(found.IsSeenBy(0, far_off.id));
+  EXPECT_FALSE(found.IsSeenBy(1, beside.id));
+  EXPECT_FALSE(found.IsSeenBy(2, beside.id));
+
+  points.ends.clear();
+  points.views.clear();
+  EXPECT_TRUE(SightedByOthers(points, of_points, others).IsSeenBy(0, far_off.id));
+}
+
 class Foreground : public ::testing::Test {
  protected:
   // Points 1 m in front of the wall's middle.

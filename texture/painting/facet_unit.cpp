@@ -10,6 +10,8 @@
 
 #include "survey/error.h"
 #include "survey/files.h"
+#include "texture/relief/find_relief.h"
+#include "texture/views/look.h"
 #include "texture/views/plan_prior.h"
 
 namespace stucco {
@@ -273,6 +275,12 @@ std::string FilesKey(const Facet& facet, const FacetLook& look, const TextureInp
     parts.push_back(PhotoText(photo) + (IsPlannedFor(facet, photo) ? " planned" : ""));
     parts.push_back(
         fmt::format("{} {} {} {} {}", gain.x(), gain.y(), gain.z(), falloff[0], falloff[1]));
+  }
+  if (LooksForRelief(facet, look, options, input.proxy.metric)) {
+    for (const int i : PhotosThatMaySee(facet, input.photos, look.limits.max_angle_deg)) {
+      const Eigen::Vector2d& falloff = light.falloffs[i].terms;
+      parts.push_back(fmt::format("{} {} {}", PhotoText(input.photos[i]), falloff[0], falloff[1]));
+    }
   }
   return HashParts(parts);
 }

@@ -343,7 +343,7 @@ PaintedFacet PaintFacet(const PaintJob& job, PaintRecord* record) {
   painted.mask = RasterizeFacet(facet, painted.grid);
 
   // 1. What stands out of it, or lies back in it.
-  if (options.relief && !look.grid && scene.metric && facet.facet_class == FacetClass::kWall) {
+  if (LooksForRelief(facet, look, options, scene.metric)) {
     painted.grid.relief = FindRelief(facet, painted.grid, look.limits, scene);
   }
 

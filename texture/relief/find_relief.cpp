@@ -446,6 +446,11 @@ std::shared_ptr<const Relief> FindRelief(const Facet& facet, const TexelGrid& gr
   return relief;
 }
 
+bool LooksForRelief(const Facet& facet, const FacetLook& look, const TextureOptions& options,
+                    bool metric) {
+  return options.relief && !look.grid && metric && facet.facet_class == FacetClass::kWall;
+}
+
 uint64_t ReliefBytes(const TexelGrid& grid) {
   const TexelGrid raster = SweepRaster(grid);
   return PlaneSweepBytes(raster) + kMostTilePhotos * raster.size();  // which photo sees which cell

@@ -7,6 +7,7 @@
 #include "survey/proxy.h"
 #include "texture/grid/grid.h"
 #include "texture/grid/relief.h"
+#include "texture/options/texture_options.h"
 #include "texture/views/candidates.h"
 #include "texture/views/look.h"
 
@@ -20,6 +21,10 @@ namespace stucco {
 // Nothing where all is on the plane. Lengths are metres: for surveys that are.
 std::shared_ptr<const Relief> FindRelief(const Facet& facet, const TexelGrid& grid,
                                          const ViewLimits& limits, const PaintScene& scene);
+
+// Whether a facet has relief looked for: walls of metric surveys that no grid is given for.
+bool LooksForRelief(const Facet& facet, const FacetLook& look, const TextureOptions& options,
+                    bool metric);
 
 // About what FindRelief holds at once, bytes.
 uint64_t ReliefBytes(const TexelGrid& grid);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "survey/triangulate.h"
 
@@ -18,6 +20,9 @@ constexpr int kFewestBeyond = 3;
 // A raster is so coarse that surfaces get about this many points per cell, else they look open.
 constexpr double kSplatsPerCell = 1.5;
 constexpr int kNarrowest = 100;
+// Cosine of 3 degrees, between directions in which two photos see the same of what stands before a
+// point: as far apart as positions of one view by two flights are.
+constexpr double kSameSight = 0.99863;
 
 Occluders OccludersOf(const Proxy& proxy) {
   std::vector<Eigen::Vector3d> vertices;
@@ -48,6 +53,34 @@ bool SightedPoints::IsSeenBy(size_t point, PhotoId photo) const {
   const auto first = views.begin() + static_cast<std::ptrdiff_t>(point > 0 ? ends[point - 1] : 0);
   const auto last = views.begin() + static_cast<std::ptrdiff_t>(ends[point]);
   return std::find(first, last, photo.value) != last;
+}
+
+SightedPoints SightedByOthers(SightedPoints points, std::span<const SurveyPhoto> of_points,
+                              std::span<const SurveyPhoto> others) {
+  std::map<uint32_t, Eigen::Vector3d> centres;
+  for (const SurveyPhoto& photo : of_points) {
+    centres[photo.id.value] = photo.cam_from_world.Center();
+  }
+  SightedPoints out;
+  size_t first = 0;
+  std::vector<Eigen::Vector3d> sights;
+  for (size_t i = 0; i < points.ends.size(); ++i) {
+    sights.clear();
+    for (; first < points.ends[i]; ++first) {
+      const auto centre = centres.find(points.views[first]);
+      if (centre == centres.end()) continue;
+      sights.push_back((points.positions[i] - centre->second).normalized());
+    }
+    for (const SurveyPhoto& other : others) {
+      const Eigen::Vector3d sight =
+          (points.positions[i] - other.cam_from_world.Center()).normalized();
+      const auto is_near = [&](const Eigen::Vector3d& s) { return s.dot(sight) > kSameSight; };
+      if (std::ranges::any_of(sights, is_near)) out.views.push_back(other.id.value);
+    }
+    out.ends.push_back(out.views.size());
+  }
+  out.positions = std::move(points.positions);
+  return out;
 }
 
 NearestPoints SplatNearest(const SurveyPhoto& photo, const SightedPoints& points, int most_px) {

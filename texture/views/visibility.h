@@ -36,6 +36,13 @@ struct SightedPoints {
   bool IsSeenBy(size_t point, PhotoId photo) const;  // true where it is not known
 };
 
+// The same points with views by other photos than those they come from: a photo sees a point where
+// one of those that see it looks at it from about the same direction. What these show past the
+// border of a wall is past it for that photo, too; where none of them stood it stays unknown to
+// it, as unseen. Points of which nothing is known stay so.
+SightedPoints SightedByOthers(SightedPoints points, std::span<const SurveyPhoto> of_points,
+                              std::span<const SurveyPhoto> others);
+
 // The cloud points nearest to one photo, splatted into a small raster over the photo's picture:
 // index into the cloud, -1 where none.
 struct NearestPoints {
