@@ -50,6 +50,12 @@ struct DepthJob {
   std::string first_key;        // of its map of the first pass
 };
 
+// What matching one photo holds for each of its pixels besides what is cached: of two levels
+// planes, costs and what each source costs, and the map.
+uint64_t MatchingBytesPerPixel(int sources) {
+  return (12 + 4 + 4 * sources) * 5 / 4 + 8;
+}
+
 std::string Bytes(const double* values, size_t count) {
   return {reinterpret_cast<const char*>(values), count * sizeof(double)};
 }
@@ -181,9 +187,23 @@ class Densifier {
     return PinholeLevels(photo.camera, photo.cam_from_world, options_.max_image_px, 1)[0];
   }
 
+  // As many as match beside each other in the quarter of the memory limit that the caches of photos
+  // and maps leave for it.
+  int MatchingThreads() const {
+    uint64_t most_px = 1;
+    for (const SurveyPhoto& photo : photos_) {
+      const ImageSize size =
+          ScaledSize({photo.camera.width_px, photo.camera.height_px}, options_.max_image_px);
+      most_px = std::max(most_px, uint64_t{1} * size.width_px * size.height_px);
+    }
+    const uint64_t bytes = most_px * MatchingBytesPerPixel(options_.max_sources);
+    return static_cast<int>(
+        std::clamp<uint64_t>(context_.memory_limit_bytes / 4 / bytes, 1, context_.threads));
+  }
+
   template <typename Work>
   void ForEachPhoto(const Work& work) {
-    ParallelFor(photos_.size(), context_.threads, [&](size_t i) {
+    ParallelFor(photos_.size(), MatchingThreads(), [&](size_t i) {
       context_.ThrowIfCancelled();
       work(static_cast<int>(i));
       context_.progress->Advance();

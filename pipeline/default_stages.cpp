@@ -53,13 +53,14 @@ Stage DenseStage() {
   stage.needs = {"ingest", "calib"};
   stage.inputs = {kCapturesFile, kSparseFolder};
   stage.opens_photos = true;
-  // Photos (10 bytes a pixel) and depth maps (8) are cached, a quarter of the limit each.
+  // Photos (10 bytes a pixel) and depth maps (8) are cached, a quarter of the limit each; matching
+  // has another quarter.
   stage.cost = {.cpu_s_per_megapixel = 11,
                 .disk_mb_per_megapixel = 30,
                 .memory_mb = 60,
                 .memory_mb_per_photo = 0.18,
                 .memory_mb_per_megapixel = 0.2,
-                .memory_mb_per_largest_megapixel = 120,
+                .thread_mb_per_largest_megapixel = 60,
                 .cached_mb_per_megapixel = 18,
                 .cached_share = 0.5};
   stage.bind = [] { return Bind<DenseOptions>("dense", Describe, RunDense); };

@@ -33,6 +33,9 @@ struct StageCost {
   double memory_mb_per_photo = 0;
   double memory_mb_per_megapixel = 0;  // of all photos
   double memory_mb_per_largest_megapixel = 0;
+  // Of the largest photo, for each thread, as far as the memory limit's share allows.
+  double thread_mb_per_largest_megapixel = 0;
+  double threads_share = 0.25;         // of run.memory_limit_gb; one thread needs what it needs
   double cached_mb_per_megapixel = 0;  // of all photos, as far as the memory limit's share allows
   double cached_share = 0;             // of run.memory_limit_gb
 };

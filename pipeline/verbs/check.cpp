@@ -43,15 +43,19 @@ StageNeed Estimate(const Stage& stage, const BoundStage& bound, const PhotoFolde
   const double pairs = std::min(count * (count - 1) / 2, count * kPairsPerPhoto);
   const double cpu_s = cost.cpu_s_per_photo * count + cost.cpu_s_per_megapixel * megapixels +
                        cost.cpu_s_per_pair * pairs;
+  const double limit_mb = run.memory_limit_gb * 1024;
+  const double thread_mb = cost.thread_mb_per_largest_megapixel * largest;
+  const double threads_mb = std::min(thread_mb * ResolvedThreads(run),
+                                     std::max(thread_mb, cost.threads_share * limit_mb));
   StageNeed need;
   need.stage = stage.name;
   need.wall_s = cpu_s * (1 - kParallelShare + kParallelShare / ResolvedThreads(run));
   need.disk_mb = cost.disk_mb_per_photo * count + cost.disk_mb_per_megapixel * megapixels;
-  need.memory_mb = cost.memory_mb + cost.memory_mb_per_photo * count +
-                   cost.memory_mb_per_megapixel * megapixels +
-                   cost.memory_mb_per_largest_megapixel * largest +
-                   std::min(cost.cached_mb_per_megapixel * megapixels,
-                            cost.cached_share * run.memory_limit_gb * 1024);
+  need.memory_mb =
+      cost.memory_mb + cost.memory_mb_per_photo * count +
+      cost.memory_mb_per_megapixel * megapixels + cost.memory_mb_per_largest_megapixel * largest +
+      threads_mb +
+      std::min(cost.cached_mb_per_megapixel * megapixels, cost.cached_share * limit_mb);
   return need;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/verbs/check.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -125,6 +126,21 @@ TEST_F(CheckTest, CachesStayWithinTheirShareOfTheMemoryLimit) {
   EXPECT_NEAR(Check().needs.at(1).memory_mb, 100 + 1024, 1e-9);
   fake.table[1].cost.cached_mb_per_megapixel = 1e-6;
   EXPECT_NEAR(Check().needs.at(1).memory_mb, 100, 1e-3);
+}
+
+TEST_F(CheckTest, WorkOfThreadsStaysWithinItsShareOfTheMemoryLimitOrIsThatOfOne) {
+  const auto memory_mb = [&](int threads, double of_thread) {
+    fake.table[1].cost.thread_mb_per_largest_megapixel = of_thread;
+    WriteFile(fake.survey / "survey.toml",
+              fmt::format("photos = \"../photos\"\n[run]\nmemory_limit_gb = 2.0\nthreads = {}\n",
+                          threads));
+    return Check().needs.at(1).memory_mb;
+  };
+  const double one = memory_mb(1, 1);
+  EXPECT_GT(one, 0);
+  EXPECT_NEAR(memory_mb(3, 1), 3 * one, 1e-9);
+  EXPECT_NEAR(memory_mb(3, 400 / one), 512, 1e-9);
+  EXPECT_NEAR(memory_mb(3, 600 / one), 600, 1e-9);
 }
 
 TEST_F(CheckTest, EstimatesFollowTheSizeThatAStageReducesPhotosTo) {
