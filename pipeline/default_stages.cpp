@@ -40,7 +40,8 @@ Stage CalibStage() {
                 .cpu_s_per_pair = 0.33,
                 .disk_mb_per_photo = 1.4,
                 .memory_mb = 250,
-                .memory_mb_per_largest_megapixel = 200};
+                .thread_mb_per_largest_megapixel = 200,
+                .threads_share = 0.7};
   stage.bind = [] { return Bind<CalibOptions>("calib", Describe, RunCalib); };
   return stage;
 }

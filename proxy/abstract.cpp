@@ -173,6 +173,10 @@ void TakeSolids(std::vector<Solid> solids, bool mapped, std::vector<Building>& b
     building.watertight = !solids[b].facets.empty();
     if (building.watertight) {
       building.facets = std::move(solids[b].facets);
+      if (mapped) {
+        findings.of_map.push_back({fmt::format("{}: stands on no footprint of the map, {} facets",
+                                               building.id, building.facets.size())});
+      }
       findings.notes.push_back(fmt::format("{}: closed, points cover {:.0f} % of it", building.id,
                                            100 * solids[b].support));
       continue;
@@ -274,8 +278,9 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
                 "the planes in the dense cloud are too small or too thin for a single facet",
                 "Lower proxy.level_of_detail or proxy.min_area, or look at dense/cloud.ply.");
   }
+  const bool z_is_up = input.georef.metric && input.georef.frame == "enu";
   for (Building& building : proxy.buildings) {
-    building.source == "map" ? AssignIdsByPlace(building) : AssignIds(building);
+    z_is_up&& building.id != "G0" ? AssignIdsByPlace(building) : AssignIds(building);
   }
   if (proxy.metric) MeasureParty(proxy.up, proxy.buildings);
   return proxy;

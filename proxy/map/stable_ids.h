@@ -6,13 +6,13 @@
 
 namespace stucco {
 
-// Ids of a building of the map that stay when it is made again, or with more photos: by place, not
-// by size. Walls are parts of the planned facade that they have most of, in order along it, the
-// building on the left, the lower one first: "B0012/F03.1", "B0012/F03.2". All else is numbered by
-// class in the order in which a line that runs 20 degrees north of east comes by their middles:
-// walls of no facade ("B0012/W00"), roofs ("B0012/R0"), floors ("B0012/G0"). Facets are brought
-// into that order, walls of facades first. Requires a world whose x is east and y north, z about
-// up.
+// Ids of a building of a survey that knows north that stay when it is made again, or with more
+// photos: by place, not by size. Walls are parts of the planned facade that they have most of, in
+// order along it, the building on the left, the lower one first: "B0012/F03.1", "B0012/F03.2". All
+// else is numbered by class in the order in which a line that runs 20 degrees north of east comes
+// by their middles: walls of no facade ("B0012/W00"), roofs ("B0012/R0"), floors ("B0012/G0").
+// Facets are brought into that order, walls of facades first. Requires a world whose x is east and
+// y north, z about up.
 void AssignIdsByPlace(Building& building);
 
 }  // namespace stucco

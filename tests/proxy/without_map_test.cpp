@@ -185,5 +185,24 @@ TEST(WithoutAMap, AFrameIsNoHouse) {
   EXPECT_LE(roofs, (3 * 16 + 11.5) * 2.5 + 8);
 }
 
+// Both sides of the roof have one area, and so have opposite walls.
+TEST(WithoutAMap, FacetsAreNumberedByPlaceWhateverTheNoise) {
+  std::vector<test::MadeModel> made;
+  for (const uint64_t seed : {1, 2, 3}) {
+    test::CaptureOptions options = kDenseCapture;
+    options.seed = seed;
+    made.push_back(ModelOf(test::Capture({test::GableHouse()}, {test::GroundSquare(20)}, options)));
+  }
+  const Building& first = ClosedAlone(made[0]);
+  for (size_t m = 1; m < made.size(); ++m) {
+    const Building& again = ClosedAlone(made[m]);
+    ASSERT_EQ(again.facets.size(), first.facets.size());
+    for (size_t f = 0; f < first.facets.size(); ++f) {
+      EXPECT_EQ(again.facets[f].id, first.facets[f].id);
+      EXPECT_GT(again.facets[f].normal.dot(first.facets[f].normal), 0.98) << first.facets[f].id;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace stucco
