@@ -27,6 +27,11 @@ void PrintFacet(const EpochFacet& facet) {
   if (facet.other > 0) {
     std::cout << fmt::format("    {:.0f} % of it show something else\n", 100 * facet.other);
   }
+  for (const EpochPlace& place : facet.places) {
+    std::cout << fmt::format("    another {} from {:.1f} to {:.1f} along it, {:.1f} to {:.1f} up\n",
+                             place.what, place.along_m[0], place.along_m[1], place.up_m[0],
+                             place.up_m[1]);
+  }
 }
 
 void PrintReport(const RetextureReport& report, const CommonOptions& common) {

@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,6 +29,7 @@ namespace fs = std::filesystem;
 using internal::Figure;
 
 constexpr int kPicture_px = 720;
+constexpr int kPlace_px = 480;
 // Changes on less of a facet than this are not worth a line: a window that mirrors another sky.
 constexpr double kWorthNaming = 0.01;
 
@@ -37,6 +40,7 @@ struct Row {
   EmbeddedPicture before;
   EmbeddedPicture after;  // empty: as before
   std::string problem;
+  std::vector<std::pair<EmbeddedPicture, EmbeddedPicture>> places;  // that changed, before and now
 };
 
 struct Page {
@@ -98,22 +102,7 @@ std::string SummarySection(const Page& page) {
       Figure("Kept", count(FacetChoice::kKept)));
 }
 
-std::string ChangesSection(const Page& page) {
-  std::string lines;
-  for (const Row& row : page.rows) {
-    if (!HasChanged(*row.found)) continue;
-    lines += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>", NameOf(row),
-                         Changes(row, page.metric), ChoiceBadge(row.found->choice));
-  }
-  if (lines.empty()) return "";
-  return "<section aria-labelledby=\"changes\"><h2 id=\"changes\">What changed in the world</h2>"
-         "<div class=\"scroll\"><table class=\"plain\"><thead><tr><th scope=\"col\">Surface</th>"
-         "<th scope=\"col\">Since the survey</th><th scope=\"col\">Its picture is</th></tr></thead>"
-         "<tbody>" +
-         lines + "</tbody></table></div></section>\n";
-}
-
-std::string PictureFigure(const EmbeddedPicture& picture, const std::string& id, const char* when) {
+std::string PictureFigure(const EmbeddedPicture& picture, std::string_view id, const char* when) {
   if (picture.uri.empty()) {
     return fmt::format(
         "<figure><p class=\"no-texture\">No picture</p><figcaption>{}</figcaption>"
@@ -124,6 +113,37 @@ std::string PictureFigure(const EmbeddedPicture& picture, const std::string& id,
       "<figure><img loading=\"lazy\" src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{} {}\">"
       "<figcaption>{}</figcaption></figure>",
       picture.uri, picture.width_px, picture.height_px, EscapeHtml(id), when, when);
+}
+
+// Where on a facet something changed, and how it looks then and now.
+std::string PlaceFigures(const Row& row, size_t number, bool metric) {
+  const EpochPlace& place = row.found->places[number];
+  const auto range = [&](const std::array<double, 2>& from_to) {
+    return fmt::format("{} to {}", Decimal(from_to[0], 1), Length(from_to[1], metric));
+  };
+  const std::string where =
+      fmt::format("{}: another {} on {}, {} from its left and {} above its lower edge", NameOf(row),
+                  place.what, Area(place.area_m2, metric), range(place.along_m), range(place.up_m));
+  const std::string name = fmt::format("{}, place {},", row.found->id, number + 1);
+  return "<article class=\"epoch-facade\"><p>" + where + "</p><div class=\"then-now\">" +
+         PictureFigure(row.places[number].first, name, "before") +
+         PictureFigure(row.places[number].second, name, "now") + "</div></article>";
+}
+
+std::string ChangesSection(const Page& page) {
+  std::string lines, places;
+  for (const Row& row : page.rows) {
+    if (!HasChanged(*row.found)) continue;
+    for (size_t p = 0; p < row.places.size(); ++p) places += PlaceFigures(row, p, page.metric);
+    lines += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>", NameOf(row),
+                         Changes(row, page.metric), ChoiceBadge(row.found->choice));
+  }
+  if (lines.empty()) return "";
+  return "<section aria-labelledby=\"changes\"><h2 id=\"changes\">What changed in the world</h2>"
+         "<div class=\"scroll\"><table class=\"plain\"><thead><tr><th scope=\"col\">Surface</th>"
+         "<th scope=\"col\">Since the survey</th><th scope=\"col\">Its picture is</th></tr></thead>"
+         "<tbody>" +
+         lines + "</tbody></table></div>" + places + "</section>\n";
 }
 
 std::string Figures(const Row& row, bool metric) {
@@ -238,6 +258,12 @@ std::vector<Row> MakeRows(const Epoch& epoch, const Proxy& proxy, const StageCon
     const bool kept = row.found->choice == FacetChoice::kKept;
     row.before = PictureOf(before.facets[i], old_folder, kept ? 120 : side_px, row.problem);
     if (!kept) row.after = PictureOf(after.facets[i], context.out, side_px, row.problem);
+    if (HasChanged(*row.found)) {
+      for (const EpochPlace& place : row.found->places) {
+        row.places.emplace_back(MakePicture(context.out, place.before, kPlace_px, row.problem),
+                                MakePicture(context.out, place.after, kPlace_px, row.problem));
+      }
+    }
     context.progress->Advance();
   });
   return rows;

@@ -40,13 +40,13 @@ std::optional<Image> Load(const std::filesystem::path& folder, const std::string
   if (name.empty()) return std::nullopt;
   std::error_code ignored;
   if (!std::filesystem::exists(folder / name, ignored)) {
-    problem = "texture/" + name + " is missing";
+    problem = (folder.filename() / name).generic_string() + " is missing";
     return std::nullopt;
   }
   try {
     return ReadImage(folder / name);
   } catch (const std::exception&) {
-    problem = "texture/" + name + " cannot be read";
+    problem = (folder.filename() / name).generic_string() + " cannot be read";
     return std::nullopt;
   }
 }
@@ -154,6 +154,14 @@ int PictureThreads(const std::vector<FacetRow>& rows, int threads, uint64_t memo
   }
   const uint64_t fit = std::max<uint64_t>(1, memory_limit_bytes / largest);
   return static_cast<int>(std::min<uint64_t>(fit, static_cast<uint64_t>(std::max(1, threads))));
+}
+
+EmbeddedPicture MakePicture(const std::filesystem::path& folder, const std::string& name,
+                            int picture_px, std::string& problem) {
+  auto image = Load(folder, name, problem);
+  if (!image) return {};
+  return Embedded(Shrunk(Bgr(*image), picture_px, cv::INTER_AREA), ".jpg",
+                  {cv::IMWRITE_JPEG_QUALITY, 82});
 }
 
 FacetPictures MakeFacetPictures(const FacetRow& row, const std::filesystem::path& texture_folder,

@@ -37,6 +37,10 @@ inline constexpr char kInpaintedColor[] = "#b9b9b9";
 FacetPictures MakeFacetPictures(const FacetRow& row, const std::filesystem::path& texture_folder,
                                 int picture_px);
 
+// One picture below `folder`, shrunk. What is missing or damaged is empty and named in `problem`.
+EmbeddedPicture MakePicture(const std::filesystem::path& folder, const std::string& name,
+                            int picture_px, std::string& problem);
+
 // How many of `threads` may make pictures at once within the memory limit: textures are read in
 // full size, whose bytes follow from textures.json.
 int PictureThreads(const std::vector<FacetRow>& rows, int threads, uint64_t memory_limit_bytes);

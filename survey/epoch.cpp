@@ -54,6 +54,17 @@ Json ToJson(const EpochPhoto& photo) {
   return json;
 }
 
+Json ToJson(const EpochPlace& place) {
+  return {{"what", place.what},       {"along_m", place.along_m}, {"up_m", place.up_m},
+          {"area_m2", place.area_m2}, {"before", place.before},   {"after", place.after}};
+}
+
+Json PlacesOf(const EpochFacet& facet) {
+  Json places = Json::array();
+  for (const EpochPlace& place : facet.places) places.push_back(ToJson(place));
+  return places;
+}
+
 Json ToJson(const EpochFacet& facet) {
   return {{"id", facet.id},
           {"choice", Name(facet.choice)},
@@ -66,6 +77,7 @@ Json ToJson(const EpochFacet& facet) {
            {{"repainted", Known(facet.both > 0, facet.repainted)},
             {"other", Known(facet.compared > 0, facet.other)},
             {"shaded", Known(facet.compared > 0, facet.shaded)}}},
+          {"places", PlacesOf(facet)},
           {"gsd_before_m", Known(facet.gsd_before_m > 0, facet.gsd_before_m)},
           {"gsd_after_m", Known(facet.gsd_after_m > 0, facet.gsd_after_m)},
           {"shift_px", Known(facet.shift_px >= 0, facet.shift_px)}};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -30,6 +31,17 @@ enum class FacetChoice {
 };
 std::string_view Name(FacetChoice choice);  // "kept", "replaced", "filled", "painted"
 
+// A place on a facet where what photos show changed. Metres (units of the world) on the facet's
+// picture, from its left and from its lower edge.
+struct EpochPlace {
+  std::string what;  // "colour" or "pattern"
+  std::array<double, 2> along_m = {};
+  std::array<double, 2> up_m = {};
+  double area_m2 = 0;  // that changed in it
+  std::string before;  // pictures of it and what is around it, relative to the epoch's folder
+  std::string after;
+};
+
 // Shares are of the facet's area.
 struct EpochFacet {
   std::string id;
@@ -45,6 +57,7 @@ struct EpochFacet {
   double gsd_before_m = 0;  // median size of a photo pixel; 0: not painted
   double gsd_after_m = 0;
   double shift_px = -1;  // median distance of details then and now, texels; -1: not measured
+  std::vector<EpochPlace> places;  // that changed; the largest first
 };
 
 // A new photo, and where it is in the survey.

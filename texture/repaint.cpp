@@ -144,6 +144,18 @@ void CopyFiles(const TexturedFacet& facet, const fs::path& from, const fs::path&
   }
 }
 
+// Writes the pictures of what changed on a facet and names them in it.
+void WritePlaces(const EpochPicture& made, const std::string& name, const fs::path& out,
+                 EpochFacet& found) {
+  for (size_t p = 0; p < made.places.size(); ++p) {
+    EpochPlace& place = found.places[p];
+    place.before = fmt::format("changes/{}.{}.before.png", name, p + 1);
+    place.after = fmt::format("changes/{}.{}.after.png", name, p + 1);
+    WriteFile(out / place.before, made.places[p].before_png);
+    WriteFile(out / place.after, made.places[p].after_png);
+  }
+}
+
 // Decides facet by facet, and writes what the epoch has of each.
 std::vector<EpochFacet> WritePictures(const Work& work, TextureSet& textures) {
   std::vector<std::string> ids;
@@ -170,6 +182,7 @@ std::vector<EpochFacet> WritePictures(const Work& work, TextureSet& textures) {
                                           painted, work.level, grid ? grid->relief : nullptr},
                                          style);
     found[i] = made.found;
+    WritePlaces(made, names[i], work.context.out, found[i]);
     if (made.files) {
       textures.facets[i] = StoreFacet(std::move(*made.files), *work.facets[i], names[i], work.input,
                                       work.context.out);
@@ -191,7 +204,7 @@ std::vector<EpochFacet> RepaintSurvey(const TextureOptions& options, const Repai
   input.photos = request.photos;
   const std::vector<SurveyPhoto> of_survey = ReadSurveyPhotos(context.survey);
   input.cloud = SightedByOthers(std::move(input.cloud), of_survey, input.photos);
-  for (const char* folder : {"textures", "labels", "orthophotos", kReliefFolder}) {
+  for (const char* folder : {"textures", "labels", "orthophotos", "changes", kReliefFolder}) {
     fs::create_directories(context.out / folder);
   }
   const OcclusionScene occlusion(input.proxy);

@@ -80,6 +80,21 @@ TEST_F(EpochReport, ShowsWhatIsAnotherBeforeAndNow) {
   EXPECT_TRUE(Has(page, "alt=\"" + id + " now\""));
 }
 
+TEST_F(EpochReport, ShowsPlacesThatChangedAlsoOnPicturesThatStay) {
+  EpochFacet& found = epoch_.facets[0];
+  found.both = found.compared = 0.9;
+  found.other = 0.05;
+  found.places = {{"pattern", {1, 2.25}, {0.5, 1.5}, 0.75, "changes/a.png", "changes/gone.png"}};
+  fs::create_directories(folder_ / "out/changes");
+  fs::copy_file(folder_ / "out" / ReadTextureSet(folder_ / kTexturesFile).facets[0].image,
+                folder_ / "out/changes/a.png");
+  const std::string page = Page();
+  EXPECT_TRUE(Has(page, "another pattern on"));
+  EXPECT_TRUE(Has(page, "1.0 to 2.25 m from its left and 0.5 to 1.50 m above its lower edge"));
+  EXPECT_TRUE(Has(page, "alt=\"" + found.id + ", place 1, before\""));
+  EXPECT_TRUE(Has(page, "No picture"));
+}
+
 // One mirrored window is not worth naming.
 TEST_F(EpochReport, LeavesSmallChangesOut) {
   epoch_.facets[1].both = epoch_.facets[1].compared = 1;

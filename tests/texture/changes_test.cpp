@@ -90,7 +90,30 @@ TEST(FindChanges, NewPatternIsFound) {
     if (!in_sign) return c;
     return (x / 9 + y / 7) % 2 == 0 ? Colour(20, 60, 160) : Colour(230, 230, 230);
   });
-  EXPECT_NEAR(Changes(wall, with_sign).other, 0.25, 0.08);
+  const FacetChanges changes = Changes(wall, with_sign);
+  EXPECT_NEAR(changes.other, 0.25, 0.08);
+  ASSERT_EQ(changes.boxes.size(), 1u);
+  const ChangedBox& box = changes.boxes[0];
+  EXPECT_TRUE(box.pattern);
+  EXPECT_NEAR(box.left, 64, 16);
+  EXPECT_NEAR(box.left + box.width, 192, 16);
+  EXPECT_NEAR(box.top, 48, 16);
+  EXPECT_NEAR(box.top + box.height, 144, 16);
+  EXPECT_NEAR(box.share, changes.repainted + changes.other, 1e-9);
+}
+
+TEST(FindChanges, PlacesApartAreListedTheLargestFirst) {
+  const FacetPicture wall = Wall();
+  const FacetPicture painted = Painted(wall, [](int x, int y, const Colour& c) -> Colour {
+    const bool small = x < 64 && y < 64, large = x >= 128 && y >= 64;
+    return small || large ? Colour(c.x(), 0.55 * c.y(), 0.5 * c.z()) : c;
+  });
+  const FacetChanges changes = Changes(wall, painted);
+  ASSERT_EQ(changes.boxes.size(), 2u);
+  EXPECT_GT(changes.boxes[0].share, changes.boxes[1].share);
+  EXPECT_GE(changes.boxes[0].left, 112);
+  EXPECT_LE(changes.boxes[1].left + changes.boxes[1].width, 80);
+  EXPECT_FALSE(changes.boxes[0].pattern);
 }
 
 // From another side eaves cover another part of the wall: that is no change, a wall all painted is.
@@ -106,6 +129,7 @@ TEST(FindChanges, FromAnotherSideOnlyMuchColourCounts) {
   };
   EXPECT_EQ(Changed(changed_above(32)), 0);
   EXPECT_EQ(changed_above(32).compared, 0);
+  EXPECT_TRUE(changed_above(32).boxes.empty());
   EXPECT_NEAR(changed_above(144).repainted, 0.75, 0.05);
   EXPECT_GT(Changed(Changes(wall, Painted(wall,
                                           [](int, int y, const Colour& c) -> Colour {

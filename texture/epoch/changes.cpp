@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <opencv2/imgproc.hpp>
 
 #include "texture/light/colour.h"
@@ -88,7 +89,7 @@ class Comparison {
     }
     if (area == 0) return changes;
     changes.compared = static_cast<double>(compared) / static_cast<double>(area);
-    const std::vector<Change> found = Together(Judge());
+    std::vector<Change> found = Together(Judge());
     size_t shown = 0;
     size_t aslant = 0;
     size_t colour_aslant = 0;
@@ -106,11 +107,14 @@ class Comparison {
     if (shown == 0) return changes;
     if (static_cast<double>(colour_aslant) >= kCoveredByRelief * static_cast<double>(aslant)) {
       colour += colour_aslant;
+    } else {
+      std::ranges::replace(found, Change::kColourAslant, Change::kNone);
     }
     const double per_block = static_cast<double>(both) / static_cast<double>(area * shown);
     changes.repainted = per_block * static_cast<double>(colour);
     changes.other = per_block * static_cast<double>(pattern);
     changes.shaded = per_block * static_cast<double>(shade);
+    changes.boxes = Boxes(found, per_block);
     return changes;
   }
 
@@ -242,6 +246,39 @@ class Comparison {
       }
     }
     return kept;
+  }
+
+  // What changed and lies together: blocks with no more than one between them, as frames of windows
+  // keep their colour where all around them is painted over.
+  std::vector<ChangedBox> Boxes(const std::vector<Change>& found, double share_of_block) const {
+    const auto is_change = [&](int block) {
+      return found[block] != Change::kNone && found[block] != Change::kShade;
+    };
+    cv::Mat changed(rows_, columns_, CV_8U);
+    for (int i = 0; i < rows_ * columns_; ++i) changed.data[i] = is_change(i) ? 1 : 0;
+    cv::dilate(changed, changed, cv::Mat());
+    cv::Mat places;
+    const int count = cv::connectedComponents(changed, places, 8, CV_32S);
+    std::vector<cv::Rect> rects(count);
+    std::vector<int> blocks(count, 0), patterns(count, 0);
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        const int i = row * columns_ + column;
+        if (!is_change(i)) continue;
+        const int place = places.at<int>(row, column);
+        rects[place] |= cv::Rect(column * kBlock, row * kBlock, kBlock, kBlock);
+        ++blocks[place];
+        patterns[place] += found[i] == Change::kPattern;
+      }
+    }
+    std::vector<ChangedBox> boxes;
+    for (int place = 1; place < count; ++place) {
+      const cv::Rect rect = rects[place] & cv::Rect(0, 0, width_, before_.picture.height_px);
+      boxes.push_back({rect.x, rect.y, rect.width, rect.height, share_of_block * blocks[place],
+                       2 * patterns[place] > blocks[place]});
+    }
+    std::ranges::stable_sort(boxes, std::greater(), &ChangedBox::share);
+    return boxes;
   }
 
   const FacetPicture& before_;

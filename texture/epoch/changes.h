@@ -22,12 +22,23 @@ inline bool IsPainted(uint8_t label) {
   return label != 0 && label != 255;
 }
 
+// A place on a facet where it changed, texels of its picture.
+struct ChangedBox {
+  int left = 0;
+  int top = 0;
+  int width = 0;
+  int height = 0;
+  double share = 0;      // of the facet's area that changed in it
+  bool pattern = false;  // most of it is of another pattern, else of another colour
+};
+
 // What differs between two pictures of a facet, as shares of the facet's area.
 struct FacetChanges {
-  double compared = 0;   // painted from photos in both
-  double repainted = 0;  // of another colour, with the same pattern or none
-  double other = 0;      // of another pattern and hue: something new, or gone
-  double shaded = 0;     // of another pattern in light and dark alone, as shadows draw it
+  double compared = 0;            // painted from photos in both
+  double repainted = 0;           // of another colour, with the same pattern or none
+  double other = 0;               // of another pattern and hue: something new, or gone
+  double shaded = 0;              // of another pattern in light and dark alone, as shadows draw it
+  std::vector<ChangedBox> boxes;  // what is repainted or other, the largest first
 };
 
 // Compares two pictures on the same grid block by block (16 texels a side, where both are painted),

@@ -210,7 +210,8 @@ std::vector<uint8_t> AwayFromEdges(const Canvas& canvas, const Relief* relief) {
 
 // Fills in what is found, before anything is decided.
 FacetEvidence Compare(const EpochFacetInput& input, const FacetPicture& after, const Canvas& canvas,
-                      const EpochStyle& style, EpochFacet& found) {
+                      const EpochStyle& style, EpochPicture& result) {
+  EpochFacet& found = result.found;
   const std::vector<uint8_t>& mask = canvas.mask;
   const std::vector<uint8_t> painted_after = PaintedTexels(after);
   found.shown = ShareOf(painted_after, painted_after, mask);
@@ -227,6 +228,12 @@ FacetEvidence Compare(const EpochFacetInput& input, const FacetPicture& after, c
   found.repainted = changes.repainted;
   found.other = changes.other;
   found.shaded = changes.shaded;
+  const auto inside = static_cast<double>(mask.size() - std::ranges::count(mask, uint8_t{0}));
+  const double area_m2 = inside * canvas.grid.texel * canvas.grid.texel;
+  for (const ChangedBox& box : WorthShowing(changes.boxes, area_m2)) {
+    found.places.push_back(PlaceOf(box, canvas.grid, area_m2));
+    result.places.push_back(ShowPlace(box, *input.before, after));
+  }
   found.shift_px = ShiftBetween(*input.before, after, style.options.align_limit_px);
   evidence.painted_before = ShareOf(painted_before, painted_before, mask);
   evidence.both = ShareOf(painted_before, painted_after, mask);
@@ -285,7 +292,7 @@ EpochPicture MakeEpochPicture(EpochFacetInput input, const EpochStyle& style) {
   Canvas canvas{GridOf(input.painted.facet, input.facet), {}};
   canvas.mask = RasterizeFacet(input.facet, canvas.grid);
   const FacetDecision decision =
-      Decide(style.replace, Compare(input, *after, canvas, style, result.found));
+      Decide(style.replace, Compare(input, *after, canvas, style, result));
   result.found.choice = decision.choice;
   result.found.why = decision.why;
   if (decision.choice == FacetChoice::kKept) return result;

@@ -15,6 +15,7 @@
 #include "survey/proxy.h"
 #include "survey/survey_photo.h"
 #include "survey/texture_set.h"
+#include "texture/epoch/changed_places.h"
 #include "texture/epoch/changes.h"
 #include "texture/light/colour.h"
 #include "texture/options/texture_options.h"
@@ -54,7 +55,8 @@ struct EpochStyle {
 
 struct EpochPicture {
   EpochFacet found;
-  std::optional<FacetFiles> files;  // nothing: the facet keeps its picture
+  std::optional<FacetFiles> files;    // nothing: the facet keeps its picture
+  std::vector<PlacePictures> places;  // by place of `found`, whose names are left open
 };
 
 // Compares, decides and puts together.

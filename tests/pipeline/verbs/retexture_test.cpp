@@ -137,6 +137,13 @@ TEST_F(RetextureSample, NamesAndReplacesTheRepaintedFacadeAndNothingElse) {
     EXPECT_EQ(facet.choice, facet.id == wall->id ? FacetChoice::kReplaced : FacetChoice::kKept)
         << facet.id << ": " << facet.why;
     EXPECT_EQ(facet.repainted > 0.7, facet.id == wall->id) << facet.id;
+    if (facet.id != wall->id) continue;
+    ASSERT_FALSE(facet.places.empty());
+    EXPECT_EQ(facet.places[0].what, "colour");
+    EXPECT_GT(facet.places[0].along_m[1] - facet.places[0].along_m[0], 3);
+    for (const std::string& picture : {facet.places[0].before, facet.places[0].after}) {
+      EXPECT_GT(ReadImage(painted.folder / picture).width_px, 32);
+    }
   }
   for (const std::string& name : OtherPictures(painted.folder)) EXPECT_THAT(name, HasSubstr(file));
   const Image blue = ReadImage(painted.folder / "textures" / (file + ".png"));
