@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <span>
 
 #include "proxy/facets/facets.h"
+#include "proxy/facets/not_shown.h"
 #include "proxy/facets/plane_view.h"
 #include "proxy/map/map_solids.h"
 #include "proxy/map/off_the_map.h"
@@ -224,6 +226,20 @@ void FollowTerrain(const PlanarScene& scene, std::vector<Building>& buildings,
   ground->facets = std::move(terrain);
 }
 
+// Says what photos show of buildings and no facet does.
+void NameNotShown(const PlanarScene& scene, std::span<const Plane> planes, const Proxy& proxy,
+                  int threads, ProxyFindings& findings) {
+  for (const NotShown& part : FindNotShown(scene, planes, proxy.buildings, threads)) {
+    const char* what = part.role == PlaneRole::kWall      ? "a wall"
+                       : part.role == PlaneRole::kCeiling ? "an underside"
+                                                          : "a roof";
+    findings.of_model.push_back(
+        fmt::format("{}: photos show {} that is no facet, {:.0f} {}, at {:.1f}, {:.1f}, {:.1f}",
+                    part.building, what, part.area, proxy.metric ? "m2" : "square units",
+                    part.middle.x(), part.middle.y(), part.middle.z()));
+  }
+}
+
 bool GoesByMap(const ProxyInput& input, const ProxyOptions& options) {
   return options.use_map && options.solids && input.plan && input.georef.metric &&
          input.georef.frame == "enu";
@@ -242,6 +258,9 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   } else if (options.solids && input.georef.metric) {
     closed = BuildWithoutMap(scene, input, options, threads, findings);
   }
+  std::vector<Plane> planes;  // all that buildings have
+  for (const auto& cluster : scene.buildings)
+    std::ranges::copy(cluster, std::back_inserter(planes));
   if (!closed.outlines.empty()) scene.buildings = OffTheMap(scene, closed.outlines, findings);
   const auto named = std::ranges::count(closed.buildings, "cloud", &Building::source);
   PlaneTable table = TableOf(scene, static_cast<size_t>(named));
@@ -283,6 +302,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
     z_is_up&& building.id != "G0" ? AssignIdsByPlace(building) : AssignIds(building);
   }
   if (proxy.metric) MeasureParty(proxy.up, proxy.buildings);
+  NameNotShown(scene, planes, proxy, threads, findings);
   return proxy;
 }
 

@@ -76,6 +76,10 @@ void RunProxy(const ProxyOptions& options, StageContext& context) {
     }
     proxy.findings.push_back(text);
   }
+  for (const std::string& text : findings.of_model) {
+    progress.Note(text);
+    proxy.findings.push_back(text);
+  }
   for (const auto& warning : findings.warnings) progress.Warn(warning);
   context.ThrowIfCancelled();
   progress.Advance();

@@ -68,8 +68,9 @@ std::string MapFindings(const Proxy& proxy) {
   }
   const bool imported = std::ranges::any_of(
       proxy.buildings, [](const Building& building) { return building.source == "file"; });
-  return fmt::format("<h3>{}</h3><ul class=\"findings\">{}</ul>",
-                     imported ? "Where the model is from" : "The map and the photos", items);
+  return fmt::format(
+      "<h3>{}</h3><ul class=\"findings\">{}</ul>",
+      imported ? "Where the model is from" : "Where the model, the map and photos differ", items);
 }
 
 }  // namespace

@@ -57,7 +57,8 @@ struct Proxy {
   std::vector<Building> buildings;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   bool metric = false;
-  // Where the plan's map and what photos show disagree, a sentence each.
+  // Where the plan's map and what photos show disagree, and what they show of buildings that is no
+  // facet; a sentence each.
   std::vector<std::string> findings;
 };
 

@@ -18,6 +18,7 @@ struct ProxyFindings {
     bool warns = false;
   };
   std::vector<OfMap> of_map;
+  std::vector<std::string> of_model;  // what photos show and the model lacks; kept, too
 };
 
 }  // namespace stucco

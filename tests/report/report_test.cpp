@@ -116,7 +116,7 @@ TEST_F(Report, SaysWhereTheMapAndThePhotosDisagree) {
   made.proxy.findings.clear();
   WriteSurvey(made, folder_.path());
   Run();
-  EXPECT_FALSE(Has(Content(Page()), "The map and the photos"));
+  EXPECT_FALSE(Has(Content(Page()), "Where the model, the map and photos differ"));
 }
 
 TEST_F(Report, NamesFacadesAsThePlanDoes) {

@@ -55,10 +55,9 @@ EpochPlace PlaceOf(const ChangedBox& box, const TexelGrid& grid, double facet_ar
 PlacePictures ShowPlace(const ChangedBox& box, const FacetPicture& before,
                         const FacetPicture& after) {
   const int margin = std::max(box.width, box.height) / 2;
-  const cv::Rect part =
-      cv::Rect(box.left - margin, box.top - margin, box.width + 2 * margin,
-               box.height + 2 * margin) &
-      cv::Rect(0, 0, before.picture.width_px, before.picture.height_px);
+  const cv::Rect part = cv::Rect(box.left - margin, box.top - margin, box.width + 2 * margin,
+                                 box.height + 2 * margin) &
+                        cv::Rect(0, 0, before.picture.width_px, before.picture.height_px);
   assert(!part.empty() && after.picture.data.size() == before.picture.data.size());
   return {PngOf(before.picture, part), PngOf(after.picture, part)};
 }

@@ -26,8 +26,8 @@ struct PlacePictures {
   std::string after_png;
 };
 
-// With half of its size around it on each side, in the texels of the facet, or fewer where these are
-// more than a page can show. Requires a box inside of both pictures.
+// With half of its size around it on each side, in the texels of the facet, or fewer where these
+// are more than a page can show. Requires a box inside of both pictures.
 PlacePictures ShowPlace(const ChangedBox& box, const FacetPicture& before,
                         const FacetPicture& after);
 
