@@ -24,10 +24,10 @@ namespace bg = boost::geometry;
 using Corner3 = bg::model::point<double, 3, bg::cs::cartesian>;
 using Box3 = bg::model::box<Corner3>;
 
-constexpr double kSameWay = 0.7;        // cosine of 45 degrees
-constexpr double kOnFacet = 2;          // levels of detail
-constexpr double kBesideBuilding = 6;   // likewise
-constexpr double kWorthNaming = 4;      // smallest facets
+constexpr double kSameWay = 0.7;       // cosine of 45 degrees
+constexpr double kOnFacet = 2;         // levels of detail
+constexpr double kBesideBuilding = 6;  // likewise
+constexpr double kWorthNaming = 4;     // smallest facets
 
 Corner3 CornerOf(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};

@@ -14,7 +14,7 @@ namespace stucco {
 
 // A part of a plane of the cloud that lies on no facet of the model.
 struct NotShown {
-  std::string building;                           // the nearest one
+  std::string building;  // the nearest one
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   double area = 0;
   PlaneRole role = PlaneRole::kFree;

@@ -40,7 +40,8 @@ struct WallLine {
   double offset = 0;
   double from = 0, to = 0;   // along the direction to the left of `outwards`
   std::vector<double> tops;  // of the wall, by half metres from `from`
-  bool sure = false;         // large, and none of leaves
+  bool sure = false;         // large, none of leaves, and nothing shows right behind it
+  std::vector<int> samples;
 
   Eigen::Vector2d Along() const { return {-outwards.y(), outwards.x()}; }
 
@@ -142,8 +143,33 @@ class NewFootprints {
         beside.walls.back().sure = plane.area > kSmallest_m2 && !IsOfLeaves(scene_, plane);
       }
     }
+    for (WallLine& wall : beside.walls) {
+      wall.sure = wall.sure && !std::ranges::any_of(beside.walls, [&](const WallLine& other) {
+                    return ShowsBehind(wall, other);
+                  });
+    }
     for (const RoofBeside& roof : roofs) AddRoof(roof, beside);
     return beside;
+  }
+
+  // Whether the other one is a wall that shows between this one's pieces: fronts of balconies stand
+  // in a plane of their own before it. A wall hides what stands behind it below its top.
+  bool ShowsBehind(const WallLine& front, const WallLine& other) const {
+    constexpr double kSameWay = 0.98;   // cosine of 11 degrees
+    constexpr double kNearest_m = 0.4;  // deeper than panes and doors lie back
+    constexpr double kFarthest_m = 2.2;
+    constexpr double kMuch = 0.25;  // of its own samples
+    if (front.outwards.dot(other.outwards) < kSameWay) return false;
+    size_t behind = 0;
+    for (const int i : other.samples) {
+      const Eigen::Vector3d& p = survey_.samples.positions[i];
+      const double off = front.offset - front.outwards.dot(p.head<2>());
+      const double at = front.Along().dot(p.head<2>());
+      if (off < kNearest_m || off > kFarthest_m || at < front.from || at > front.to) continue;
+      const double top = front.tops[static_cast<size_t>((at - front.from) / WallLine::kBin_m)];
+      behind += p.z() < top - kNearest_m;
+    }
+    return static_cast<double>(behind) > kMuch * static_cast<double>(front.samples.size());
   }
 
   // The roof of a wing that leans on a wall goes on far before it; balconies end there.
@@ -170,6 +196,7 @@ class NewFootprints {
   WallLine WallOf(const Plane& plane, const Eigen::Vector3d& normal,
                   const std::vector<int>& samples) const {
     WallLine wall;
+    wall.samples = samples;
     wall.outwards = normal.head<2>().normalized();
     wall.offset = plane.offset / normal.head<2>().norm();
     std::vector<double> along;

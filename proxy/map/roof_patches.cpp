@@ -18,15 +18,25 @@ constexpr size_t kRectangleCorners = 4;
 constexpr double kLeastSide = 4;  // of a patch, levels of detail
 constexpr double kLow_m = 0.6;
 constexpr double kSmall_m2 = 6;
-constexpr double kReach = 3;     // a rectangle may go so many levels of detail beyond its patch
-constexpr double kCorner = 1.5;  // what a corner less is worth, times the level of detail squared
+// A parapet and what smears its points over the roof behind it.
+constexpr double kLevel = 0.05;     // slope of a roof that has one
+constexpr double kParapet_m = 1.2;  // its height
+constexpr double kParapetWidth_m = 1;
+constexpr double kParapetSlope_m = 2.5;  // width of a strip that rises to it
+constexpr double kSameHeight_m = 0.3;
+constexpr double kOutwards = 0.7;  // cosine
+constexpr double kReach = 3;       // a rectangle may go so many levels of detail beyond its patch
+constexpr double kCorner = 1.5;    // what a corner less is worth, times the level of detail squared
 
 // Connected cells of one label.
 struct Patch {
   std::vector<int> cells;  // ascending
   int label = 0;
-  int around = -1;         // the label that most of its border meets; -1: there is no other
-  bool at_border = false;  // of the footprint
+  int around = -1;      // the label that most of its border meets; -1: there is no other
+  double border_m = 0;  // where it ends with the footprint
+  Eigen::Vector2d border_middle = Eigen::Vector2d::Zero();
+
+  bool AtBorder() const { return border_m > 0; }
 };
 
 // A line across the patch, and on which side of it the cells that matter lie.
@@ -45,13 +55,13 @@ class Tidier {
       links_of_cell_[problem.links[l].a].push_back(l);
       links_of_cell_[problem.links[l].b].push_back(l);
     }
-    at_border_.assign(problem.data.size(), false);
+    border_of_cell_.resize(problem.data.size());
     for (const Arrangement::Edge& edge : input.arrangement.edges) {
       const int left = CellOf(edge.left);
       const int right = CellOf(edge.right);
       if (left >= 0 && right >= 0) length_of_link_.push_back(LengthOf(edge));
-      if (left >= 0 && right < 0) at_border_[left] = true;
-      if (right >= 0 && left < 0) at_border_[right] = true;
+      if (left >= 0 && right < 0) border_of_cell_[left].push_back(&edge);
+      if (right >= 0 && left < 0) border_of_cell_[right].push_back(&edge);
     }
     assert(length_of_link_.size() == problem.links.size());
   }
@@ -63,9 +73,9 @@ class Tidier {
       const Patch patch = PatchAt(static_cast<int>(cell));
       for (const int c : patch.cells) done[c] = true;
       if (patch.around < 0 || patch.around == none_ || patch.label == none_) continue;
-      if (IsSlight(patch)) {
+      if (MayGo(patch) && (IsSlight(patch) || IsRim(patch))) {
         for (const int c : patch.cells) labels_[c] = patch.around;
-      } else if (!patch.at_border) {
+      } else if (!patch.AtBorder()) {
         Square(patch);
       }
     }
@@ -101,7 +111,13 @@ class Tidier {
       const int cell = open.back();
       open.pop_back();
       patch.cells.push_back(cell);
-      patch.at_border = patch.at_border || at_border_[cell];
+      for (const Arrangement::Edge* edge : border_of_cell_[cell]) {
+        const double length = LengthOf(*edge);
+        patch.border_m += length;
+        patch.border_middle +=
+            length / 2 *
+            (input_.arrangement.vertices[edge->from] + input_.arrangement.vertices[edge->to]);
+      }
       for (const size_t link : links_of_cell_[cell]) {
         const int next = Other(link, cell);
         if (labels_[next] != patch.label) {
@@ -113,10 +129,22 @@ class Tidier {
       }
     }
     std::ranges::sort(patch.cells);
+    if (patch.AtBorder()) patch.border_middle /= patch.border_m;
     if (border_m.empty()) return patch;
     patch.around =
         std::ranges::max_element(border_m, {}, [](const auto& b) { return b.second; })->first;
     return patch;
+  }
+
+  Eigen::Vector2d CentroidOf(const Patch& patch) const {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    double area = 0;
+    for (const int cell : patch.cells) {
+      const double of_cell = SignedArea(RingOf(input_.arrangement, input_.face_of_cell[cell]));
+      sum += of_cell * MiddleOf(cell);
+      area += of_cell;
+    }
+    return sum / area;
   }
 
   double AreaOf(const Patch& patch) const {
@@ -127,23 +155,46 @@ class Tidier {
     return area;
   }
 
-  bool IsSlight(const Patch& patch) const {
-    const bool allowed = std::ranges::all_of(patch.cells, [&](int cell) {
+  bool MayGo(const Patch& patch) const {
+    return std::ranges::all_of(patch.cells, [&](int cell) {
       return input_.problem.data[cell][patch.around] < input_.forbidden;
     });
-    if (!allowed) return false;
-    const double area = AreaOf(patch);
-    if (area < std::pow(kLeastSide * input_.level_of_detail, 2)) return true;
-    if (area > kSmall_m2) return false;
-    double step = 0;
+  }
+
+  // How far the patch lies above what is around it: least and most over its corners.
+  std::pair<double, double> StepOf(const Patch& patch) const {
+    std::pair<double, double> step(std::numeric_limits<double>::infinity(),
+                                   -std::numeric_limits<double>::infinity());
     for (const int cell : patch.cells) {
       for (const int v : input_.arrangement.faces[input_.face_of_cell[cell]]) {
         const Eigen::Vector2d& p = input_.arrangement.vertices[v];
-        step = std::max(
-            step, std::abs(input_.roofs[patch.label].At(p) - input_.roofs[patch.around].At(p)));
+        const double above = input_.roofs[patch.label].At(p) - input_.roofs[patch.around].At(p);
+        step = {std::min(step.first, above), std::max(step.second, above)};
       }
     }
-    return step < kLow_m;
+    return step;
+  }
+
+  bool IsSlight(const Patch& patch) const {
+    const double area = AreaOf(patch);
+    if (area < std::pow(kLeastSide * input_.level_of_detail, 2)) return true;
+    if (area > kSmall_m2) return false;
+    const auto [low, high] = StepOf(patch);
+    return std::max(-low, high) < kLow_m;
+  }
+
+  // Whether it is a parapet of the level roof around it: a strip along the footprint's border, a
+  // little above the roof, or rising from it to there.
+  bool IsRim(const Patch& patch) const {
+    if (!patch.AtBorder() || input_.roofs[patch.around].slope.norm() > kLevel) return false;
+    const auto [low, high] = StepOf(patch);
+    if (low < -kSameHeight_m || high > kParapet_m) return false;
+    const double width = AreaOf(patch) / patch.border_m;
+    const Eigen::Vector2d& slope = input_.roofs[patch.label].slope;
+    if (slope.norm() < kLevel) return width < kParapetWidth_m;
+    const Eigen::Vector2d outwards = patch.border_middle - CentroidOf(patch);
+    return width < kParapetSlope_m &&
+           slope.dot(outwards) > kOutwards * slope.norm() * outwards.norm();
   }
 
   // Corners of what cells of this label make of `cells`.
@@ -291,7 +342,7 @@ class Tidier {
   const int none_;  // the label of no roof
   std::vector<std::vector<size_t>> links_of_cell_;
   std::vector<double> length_of_link_;
-  std::vector<bool> at_border_;
+  std::vector<std::vector<const Arrangement::Edge*>> border_of_cell_;  // of the footprint
 };
 
 }  // namespace

@@ -29,9 +29,7 @@ class NotShownOfAHouse : public testing::Test {
     EXPECT_TRUE(findings.of_model.empty());
   }
 
-  std::vector<NotShown> Find() const {
-    return FindNotShown(scene_, planes_, proxy_.buildings, 2);
-  }
+  std::vector<NotShown> Find() const { return FindNotShown(scene_, planes_, proxy_.buildings, 2); }
   Facet& South() {
     return *std::ranges::find_if(proxy_.buildings[0].facets, [](const Facet& facet) {
       return facet.normal.dot(-Eigen::Vector3d::UnitY()) > 0.99;
@@ -43,7 +41,9 @@ class NotShownOfAHouse : public testing::Test {
   Proxy proxy_;
 };
 
-TEST_F(NotShownOfAHouse, AllOfAHouseIsShown) { EXPECT_TRUE(Find().empty()); }
+TEST_F(NotShownOfAHouse, AllOfAHouseIsShown) {
+  EXPECT_TRUE(Find().empty());
+}
 
 TEST_F(NotShownOfAHouse, AWallThatTheModelLacksIsNamed) {
   const Facet south = South();

@@ -183,6 +183,44 @@ TEST_F(TidyPatchesTest, NothingGoesBelowWhatItMay) {
   EXPECT_NEAR(AreaOf(kUpper), 0.49, 1e-9);
 }
 
+TEST_F(TidyPatchesTest, StripsThatRiseToTheBorderAreParapets) {
+  Cut({4, 16}, {6, 8.5});
+  const std::vector<int> none = labels_;
+  const auto area_after = [&](const AlignedBox2d& strip, const RoofPlane& roof) {
+    labels_ = none;
+    roofs_[kUpper] = roof;
+    Put(kUpper, strip);
+    Tidy();
+    return AreaOf(kUpper);
+  };
+  const auto rising = [](double slope) {  // from the roof's height at 8.5 m
+    return RoofPlane{.slope = {0, slope}, .height = 10 - 8.5 * slope};
+  };
+  const AlignedBox2d narrow = Box(0, 8.5, 20, 10), wide = Box(0, 6, 20, 10);
+  EXPECT_EQ(area_after(narrow, rising(0.5)), 0);
+  EXPECT_EQ(area_after(Box(4, 8.5, 16, 10), rising(0.5)), 0);
+  EXPECT_NEAR(area_after(narrow, rising(1)), 30, 1e-9);     // a metre and a half high
+  EXPECT_NEAR(area_after(narrow, rising(-0.5)), 30, 1e-9);  // falls to the eaves
+  EXPECT_NEAR(area_after(wide, {.slope = {0, 0.2}, .height = 8.8}), 80, 1e-9);
+  EXPECT_NEAR(area_after(narrow, {.height = 10.5}), 30, 1e-9);
+  // Below a roof that is pitched itself such a strip is another roof.
+  roofs_[kRoof].slope = {0, -0.2};
+  EXPECT_NEAR(area_after(narrow, rising(0.3)), 30, 1e-9);
+}
+
+TEST_F(TidyPatchesTest, NarrowStripsAlongTheBorderAreParapets) {
+  Cut({4, 16}, {9.2});
+  roofs_[kUpper].height = 10.6;
+  Put(kUpper, Box(4, 9.2, 16, 10));
+  const std::vector<int> found = labels_;
+  Tidy();
+  EXPECT_EQ(AreaOf(kUpper), 0);
+  labels_ = found;
+  roofs_[kUpper].height = 9.5;  // a balcony
+  Tidy();
+  EXPECT_NEAR(AreaOf(kUpper), 9.6, 1e-9);
+}
+
 TEST_F(TidyPatchesTest, YardsStayAsTheyAre) {
   Cut({8, 8.5, 11}, {3, 3.5, 7});
   Put(kNone, Box(8, 3, 11, 7));

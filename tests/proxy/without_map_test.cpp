@@ -123,6 +123,22 @@ TEST(WithoutAMap, TreesAgainstAHouseAreNoPartOfIt) {
   EXPECT_NEAR(AreaOf(house, FacetClass::kRoof), 16 * 8, 5);
 }
 
+// Their fronts are a plane of 21 m2, a metre before the wall, which shows between them.
+TEST(WithoutAMap, AHouseEndsBehindItsBalconies) {
+  test::House house = FlatHouse(Rectangle(-9, -4, 9, 4), 9);
+  for (const double z : {2.5, 5.5}) {
+    for (const double x : {-7.5, -3.5, 0.5, 4.5}) {
+      const double x1 = x + 2.6, y0 = -5.1, y1 = -4.05, top = z + 1;
+      house.polygons.push_back({"front", {{x, y0, z}, {x1, y0, z}, {x1, y0, top}, {x, y0, top}}});
+      house.polygons.push_back({"top", {{x, y0, top}, {x1, y0, top}, {x1, y1, top}, {x, y1, top}}});
+    }
+  }
+  const auto made = ModelOf(test::Capture({house}, {test::GroundSquare(25)}, kDenseCapture));
+  const Building& closed = ClosedAlone(made);
+  EXPECT_NEAR(VolumeOf(closed), 18 * 8 * 9, 30);
+  EXPECT_LE(closed.facets.size(), 8u);
+}
+
 // A scan from above shows roofs and ground, and no walls.
 TEST(WithoutAMap, AScanFromAboveGivesSolids) {
   auto captured =
