@@ -19,7 +19,7 @@ constexpr double kLeastSide = 4;  // of a patch, levels of detail
 constexpr double kLow_m = 0.6;
 constexpr double kSmall_m2 = 6;
 // A parapet and what smears its points over the roof behind it.
-constexpr double kLevel = 0.05;     // slope of a roof that has one
+constexpr double kLevel = 0.1;      // slope of a roof that has one
 constexpr double kParapet_m = 1.2;  // its height
 constexpr double kParapetWidth_m = 1;
 constexpr double kParapetSlope_m = 2.5;  // width of a strip that rises to it
