@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 
 #include "tests/texture/synthetic.h"
@@ -100,6 +101,35 @@ TEST(FindChanges, NewPatternIsFound) {
   EXPECT_NEAR(box.top, 48, 16);
   EXPECT_NEAR(box.top + box.height, 144, 16);
   EXPECT_NEAR(box.share, changes.repainted + changes.other, 1e-9);
+}
+
+TEST(FindChanges, WhatNobodySeesIsOutdatedWhereAllAroundItChanged) {
+  const FacetPicture wall = Wall();
+  FacetPicture after = Painted(wall, [](int x, int, const Colour& c) -> Colour {
+    return x < 128 ? Colour(c.x(), 0.55 * c.y(), 0.5 * c.z()) : c;
+  });
+  for (const int left : {32, 176}) {  // a hole in either half
+    for (int y = 64; y < 112; ++y) {
+      for (int x = left; x < left + 48; ++x) after.labels[static_cast<size_t>(y) * 256 + x] = 255;
+    }
+  }
+  const FacetChanges changes = Changes(wall, after);
+  const auto is_outdated = [&](int x, int y, double dimmed) {
+    const uint8_t* rgb = wall.picture.Pixel(x, y);
+    std::array<uint8_t, 3> dim = {};
+    for (int k = 0; k < 3; ++k) dim[k] = static_cast<uint8_t>(dimmed * rgb[k]);
+    return changes.IsOutdated(x, y, dim.data());
+  };
+  const auto share = [&](int x0, int y0, double dimmed) {
+    int count = 0;
+    for (int y = y0; y < y0 + 32; ++y) {
+      for (int x = x0; x < x0 + 32; ++x) count += is_outdated(x, y, dimmed);
+    }
+    return count / (32.0 * 32);
+  };
+  EXPECT_GT(share(40, 72, 1), 0.4);  // the wall's blocks have other colours side by side
+  EXPECT_EQ(share(40, 72, 0.1), 0);  // something dark in it
+  EXPECT_EQ(share(184, 72, 1), 0);
 }
 
 TEST(FindChanges, PlacesApartAreListedTheLargestFirst) {

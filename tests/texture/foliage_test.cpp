@@ -120,5 +120,31 @@ TEST(DropFoliage, AWallThatIsGreenAllOverStays) {
   EXPECT_EQ(Unseen(Dropped({Wall(kLeaf, 0.3f, 1, kSide), other})[0]), 0);
 }
 
+// A bush before the right third of a wall of bricks.
+TEST(LeafTexels, AreGreenAndRestless) {
+  constexpr int kWidth = 240, kHeight = 160;
+  Image picture{kWidth, kHeight, 3, std::vector<uint8_t>(3 * kWidth * kHeight)};
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const int shade = (x / 8 * 37 + y / 8 * 61) % 5;  // another one in each cell
+      uint8_t* rgb = picture.Pixel(x, y);
+      const bool bush = x >= 160;
+      rgb[0] = static_cast<uint8_t>(bush ? 30 + 12 * shade : 150 + 8 * shade);
+      rgb[1] = static_cast<uint8_t>(bush ? 60 + 25 * shade : 90 + 5 * shade);
+      rgb[2] = static_cast<uint8_t>(bush ? 20 + 8 * shade : 80 + 5 * shade);
+    }
+  }
+  std::vector<uint8_t> painted(size_t{kWidth} * kHeight, 1);
+  const auto at = [&](const std::vector<uint8_t>& leaves, int x, int y) {
+    return static_cast<int>(leaves[static_cast<size_t>(y) * kWidth + x]);
+  };
+  const auto leaves = LeafTexels(picture, painted);
+  EXPECT_EQ(at(leaves, 60, 80), 0);
+  EXPECT_EQ(at(leaves, 210, 80), 1);
+  // Of a wall that is mostly like this it is the colour.
+  for (size_t i = 0; i < painted.size(); ++i) painted[i] = i % kWidth >= 120;
+  EXPECT_EQ(at(LeafTexels(picture, painted), 210, 80), 0);
+}
+
 }  // namespace
 }  // namespace stucco

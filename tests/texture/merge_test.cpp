@@ -51,6 +51,30 @@ TEST(MergePictures, GoesOverWithinAFewTexelsOfTheTakenSide) {
   EXPECT_EQ(merged.labels[5 * kWidth + 20], 2);
 }
 
+TEST(FillOutdated, TakesTextureFromWhatIsNew) {
+  FacetPicture picture = Plain(200, 2);
+  std::vector<uint8_t> hole(kInside.size(), 0), source = kInside;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const size_t i = static_cast<size_t>(y) * kWidth + x;
+      if (x >= 18 && x < 22) {
+        hole[i] = 1;
+        source[i] = 0;
+        picture.labels[i] = 5;
+        std::fill_n(picture.picture.Pixel(x, y), 3, uint8_t{10});
+      } else if (x >= 34) {
+        source[i] = 0;  // an old part that stays
+        std::fill_n(picture.picture.Pixel(x, y), 3, uint8_t{90});
+      }
+    }
+  }
+  FillOutdated(hole, source, picture);
+  EXPECT_NEAR(*picture.picture.Pixel(20, 5), 200, 2);
+  EXPECT_EQ(picture.labels[5 * kWidth + 20], 255);
+  EXPECT_EQ(*picture.picture.Pixel(36, 5), 90);
+  EXPECT_EQ(picture.labels[5 * kWidth + 36], 2);
+}
+
 TEST(MergePictures, TakingAllOrNothingIsOneOfThem) {
   const FacetPicture before = Plain(10, 1);
   const FacetPicture after = Plain(210, 2);

@@ -15,12 +15,18 @@ namespace {
 constexpr double kWorthShowing_m2 = 0.1;
 constexpr size_t kMostPlaces = 8;
 constexpr int kLongestSide_px = 640;
+constexpr double kPaper = 0xe6;
 
-std::string PngOf(const Image& image, const cv::Rect& part) {
+// Grey paper outside of the facet.
+std::string PngOf(const FacetPicture& facet, const cv::Rect& part) {
+  const Image& image = facet.picture;
   const cv::Mat rgb(image.height_px, image.width_px, CV_8UC3,
                     const_cast<uint8_t*>(image.data.data()));
+  const cv::Mat labels(image.height_px, image.width_px, CV_8U,
+                       const_cast<uint8_t*>(facet.labels.data()));
   cv::Mat bgr;
   cv::cvtColor(rgb(part), bgr, cv::COLOR_RGB2BGR);
+  bgr.setTo(cv::Scalar::all(kPaper), labels(part) == 0);
   const double scale = static_cast<double>(kLongestSide_px) / std::max(part.width, part.height);
   if (scale < 1) cv::resize(bgr, bgr, {}, scale, scale, cv::INTER_AREA);
   std::vector<uint8_t> bytes;
@@ -59,7 +65,7 @@ PlacePictures ShowPlace(const ChangedBox& box, const FacetPicture& before,
                                  box.height + 2 * margin) &
                         cv::Rect(0, 0, before.picture.width_px, before.picture.height_px);
   assert(!part.empty() && after.picture.data.size() == before.picture.data.size());
-  return {PngOf(before.picture, part), PngOf(after.picture, part)};
+  return {PngOf(before, part), PngOf(after, part)};
 }
 
 }  // namespace stucco

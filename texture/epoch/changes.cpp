@@ -15,8 +15,8 @@
 namespace stucco {
 namespace {
 
-constexpr int kBlock = 16;  // texels a side
-constexpr int kPart = 4;    // of a block, a side
+constexpr int kBlock = kChangeBlock;
+constexpr int kPart = 4;  // of a block, a side
 constexpr int kParts = kBlock / kPart;
 constexpr double kLeastShown = 0.5;  // of a block's texels, by both
 // Logarithms of encoded colours, so that light is an offset; the offset keeps noise of black small.
@@ -24,6 +24,8 @@ constexpr double kDarkOffset = 8;
 // The same white in the sun (5500 K) and under the sky alone (10000 K and more) differs by about
 // 0.2 in this measure: logarithms of encoded red, green and blue less their mean.
 constexpr double kOtherHue = 0.3;
+// In the same measure, brightness included: a pane in a wall, a frame around it.
+constexpr double kOtherThing = 0.5;
 // Parts of a block that differ by less than this have no pattern (standard deviation of the
 // logarithms): plaster, noise, the edge of a soft shadow.
 constexpr double kContrast = 0.12;
@@ -45,7 +47,8 @@ struct Block {
   bool shown = false;
   bool comparable = false;
   Eigen::Vector3d difference = Eigen::Vector3d::Zero();  // of log colours, after less before
-  Pattern before = {};                                   // log brightness of its parts
+  Eigen::Vector3f colour_before = Eigen::Vector3f::Zero();
+  Pattern before = {};  // log brightness of its parts
   Pattern after = {};
   int parts_of_other_hue = 0;
 };
@@ -60,6 +63,10 @@ struct Means {
   int count = 0;
   int comparable = 0;
 };
+
+Eigen::Vector3d LogColour(const Eigen::Vector3d& mean) {
+  return (mean.array() + kDarkOffset).log();
+}
 
 class Comparison {
  public:
@@ -87,6 +94,8 @@ class Comparison {
       both += BothShow(i);
       compared += BothShow(i) && comparable_[i] != 0;
     }
+    changes.block_columns = columns_;
+    changes.outdated.assign(blocks_.size(), Eigen::Vector3f::Zero());
     if (area == 0) return changes;
     changes.compared = static_cast<double>(compared) / static_cast<double>(area);
     std::vector<Change> found = Together(Judge());
@@ -115,16 +124,13 @@ class Comparison {
     changes.other = per_block * static_cast<double>(pattern);
     changes.shaded = per_block * static_cast<double>(shade);
     changes.boxes = Boxes(found, per_block);
+    changes.outdated = Outdated(found);
     return changes;
   }
 
  private:
   bool BothShow(size_t i) const {
     return mask_[i] != 0 && IsPainted(before_.labels[i]) && IsPainted(after_.labels[i]);
-  }
-
-  static Eigen::Vector3d LogColour(const Eigen::Vector3d& mean) {
-    return (mean.array() + kDarkOffset).log();
   }
 
   Means MeansOf(int x, int y, int side) const {
@@ -155,6 +161,7 @@ class Comparison {
     block.shown = true;
     block.comparable = 2 * all.comparable >= all.count;
     block.difference = LogColour(all.after) - LogColour(all.before);
+    block.colour_before = all.before.cast<float>();
     for (int part = 0; part < kParts * kParts; ++part) {
       Means means = MeansOf(column * kBlock + part % kParts * kPart,
                             row * kBlock + part / kParts * kPart, kPart);
@@ -229,7 +236,7 @@ class Comparison {
     for (int y = std::max(0, row - 1); y <= std::min(rows_ - 1, row + 1); ++y) {
       for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x) {
         const Change change = found[static_cast<size_t>(y) * columns_ + x];
-        count += change != Change::kNone && change != Change::kShade;
+        count += IsChange(change);
       }
     }
     return count;
@@ -248,14 +255,37 @@ class Comparison {
     return kept;
   }
 
+  static bool IsChange(Change change) {
+    return change != Change::kNone && change != Change::kShade;
+  }
+
+  // Of each block that both show the colour it had, where it changed; of the others what the
+  // nearest such one says. Requires one that both show.
+  std::vector<Eigen::Vector3f> Outdated(const std::vector<Change>& found) const {
+    cv::Mat hidden(rows_, columns_, CV_8U);
+    for (size_t i = 0; i < blocks_.size(); ++i) hidden.data[i] = blocks_[i].shown ? 0 : 1;
+    cv::Mat distances, nearest;  // nearest: by number of the blocks that both show
+    cv::distanceTransform(hidden, distances, nearest, cv::DIST_L2, cv::DIST_MASK_5,
+                          cv::DIST_LABEL_PIXEL);
+    std::vector<Eigen::Vector3f> of_number(blocks_.size() + 1, Eigen::Vector3f::Zero());
+    const auto number_of = [&](size_t block) {
+      return nearest.at<int>(static_cast<int>(block) / columns_,
+                             static_cast<int>(block) % columns_);
+    };
+    for (size_t i = 0; i < blocks_.size(); ++i) {
+      if (blocks_[i].shown && IsChange(found[i]))
+        of_number[number_of(i)] = blocks_[i].colour_before;
+    }
+    std::vector<Eigen::Vector3f> outdated(blocks_.size());
+    for (size_t i = 0; i < blocks_.size(); ++i) outdated[i] = of_number[number_of(i)];
+    return outdated;
+  }
+
   // What changed and lies together: blocks with no more than one between them, as frames of windows
   // keep their colour where all around them is painted over.
   std::vector<ChangedBox> Boxes(const std::vector<Change>& found, double share_of_block) const {
-    const auto is_change = [&](int block) {
-      return found[block] != Change::kNone && found[block] != Change::kShade;
-    };
     cv::Mat changed(rows_, columns_, CV_8U);
-    for (int i = 0; i < rows_ * columns_; ++i) changed.data[i] = is_change(i) ? 1 : 0;
+    for (size_t i = 0; i < found.size(); ++i) changed.data[i] = IsChange(found[i]) ? 1 : 0;
     cv::dilate(changed, changed, cv::Mat());
     cv::Mat places;
     const int count = cv::connectedComponents(changed, places, 8, CV_32S);
@@ -264,7 +294,7 @@ class Comparison {
     for (int row = 0; row < rows_; ++row) {
       for (int column = 0; column < columns_; ++column) {
         const int i = row * columns_ + column;
-        if (!is_change(i)) continue;
+        if (!IsChange(found[i])) continue;
         const int place = places.at<int>(row, column);
         rects[place] |= cv::Rect(column * kBlock, row * kBlock, kBlock, kBlock);
         ++blocks[place];
@@ -292,6 +322,14 @@ class Comparison {
 };
 
 }  // namespace
+
+bool FacetChanges::IsOutdated(int x, int y, const uint8_t* before) const {
+  const Eigen::Vector3f& colour =
+      outdated[static_cast<size_t>(y / kChangeBlock) * block_columns + x / kChangeBlock];
+  if (colour.isZero()) return false;
+  const Eigen::Vector3d own(before[0], before[1], before[2]);
+  return (LogColour(own) - LogColour(colour.cast<double>())).norm() < kOtherThing;
+}
 
 FacetChanges FindChanges(const FacetPicture& before, const FacetPicture& after,
                          std::span<const uint8_t> mask, std::span<const uint8_t> comparable) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,6 +23,9 @@ inline bool IsPainted(uint8_t label) {
   return label != 0 && label != 255;
 }
 
+// Side of the blocks that are compared, texels.
+inline constexpr int kChangeBlock = 16;
+
 // A place on a facet where it changed, texels of its picture.
 struct ChangedBox {
   int left = 0;
@@ -39,6 +43,13 @@ struct FacetChanges {
   double other = 0;               // of another pattern and hue: something new, or gone
   double shaded = 0;              // of another pattern in light and dark alone, as shadows draw it
   std::vector<ChangedBox> boxes;  // what is repainted or other, the largest first
+  // By block of kChangeBlock texels, rows of `block_columns`: the colour that it had, where it
+  // changed or the nearest one did that both show; black where not.
+  std::vector<Eigen::Vector3f> outdated;
+  int block_columns = 0;
+
+  // Whether a texel that one of the pictures does not show has the colour of what changed.
+  bool IsOutdated(int x, int y, const uint8_t* before) const;
 };
 
 // Compares two pictures on the same grid block by block (16 texels a side, where both are painted),

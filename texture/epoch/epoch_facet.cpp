@@ -16,6 +16,7 @@
 #include "texture/epoch/merge.h"
 #include "texture/grid/grid.h"
 #include "texture/painting/align.h"
+#include "texture/selection/foliage.h"
 
 namespace stucco {
 namespace {
@@ -208,22 +209,28 @@ std::vector<uint8_t> AwayFromEdges(const Canvas& canvas, const Relief* relief) {
   return out;
 }
 
+// What a facet's picture is decided by.
+struct Compared {
+  FacetEvidence evidence;
+  FacetChanges changes;  // of what both show
+};
+
 // Fills in what is found, before anything is decided.
-FacetEvidence Compare(const EpochFacetInput& input, const FacetPicture& after, const Canvas& canvas,
-                      const EpochStyle& style, EpochPicture& result) {
+Compared Compare(const EpochFacetInput& input, const FacetPicture& after, const Canvas& canvas,
+                 const EpochStyle& style, EpochPicture& result) {
   EpochFacet& found = result.found;
   const std::vector<uint8_t>& mask = canvas.mask;
   const std::vector<uint8_t> painted_after = PaintedTexels(after);
   found.shown = ShareOf(painted_after, painted_after, mask);
   found.gsd_after_m = input.painted.facet.gsd_m;
-  FacetEvidence evidence;
+  Compared compared;
+  auto& [evidence, changes] = compared;
   evidence.painted_after = found.shown;
   evidence.gsd_after_m = found.gsd_after_m;
-  if (!input.before) return evidence;
+  if (!input.before) return compared;
   const std::vector<uint8_t> painted_before = PaintedTexels(*input.before);
-  const FacetChanges changes =
-      FindChanges(*input.before, after, AwayFromEdges(canvas, input.relief.get()),
-                  SeenAlike(input, after, canvas.grid, style));
+  changes = FindChanges(*input.before, after, AwayFromEdges(canvas, input.relief.get()),
+                        SeenAlike(input, after, canvas.grid, style));
   found.compared = changes.compared;
   found.repainted = changes.repainted;
   found.other = changes.other;
@@ -243,7 +250,33 @@ FacetEvidence Compare(const EpochFacetInput& input, const FacetPicture& after, c
   if (evidence.both > 0) {
     evidence.changed_share = (changes.repainted + changes.other) / evidence.both;
   }
-  return evidence;
+  return compared;
+}
+
+// Plants that stand before the facet now, and did not then, are not the facet.
+void LeaveOutNewLeaves(const FacetPicture& before, FacetPicture& after) {
+  const std::vector<uint8_t> now = LeafTexels(after.picture, PaintedTexels(after));
+  const std::vector<uint8_t> then = LeafTexels(before.picture, PaintedTexels(before));
+  for (size_t i = 0; i < now.size(); ++i) {
+    if (now[i] && !then[i] && IsPainted(after.labels[i])) after.labels[i] = 255;
+  }
+}
+
+// What of a replaced picture no new photo shows although it is no longer as it was.
+std::vector<uint8_t> OutdatedTexels(const FacetChanges& changes, const FacetPicture& before,
+                                    std::span<const uint8_t> take, const Canvas& canvas) {
+  std::vector<uint8_t> outdated(take.size(), 0);
+  for (size_t i = 0; i < take.size(); ++i) {
+    const auto x = static_cast<int>(i % canvas.grid.width);
+    const auto y = static_cast<int>(i / canvas.grid.width);
+    outdated[i] =
+        canvas.mask[i] && !take[i] && changes.IsOutdated(x, y, before.picture.Pixel(x, y));
+  }
+  // More of it than of what is known would be invention.
+  if (std::ranges::count(outdated, uint8_t{1}) > std::ranges::count(take, uint8_t{1})) {
+    std::ranges::fill(outdated, uint8_t{0});
+  }
+  return outdated;
 }
 
 }  // namespace
@@ -289,10 +322,11 @@ EpochPicture MakeEpochPicture(EpochFacetInput input, const EpochStyle& style) {
     return result;
   }
   ApplyLevel(input.level, after->picture);
+  if (input.before) LeaveOutNewLeaves(*input.before, *after);
   Canvas canvas{GridOf(input.painted.facet, input.facet), {}};
   canvas.mask = RasterizeFacet(input.facet, canvas.grid);
-  const FacetDecision decision =
-      Decide(style.replace, Compare(input, *after, canvas, style, result));
+  const Compared compared = Compare(input, *after, canvas, style, result);
+  const FacetDecision decision = Decide(style.replace, compared.evidence);
   result.found.choice = decision.choice;
   result.found.why = decision.why;
   if (decision.choice == FacetChoice::kKept) return result;
@@ -305,8 +339,15 @@ EpochPicture MakeEpochPicture(EpochFacetInput input, const EpochStyle& style) {
   const std::vector<uint8_t> take = TexelsToTake(decision.choice, *input.before, *after);
   result.found.taken = ShareOf(take, all, canvas.mask);
   const bool is_mostly_old = decision.choice == FacetChoice::kFilled || result.found.taken < 0.5;
-  FacetPicture merged =
-      MergePictures(*input.before, *after, take, canvas.mask, input.painted.facet.photos.size());
+  std::vector<uint8_t> outdated(take.size(), 0);
+  if (decision.choice == FacetChoice::kReplaced) {
+    outdated = OutdatedTexels(compared.changes, *input.before, take, canvas);
+  }
+  std::vector<uint8_t> no_longer_old = take;
+  for (size_t i = 0; i < take.size(); ++i) no_longer_old[i] = take[i] | outdated[i];
+  FacetPicture merged = MergePictures(*input.before, *after, no_longer_old, canvas.mask,
+                                      input.painted.facet.photos.size());
+  FillOutdated(outdated, take, merged);
   result.files = FilesOf(std::move(merged), input, std::move(canvas), style, is_mostly_old);
   return result;
 }

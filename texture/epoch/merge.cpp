@@ -10,11 +10,14 @@
 #include <opencv2/imgproc.hpp>
 
 #include "texture/painting/fill.h"
+#include "texture/painting/patch_fill.h"
 
 namespace stucco {
 namespace {
 
 constexpr uint8_t kInpainted = 255;
+constexpr int kFillSide = 512;
+constexpr uint32_t kFillSeed = 20260102;
 constexpr float kFeather_px = 8;  // as wide as the largest shift that alignment corrects
 
 // Distance in texels of each taken texel from the nearest one that is not.
@@ -70,6 +73,18 @@ FacetPicture MergePictures(const FacetPicture& before, const FacetPicture& after
   }
   FillPictureSmoothly(merged.picture, known);
   return merged;
+}
+
+void FillOutdated(std::span<const uint8_t> hole, std::span<const uint8_t> source,
+                  FacetPicture& picture) {
+  const std::vector<uint8_t> holes(hole.begin(), hole.end());
+  std::vector<uint8_t> known(hole.size());
+  for (size_t i = 0; i < known.size(); ++i) known[i] = holes[i] == 0;
+  FillPictureSmoothly(picture.picture, known);
+  FillWithPatches(picture.picture, holes, {source.begin(), source.end()}, kFillSide, kFillSeed);
+  for (size_t i = 0; i < holes.size(); ++i) {
+    if (holes[i]) picture.labels[i] = kInpainted;
+  }
 }
 
 std::vector<int> Renumber(std::vector<uint8_t>& labels) {

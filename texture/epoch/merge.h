@@ -24,6 +24,11 @@ FacetPicture MergePictures(const FacetPicture& before, const FacetPicture& after
                            std::span<const uint8_t> take, std::span<const uint8_t> mask,
                            size_t new_photos);
 
+// Fills `hole` with the texture of what the picture has where `source` is set; inpainted (255) from
+// then on. For what is no longer as the old picture has it, and no new photo shows.
+void FillOutdated(std::span<const uint8_t> hole, std::span<const uint8_t> source,
+                  FacetPicture& picture);
+
 // The photos that labels name, most texels first, as indices from 0; renumbers the labels in that
 // order.
 std::vector<int> Renumber(std::vector<uint8_t>& labels);

@@ -18,6 +18,7 @@ constexpr double kRestless = 0.1;       // of what is green: standard deviation 
 constexpr double kSamePattern = 0.5;    // correlation of windows
 constexpr double kMoved = 2;            // raster texels: windows of leaves are no longer alike
 constexpr double kMostLeaves = 0.3;
+constexpr int kCell = 8;  // texels of a picture, a side
 
 bool IsGreen(const float* rgb) {
   const float sum = rgb[0] + rgb[1] + rgb[2];
@@ -167,6 +168,41 @@ void DropFoliage(const FacetRaster& raster, double before, std::vector<RasterPic
       if (dropped[p][i]) pictures[p].sight[i] = Sight::kNot;
     }
   }
+}
+
+std::vector<uint8_t> LeafTexels(const Image& picture, const std::vector<uint8_t>& painted) {
+  TexelGrid raster;
+  raster.width = (picture.width_px + kCell - 1) / kCell;
+  raster.height = (picture.height_px + kCell - 1) / kCell;
+  std::vector<int> count(raster.size(), 0);
+  RasterPicture cells;
+  cells.rgb.assign(3 * raster.size(), 0);
+  const auto cell_of = [&](size_t texel) {
+    const size_t x = texel % picture.width_px, y = texel / picture.width_px;
+    return y / kCell * raster.width + x / kCell;
+  };
+  for (size_t i = 0; i < painted.size(); ++i) {
+    if (!painted[i]) continue;
+    const size_t cell = cell_of(i);
+    ++count[cell];
+    for (size_t k = 0; k < 3; ++k) cells.rgb[3 * cell + k] += picture.data[3 * i + k];
+  }
+  for (size_t cell = 0; cell < count.size(); ++cell) {
+    cells.sight.push_back(count[cell] > 0 ? Sight::kFree : Sight::kNot);
+    for (size_t k = 0; k < 3 && count[cell] > 0; ++k) {
+      cells.rgb[3 * cell + k] /= static_cast<float>(count[cell]);
+    }
+  }
+  const std::vector<uint8_t> leafy = LeafMask(cells, raster);
+  std::vector<uint8_t> out(painted.size(), 0);
+  size_t leaves = 0, all = 0;
+  for (size_t i = 0; i < out.size(); ++i) {
+    out[i] = painted[i] && leafy[cell_of(i)];
+    leaves += out[i];
+    all += painted[i] != 0;
+  }
+  if (2 * leaves > all) std::ranges::fill(out, uint8_t{0});
+  return out;
 }
 
 }  // namespace stucco

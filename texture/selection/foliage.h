@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "survey/image.h"
 #include "texture/grid/grid.h"
 #include "texture/selection/consensus.h"
 
@@ -18,5 +20,9 @@ namespace stucco {
 // more than 30 % of what the pictures see of the facet, green is taken for the wall's own and
 // nothing changes.
 void DropFoliage(const FacetRaster& raster, double before, std::vector<RasterPicture>& pictures);
+
+// The texels of a picture that show leaves, where `painted` is not zero; told in cells of 8 texels.
+// None where they would be more than half of what is painted: then green is the facade's own.
+std::vector<uint8_t> LeafTexels(const Image& picture, const std::vector<uint8_t>& painted);
 
 }  // namespace stucco
