@@ -5,8 +5,7 @@
 
   bench/ladder.py OUT [--style hamlet] [--seed 1] [--scale 0.25]
                   [--rungs map,nomap,cloud,poses,own,facets] [--textures]
-                  [--map-seed 1 | --exact-map] [--jitter 0.4] [--eaves 0.4] [--gone 3]
-                  [--missing 0] [--simpler 0] [--smaller 0]
+                  [--map-seed 1 | --exact-map] [--gone 3] [and the rest of loop.py's errors]
                   [--plan-args "..."] [--fly-args "..."] [--run-args "..."] [--stucco PROGRAM]
 
 Rungs: "map", the plan's footprints extruded without any photo; "nomap" and "cloud", the true cloud

@@ -5,8 +5,8 @@
 
   bench/loop.py OUT [--style hamlet] [--seed 1] [--method cocapture] [--scale 0.25]
                 [--plan-args="--altitude 30"] [--fly-args="--rtk --held-out 5"] [--run-args "..."]
-                [--exact-map] [--map-seed 1] [--jitter 0.4] [--eaves 0.4] [--gone 3]
-                [--missing 0] [--simpler 0] [--smaller 0]
+                [--exact-map] [--map-seed 1] [--gone 3] [--shift M] [--turn DEG]
+                [--jitter M] [--eaves M] [--missing N] [--simpler N] [--smaller N]
                 [--again plan|fly|map|run|evaluate] [--stucco PROGRAM]
 
 The drone flies by the exact map; what is reconstructed goes by one with the errors of real ones
@@ -28,6 +28,7 @@ import surveys
 
 BENCH = pathlib.Path(__file__).parent
 STEPS = ("plan", "fly", "map", "run", "evaluate")
+MAP_ERRORS = ("shift", "turn", "jitter", "eaves", "missing", "simpler", "smaller")
 FLIGHT = ["scene", "method", "photos", "hovers", "length (m)", "time (min)", "battery (%)",
           "Q_s", "Q_d", "Q_u", "Q_c"]
 GEOMETRY = ["scene", "method", "posed", "position (mm)", "rotation (deg)", "georeferenced (m)",
@@ -159,20 +160,18 @@ def add_flight_arguments(parser):
 
 
 def add_map_arguments(parser):
-    """What is wrong with the map, as perturb_plan.py has it."""
+    """What is wrong with the map, as perturb_plan.py has it; what is not said is as it says."""
     parser.add_argument("--exact-map", action="store_true")
     parser.add_argument("--map-seed", default="1")
-    parser.add_argument("--jitter", default="0.4")
-    parser.add_argument("--eaves", default="0.4")
     parser.add_argument("--gone", default="3")
-    for name in ("missing", "simpler", "smaller"):
-        parser.add_argument(f"--{name}", default="0")
+    for name in MAP_ERRORS:
+        parser.add_argument(f"--{name}")
 
 
 def map_command(arguments, plan):
+    said = [(name, getattr(arguments, name)) for name in ("gone", *MAP_ERRORS)]
     return [sys.executable, "-B", BENCH / "perturb_plan.py", plan, "--seed", arguments.map_seed,
-            *(word for name in ("jitter", "eaves", "gone", "missing", "simpler", "smaller")
-              for word in (f"--{name}", getattr(arguments, name)))]
+            *(word for name, value in said if value is not None for word in (f"--{name}", value))]
 
 
 def add_loop_arguments(parser):

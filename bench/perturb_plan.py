@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Gives the map in a plan the errors of real maps, so that a model that goes by it has to find them.
 
-Usage: perturb_plan.py PLAN_JSON [--shift 1.5] [--turn 0.3] [--jitter 0.4] [--eaves 0.4]
+Usage: perturb_plan.py PLAN_JSON [--shift M] [--turn DEG] [--jitter 0.4] [--eaves 0.5]
                        [--gone N] [--missing N] [--simpler N] [--smaller N]
                        [--seed 1]
 
@@ -11,7 +11,10 @@ Rewrites plan.json in place and keeps the exact one beside it, as plan.exact.jso
 from when it is called again: all buildings shifted and turned together, each shifted by itself (one
 standard deviation), outlines moved outwards (eaves), and N rectangles added that are not there; N
 buildings that stand missing from it; N outlines drawn more simply, without one of their corners
-that point inwards (an L becomes a rectangle), and N Ls without one of their wings.
+that point inwards (an L becomes a rectangle), and N Ls without one of their wings. What is not said
+is as real maps are: the shift 0.5 to 3 m, the turn half a degree (one standard deviation), a
+twentieth of the buildings missing, a tenth of the outlines simpler (one at least), a tenth of the Ls
+without a wing.
 Views keep their places: only what the model goes by changes.
 """
 import argparse
@@ -130,6 +133,20 @@ def redraw(plan, count, draw, what):
         print(f"only {drawn} outlines {what}")
 
 
+def fill_in(wanted, plan):
+    """What was not asked for, as real maps have it."""
+    dice = random.Random(f"as real maps {wanted.seed}")  # the other dice fall as they did
+    shift, turn = dice.uniform(0.5, 3), dice.gauss(0, 0.5)
+    ls = sum(inward_corner(f["rings_m"][0]) is not None and len(f["rings_m"][0]) == 6
+             for f in plan["footprints"])
+    buildings = len({f["building"] for f in plan["footprints"]})
+    for name, value in (("shift", round(shift, 2)), ("turn", round(turn, 2)),
+                        ("missing", round(buildings / 20)), ("simpler", max(1, round(ls / 10))),
+                        ("smaller", round(ls / 10))):
+        if getattr(wanted, name) is None:
+            setattr(wanted, name, value)
+
+
 def exact_plan(path):
     """The plan as it was made, which is kept beside the one with errors."""
     kept = path.with_suffix(".exact.json")
@@ -145,14 +162,15 @@ def exact_plan(path):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("plan", type=pathlib.Path)
-    for name, value in (("shift", 1.5), ("turn", 0.3), ("jitter", 0.4), ("eaves", 0.4)):
+    for name, value in (("shift", None), ("turn", None), ("jitter", 0.4), ("eaves", 0.5)):
         parser.add_argument(f"--{name}", type=float, default=value)
-    for name in ("gone", "missing", "simpler", "smaller"):
-        parser.add_argument(f"--{name}", type=int, default=0)
+    for name, value in (("gone", 0), ("missing", None), ("simpler", None), ("smaller", None)):
+        parser.add_argument(f"--{name}", type=int, default=value)
     parser.add_argument("--seed", type=int, default=1)
     wanted = parser.parse_args()
     dice = random.Random(wanted.seed)
     plan = exact_plan(wanted.plan)
+    fill_in(wanted, plan)
     plan["map_errors"] = {name: value for name, value in vars(wanted).items() if name != "plan"}
     missing = leave_out(plan, wanted.missing, dice) if wanted.missing else set()
     redraw(plan, wanted.simpler, simplify, "have corners that point inwards")

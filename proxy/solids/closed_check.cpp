@@ -60,6 +60,7 @@ std::optional<std::string> FindOpening(const std::vector<Facet>& facets) {
   if (!CGAL::is_closed(mesh)) return "not closed";
   if (pmp::does_self_intersect(mesh)) return "crosses itself";
   if (!pmp::is_outward_oriented(mesh)) return "facets face inwards";
+  if (!pmp::does_bound_a_volume(mesh)) return "a part of it faces inwards";
   return std::nullopt;
 }
 

@@ -100,17 +100,41 @@ class PerturbedPlan(unittest.TestCase):
                 path = pathlib.Path(folder) / "plan.json"
                 path.write_text(json.dumps(plan()))
                 subprocess.run([sys.executable, BENCH / "perturb_plan.py", path, "--seed", str(seed),
-                                "--gone", "1"], check=True, stdout=subprocess.DEVNULL)
+                                "--gone", "1", "--simpler", "0"], check=True,
+                               stdout=subprocess.DEVNULL)
                 moved = json.loads(path.read_text())
                 exact = json.loads(path.with_suffix(".exact.json").read_text())
                 self.assertEqual(exact, plan())
                 again = [sys.executable, BENCH / "perturb_plan.py", path, "--seed", str(seed)]
-                subprocess.run([*again, "--gone", "1"], check=True, stdout=subprocess.DEVNULL)
+                subprocess.run([*again, "--gone", "1", "--simpler", "0"], check=True,
+                               stdout=subprocess.DEVNULL)
                 self.assertEqual(json.loads(path.read_text()), moved)
             self.assertNotEqual(moved["footprints"][0]["rings_m"], [RING, COURT])
             facade = moved["facades"][2]
             length = sum((a - b) ** 2 for a, b in zip(facade["a_m"], facade["b_m"])) ** 0.5
             self.assertLessEqual(moved["views"][0]["targets"][0]["along_m"][1], length)
+
+    def test_what_is_not_said_is_as_real_maps_are(self):
+        ring = [[0, 0], [20, 0], [20, 10], [8, 10], [8, 20], [0, 20]]
+        town = {"facades": [], "views": [], "footprints": [
+            {"building": f"B{n:04}", "rings_m": [[[x + 40 * n, y] for x, y in ring]]}
+            for n in range(20)]}
+        shifts = set()
+        for seed in range(4):
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder) / "plan.json"
+                path.write_text(json.dumps(town))
+                subprocess.run([sys.executable, BENCH / "perturb_plan.py", path, "--seed", str(seed)],
+                               check=True, stdout=subprocess.DEVNULL)
+                moved = json.loads(path.read_text())
+            errors = moved["map_errors"]
+            shifts.add(errors["shift"])
+            self.assertTrue(0.5 <= errors["shift"] <= 3)
+            self.assertEqual((errors["missing"], errors["simpler"], errors["smaller"]), (1, 2, 2))
+            self.assertEqual(len(moved["footprints"]), 19)
+            corners = sorted(len(f["rings_m"][0]) for f in moved["footprints"])
+            self.assertEqual(corners, [4] * 4 + [6] * 15)
+        self.assertEqual(len(shifts), 4)
 
 
 if __name__ == "__main__":

@@ -45,12 +45,28 @@ TEST(FindOpening, SeesAMissingFacet) {
   EXPECT_THAT(*FindOpening(cube), ::testing::HasSubstr("open at an edge"));
 }
 
-TEST(FindOpening, SeesFacetsThatFaceInwards) {
-  auto cube = Cube({0, 0, 0}, 2);
-  for (Facet& facet : cube) {
+std::vector<Facet> InsideOut(std::vector<Facet> facets) {
+  for (Facet& facet : facets) {
     std::reverse(facet.outer.begin(), facet.outer.end());
     facet.normal = -facet.normal;
   }
+  return facets;
+}
+
+TEST(FindOpening, SeesAPartThatFacesInwards) {
+  for (const double z : {-5.0, 5.0}) {
+    for (const bool turned : {false, true}) {
+      auto two = Cube({0, 0, 0}, 2);
+      auto other = Cube({8, 0, z}, 2);
+      if (turned) other = InsideOut(std::move(other));
+      two.insert(two.end(), other.begin(), other.end());
+      EXPECT_EQ(FindOpening(two).has_value(), turned) << z;
+    }
+  }
+}
+
+TEST(FindOpening, SeesFacetsThatFaceInwards) {
+  const auto cube = InsideOut(Cube({0, 0, 0}, 2));
   ASSERT_TRUE(FindOpening(cube));
   EXPECT_THAT(*FindOpening(cube), ::testing::HasSubstr("inwards"));
 }
