@@ -137,6 +137,7 @@ class Densifier {
       for (size_t i = 0; i < of_photo.size(); ++i) points.Add(of_photo.at(i));
       context_.progress->Advance();
     });
+    views_.Clear();  // outliers take what they held
   }
 
   void WriteDepthMaps() {

@@ -36,6 +36,14 @@ class LruCache {
     return slot->value;
   }
 
+  // Drops all.
+  void Clear() {
+    const std::lock_guard lock(mutex_);
+    entries_.clear();
+    recent_.clear();
+    bytes_ = 0;
+  }
+
   size_t bytes() const {
     const std::lock_guard lock(mutex_);
     return bytes_;

@@ -46,6 +46,18 @@ TEST(LruCache, DropsWhatWasUsedLongestAgo) {
   EXPECT_EQ(c.loads, (std::vector<int>{0, 1, 2, 1}));
 }
 
+TEST(LruCache, ForgetsAllWhenItIsCleared) {
+  Counted c(100);
+  const auto held = c.cache.Get(1);
+  c.cache.Get(2);
+  c.cache.Clear();
+  EXPECT_EQ(c.cache.bytes(), 0u);
+  EXPECT_EQ(*held, std::string(10, 'b'));
+  c.cache.Get(1);
+  EXPECT_EQ(c.loads, (std::vector<int>{1, 2, 1}));
+  EXPECT_EQ(c.cache.bytes(), 10u);
+}
+
 TEST(LruCache, HoldsTheLastValueHoweverLarge) {
   Counted c(1);
   c.cache.Get(5);
