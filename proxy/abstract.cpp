@@ -240,6 +240,26 @@ void NameNotShown(const PlanarScene& scene, std::span<const Plane> planes, const
   }
 }
 
+std::vector<Plane> PlanesOfBuildings(const PlanarScene& scene) {
+  std::vector<Plane> planes;
+  for (const std::vector<Plane>& cluster : scene.buildings) {
+    planes.insert(planes.end(), cluster.begin(), cluster.end());
+  }
+  return planes;
+}
+
+// By place, where north is known.
+void NameFacets(const Georef& georef, std::vector<Building>& buildings) {
+  const bool z_is_up = georef.metric && georef.frame == "enu";
+  for (Building& building : buildings) {
+    if (z_is_up && building.id != "G0") {
+      AssignIdsByPlace(building);
+    } else {
+      AssignIds(building);
+    }
+  }
+}
+
 bool GoesByMap(const ProxyInput& input, const ProxyOptions& options) {
   return options.use_map && options.solids && input.plan && input.georef.metric &&
          input.georef.frame == "enu";
@@ -258,9 +278,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
   } else if (options.solids && input.georef.metric) {
     closed = BuildWithoutMap(scene, input, options, threads, findings);
   }
-  std::vector<Plane> planes;  // all that buildings have
-  for (const auto& cluster : scene.buildings)
-    std::ranges::copy(cluster, std::back_inserter(planes));
+  const std::vector<Plane> planes = PlanesOfBuildings(scene);
   if (!closed.outlines.empty()) scene.buildings = OffTheMap(scene, closed.outlines, findings);
   const auto named = std::ranges::count(closed.buildings, "cloud", &Building::source);
   PlaneTable table = TableOf(scene, static_cast<size_t>(named));
@@ -297,10 +315,7 @@ Proxy AbstractCloud(const ProxyInput& input, const ProxyOptions& options, int th
                 "the planes in the dense cloud are too small or too thin for a single facet",
                 "Lower proxy.level_of_detail or proxy.min_area, or look at dense/cloud.ply.");
   }
-  const bool z_is_up = input.georef.metric && input.georef.frame == "enu";
-  for (Building& building : proxy.buildings) {
-    z_is_up&& building.id != "G0" ? AssignIdsByPlace(building) : AssignIds(building);
-  }
+  NameFacets(input.georef, proxy.buildings);
   if (proxy.metric) MeasureParty(proxy.up, proxy.buildings);
   NameNotShown(scene, planes, proxy, threads, findings);
   return proxy;
