@@ -13,6 +13,7 @@
 
 #include "survey/error.h"
 #include "survey/files.h"
+#include "survey/image.h"
 #include "survey/survey_folder.h"
 #include "survey/texture_set.h"
 #include "texture/epoch/epoch_facet.h"
@@ -151,8 +152,8 @@ void WritePlaces(const EpochPicture& made, const std::string& name, const fs::pa
     EpochPlace& place = found.places[p];
     place.before = fmt::format("changes/{}.{}.before.png", name, p + 1);
     place.after = fmt::format("changes/{}.{}.after.png", name, p + 1);
-    WriteFile(out / place.before, made.places[p].before_png);
-    WriteFile(out / place.after, made.places[p].after_png);
+    WriteImage(made.places[p].before, out / place.before);
+    WriteImage(made.places[p].after, out / place.after);
   }
 }
 

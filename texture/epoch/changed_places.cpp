@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-
-#include "survey/error.h"
 
 namespace stucco {
 namespace {
@@ -18,22 +15,17 @@ constexpr int kLongestSide_px = 640;
 constexpr double kPaper = 0xe6;
 
 // Grey paper outside of the facet.
-std::string PngOf(const FacetPicture& facet, const cv::Rect& part) {
+Image CutOut(const FacetPicture& facet, const cv::Rect& part) {
   const Image& image = facet.picture;
   const cv::Mat rgb(image.height_px, image.width_px, CV_8UC3,
                     const_cast<uint8_t*>(image.data.data()));
   const cv::Mat labels(image.height_px, image.width_px, CV_8U,
                        const_cast<uint8_t*>(facet.labels.data()));
-  cv::Mat bgr;
-  cv::cvtColor(rgb(part), bgr, cv::COLOR_RGB2BGR);
-  bgr.setTo(cv::Scalar::all(kPaper), labels(part) == 0);
+  cv::Mat shown = rgb(part).clone();
+  shown.setTo(cv::Scalar::all(kPaper), labels(part) == 0);
   const double scale = static_cast<double>(kLongestSide_px) / std::max(part.width, part.height);
-  if (scale < 1) cv::resize(bgr, bgr, {}, scale, scale, cv::INTER_AREA);
-  std::vector<uint8_t> bytes;
-  if (!cv::imencode(".png", bgr, bytes)) {
-    throw Error(ErrorKind::kStageFailed, "a picture of what changed cannot be made");
-  }
-  return {bytes.begin(), bytes.end()};
+  if (scale < 1) cv::resize(shown, shown, {}, scale, scale, cv::INTER_AREA);
+  return {shown.cols, shown.rows, 3, {shown.datastart, shown.dataend}};
 }
 
 }  // namespace
@@ -65,7 +57,7 @@ PlacePictures ShowPlace(const ChangedBox& box, const FacetPicture& before,
                                  box.height + 2 * margin) &
                         cv::Rect(0, 0, before.picture.width_px, before.picture.height_px);
   assert(!part.empty() && after.picture.data.size() == before.picture.data.size());
-  return {PngOf(before, part), PngOf(after, part)};
+  return {CutOut(before, part), CutOut(after, part)};
 }
 
 }  // namespace stucco

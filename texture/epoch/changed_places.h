@@ -3,7 +3,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "survey/epoch.h"
@@ -20,10 +19,10 @@ std::vector<ChangedBox> WorthShowing(std::span<const ChangedBox> boxes, double f
 // Where a box is, without names of pictures.
 EpochPlace PlaceOf(const ChangedBox& box, const TexelGrid& grid, double facet_area);
 
-// A place and what is around it, then and now, as PNG.
+// A place and what is around it, then and now.
 struct PlacePictures {
-  std::string before_png;
-  std::string after_png;
+  Image before;
+  Image after;
 };
 
 // With half of its size around it on each side, in the texels of the facet, or fewer where these
