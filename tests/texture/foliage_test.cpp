@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -90,6 +91,29 @@ TEST(DropFoliage, LeavesThatDifferFromPhotoToPhotoStandBeforeTheWall) {
   const auto pictures = Dropped({Wall(kLeaf, 0.3f, 1), Wall(kLeaf, 0.3f, 2)});
   EXPECT_EQ(pictures[0].sight[At(5, 5)], Sight::kNot);
   EXPECT_EQ(pictures[1].sight[At(5, 5)], Sight::kNot);
+}
+
+// A wall whose upper left corner lies back, so many texels wide and high.
+std::shared_ptr<const Relief> Pane(int side) {
+  auto pane = std::make_shared<Relief>();
+  pane->width = pane->height = kSide;
+  pane->heights.assign(kSide * kSide, 0.0f);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) pane->heights[At(x, y)] = -0.15f;
+  }
+  return pane;
+}
+
+TEST(DropFoliage, ATreeInAPaneIsNotBeforeIt) {
+  const std::vector<uint16_t> inside(kSide * kSide, 1);
+  std::vector<RasterPicture> pictures = {Wall(kLeaf, 0.3f, 1), Wall(kLeaf, 0.3f, 1, 0)};
+  TexelGrid raster = Raster();
+  raster.relief = Pane(kCrown);
+  DropFoliage({raster, inside, 1}, kBefore, pictures);
+  EXPECT_EQ(Unseen(pictures[0]), 0);
+  raster.relief = Pane(kCrown - 3);  // leaves that hang over its edge do stand before it
+  DropFoliage({raster, inside, 1}, kBefore, pictures);
+  EXPECT_EQ(pictures[0].sight[At(5, 5)], Sight::kNot);
 }
 
 TEST(DropFoliage, WhatGrowsOnTheWallStays) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <opencv2/imgproc.hpp>
 #include <span>
 
 namespace stucco {
@@ -18,6 +19,8 @@ constexpr double kRestless = 0.1;       // of what is green: standard deviation 
 constexpr double kSamePattern = 0.5;    // correlation of windows
 constexpr double kMoved = 2;            // raster texels: windows of leaves are no longer alike
 constexpr double kMostLeaves = 0.3;
+constexpr double kLiesBack = -0.05;     // behind the wall's plane, world units: a pane, a niche
+constexpr double kMirrored = 0.9;       // of a patch of leaves
 constexpr int kCell = 8;  // texels of a picture, a side
 
 bool IsGreen(const float* rgb) {
@@ -133,6 +136,35 @@ std::vector<uint8_t> LeavesBeforeWall(std::span<const RasterPicture> pictures,
   return out;
 }
 
+// Leaves that end where a part of the wall that lies back does are a tree in a mirror: a pane shows
+// every photo another one, and none of them is in front of it. Takes such patches out of a mask.
+void KeepMirrors(const RasterPicture& picture, const TexelGrid& raster,
+                 std::vector<uint8_t>& dropped) {
+  if (!raster.relief) return;
+  struct Patch {
+    int green = 0;
+    int back = 0;
+  };
+  const cv::Mat mask(raster.height, raster.width, CV_8UC1, dropped.data());
+  cv::Mat number;
+  std::vector<Patch> patches(cv::connectedComponents(mask, number, 8, CV_32S));
+  const auto patch_of = [&](size_t i) -> Patch& {
+    const auto texel = static_cast<int>(i);
+    return patches[number.at<int>(texel / raster.width, texel % raster.width)];
+  };
+  for (size_t i = 0; i < dropped.size(); ++i) {
+    if (dropped[i] == 0 || !IsGreen(&picture.rgb[3 * i])) continue;
+    const double x = static_cast<double>(i % raster.width) + 0.5;
+    const double y = static_cast<double>(i / raster.width) + 0.5;
+    ++patch_of(i).green;
+    patch_of(i).back += raster.HeightAt(x, y) <= kLiesBack;
+  }
+  for (size_t i = 0; i < dropped.size(); ++i) {
+    const bool is_mirrored = dropped[i] != 0 && patch_of(i).back > kMirrored * patch_of(i).green;
+    if (is_mirrored) dropped[i] = 0;
+  }
+}
+
 // Whether so much would be left that no picture sees that green must be the wall's own.
 bool WouldLoseTooMuch(std::span<const RasterPicture> pictures,
                       std::span<const std::vector<uint8_t>> dropped,
@@ -161,6 +193,7 @@ void DropFoliage(const FacetRaster& raster, double before, std::vector<RasterPic
   std::vector<std::vector<uint8_t>> dropped(pictures.size());
   for (size_t p = 0; p < pictures.size(); ++p) {
     dropped[p] = LeavesBeforeWall(pictures, leaves, p, raster.grid, before);
+    KeepMirrors(pictures[p], raster.grid, dropped[p]);
   }
   if (WouldLoseTooMuch(pictures, dropped, raster.inside)) return;
   for (size_t p = 0; p < pictures.size(); ++p) {

@@ -16,9 +16,10 @@ namespace stucco {
 // leaves are (excess green index: Woebbecke et al., "Color indices for weed identification", 1995)
 // while pictures from elsewhere see it freely and none shows the same leaves there: what grows on
 // the wall looks alike from everywhere, a tree before it does not. From elsewhere is what would
-// show something `before` raster texels before the wall in another place. Where that would take
-// more than 30 % of what the pictures see of the facet, green is taken for the wall's own and
-// nothing changes.
+// show something `before` raster texels before the wall in another place. Leaves that end where a
+// part of the wall that lies back does are a tree in a pane, and stay. Where that would take more
+// than 30 % of what the pictures see of the facet, green is taken for the wall's own and nothing
+// changes.
 void DropFoliage(const FacetRaster& raster, double before, std::vector<RasterPicture>& pictures);
 
 // The texels of a picture that show leaves, where `painted` is not zero; told in cells of 8 texels.
