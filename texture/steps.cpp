@@ -33,8 +33,8 @@ uint64_t BytesBesideCache(const StageContext& context) {
 }
 
 // As many pictures are read and encoded at once as fit.
-int EncodingThreads(const TextureSet& textures, const StageContext& context) {
-  uint64_t largest = 1;
+int EncodingThreads(const TextureSet& textures, int atlas_px, const StageContext& context) {
+  uint64_t largest = std::max<uint64_t>(1, kBytesPerEncodedTexel * atlas_px * atlas_px);
   for (const TexturedFacet& facet : textures.facets) {
     largest = std::max(largest, kBytesPerEncodedTexel * static_cast<uint64_t>(facet.width_px) *
                                     static_cast<uint64_t>(facet.height_px));
@@ -226,9 +226,11 @@ void WriteModels(const Proxy& proxy, const TextureOptions& options, const StageC
   WriteObj(proxy, textures, context.out);
   context.progress->Advance();
   const ModelLook look{kOwnLook, textures, context.out};
-  WriteFile(context.out / "model.glb", GlbOfLooks(proxy, {&look, 1},
-                                                  {options.glb_max_px, options.glb_quality,
-                                                   EncodingThreads(textures, context)}));
+  const GlbOptions glb{.max_px = options.glb_max_px,
+                       .jpeg_quality = options.glb_quality,
+                       .threads = EncodingThreads(textures, options.glb_atlas_px, context),
+                       .atlas_px = options.glb_atlas_px};
+  WriteFile(context.out / "model.glb", GlbOfLooks(proxy, {&look, 1}, glb));
   context.progress->Advance();
   textures.model_obj = "model.obj";
   textures.model_glb = "model.glb";

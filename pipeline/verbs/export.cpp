@@ -115,9 +115,11 @@ ExportReport ExportGlb(const fs::path& survey, const ExportRequest& request,
   }
   const Settings settings = LoadSettings(survey, table, OptionsAsMade(survey, table, "texture"));
   const auto options = OptionsOf<TextureOptions>(settings, "texture");
-  const std::string glb =
-      GlbOfLooks(ReadProxy(survey / kFacetsFile), looks.looks,
-                 {options.glb_max_px, options.glb_quality, ResolvedThreads(settings.run)});
+  const std::string glb = GlbOfLooks(ReadProxy(survey / kFacetsFile), looks.looks,
+                                     {.max_px = options.glb_max_px,
+                                      .jpeg_quality = options.glb_quality,
+                                      .threads = ResolvedThreads(settings.run),
+                                      .atlas_px = options.glb_atlas_px});
   if (!request.out.parent_path().empty()) fs::create_directories(request.out.parent_path(), error);
   WriteFileAtomically(request.out, glb);
   return report;

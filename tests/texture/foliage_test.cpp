@@ -87,6 +87,18 @@ TEST(DropFoliage, WhatNobodyElseSeesStays) {
   EXPECT_EQ(Unseen(Dropped(pictures)[0]), 0);
 }
 
+TEST(DropFoliage, WhatTheCloudHasInFrontNeedsNoOtherPhoto) {
+  auto pictures = std::vector<RasterPicture>{Wall(kLeaf, 0.3f, 1), Wall({120, 80, 50}, 0.3f, 1)};
+  for (RasterPicture& picture : pictures) {
+    for (int y = 0; y < kCrown; ++y) {
+      for (int x = 0; x < kCrown; ++x) picture.sight[At(x, y)] = Sight::kBehind;
+    }
+  }
+  pictures = Dropped(pictures);
+  EXPECT_EQ(pictures[0].sight[At(5, 5)], Sight::kNot);
+  EXPECT_EQ(pictures[1].sight[At(5, 5)], Sight::kBehind);  // a bay, a balcony: better than nothing
+}
+
 TEST(DropFoliage, LeavesThatDifferFromPhotoToPhotoStandBeforeTheWall) {
   const auto pictures = Dropped({Wall(kLeaf, 0.3f, 1), Wall(kLeaf, 0.3f, 2)});
   EXPECT_EQ(pictures[0].sight[At(5, 5)], Sight::kNot);

@@ -6,7 +6,9 @@
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -236,6 +238,57 @@ TEST_F(Model, PicturesInsideAreMadeSmallerTogether) {
     WriteFile(folder_.path() / "embedded.jpg", std::string(bytes, scene->mTextures[i]->mWidth));
     EXPECT_EQ(ReadJpegSize(folder_.path() / "embedded.jpg").width_px, 20);
     EXPECT_EQ(ReadJpegSize(folder_.path() / "embedded.jpg").height_px, 15);
+  }
+}
+
+// Two walls in one picture: each is drawn with its own part of it.
+TEST_F(Model, FacetsShareAnAtlas) {
+  const Image green{20, 20, 3, [] {
+                      std::vector<uint8_t> data(1200, 30);
+                      for (size_t i = 1; i < data.size(); i += 3) data[i] = 220;
+                      return data;
+                    }()};
+  WriteImage(green, folder_.path() / "textures/B0001_W02.png");
+  TexturedFacet& second = textures_.facets[1];
+  second = textures_.facets[0];
+  second.id = "B0001/W02";
+  second.image = "textures/B0001_W02.png";
+  second.width_px = second.height_px = 20;
+  second.origin = {0, 1, 2};
+  GlbOptions options;
+  options.atlas_px = 128;
+  WriteGlb(proxy_, textures_, folder_.path(), options);
+  const json gltf = GlbJson();
+  ASSERT_EQ(gltf["images"].size(), 1u);
+  ASSERT_EQ(gltf["materials"].size(), 2u);
+  ASSERT_EQ(gltf["meshes"].size(), 2u);
+
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile((folder_.path() / "model.glb").string(), 0);
+  ASSERT_TRUE(scene) << importer.GetErrorString();
+  const aiTexture& embedded = *scene->mTextures[0];
+  WriteFile(folder_.path() / "embedded.jpg",
+            std::string(reinterpret_cast<const char*>(embedded.pcData), embedded.mWidth));
+  const Image atlas = ReadImage(folder_.path() / "embedded.jpg");
+  const auto colour = [&](const aiMesh& mesh, unsigned vertex) {
+    const aiVector3D uv = mesh.mTextureCoords[0][vertex];  // from the bottom, as assimp has it
+    const auto x = static_cast<int>(std::lround(uv.x * static_cast<float>(atlas.width_px)));
+    const auto y = static_cast<int>(std::lround((1 - uv.y) * static_cast<float>(atlas.height_px)));
+    return atlas.Pixel(std::min(x, atlas.width_px - 1), std::min(y, atlas.height_px - 1));
+  };
+  for (unsigned m = 0; m < 2; ++m) {
+    const aiMesh& mesh = *scene->mMeshes[m];
+    const bool is_green = std::string(mesh.mName.C_Str()) == "B0001/W02";
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+      const uint8_t* rgb = colour(mesh, i);
+      if (!is_green && mesh.mVertices[i].x == 2) continue;  // where red ends
+      const bool is_red = !is_green && mesh.mVertices[i].x < 2;
+      EXPECT_NEAR(rgb[0], is_green ? 30 : is_red ? 250 : 50, 25) << m << ' ' << i;
+      EXPECT_NEAR(rgb[1], is_green ? 220 : 50, 25) << m << ' ' << i;
+    }
+  }
+  if (const auto findings = test::KhronosFindings(folder_.path() / "model.glb")) {
+    EXPECT_EQ(*findings, "");
   }
 }
 

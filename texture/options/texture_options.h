@@ -28,6 +28,7 @@ struct TextureOptions {
   bool orthophotos = true;
   bool debug = false;
   int glb_max_px = 4096;
+  int glb_atlas_px = 4096;
   int glb_quality = 90;
 };
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "survey/image.h"
 #include "survey/pixels.h"
 
 namespace stucco {
@@ -25,7 +27,22 @@ inline constexpr int kAtlasGutter_px = 4;
 // as high as it must be. Requires pictures that are not wider than the atlas less two gutters.
 AtlasLayout PackAtlas(std::span<const ImageSize> pictures, int width_px);
 
-// Puts a picture and its gutter into the atlas.
-void PaintInAtlas(const Image& picture, const Eigen::Vector2i& place, Image& atlas);
+// Some of many pictures, in an atlas of theirs.
+struct PackedAtlas {
+  std::vector<size_t> pictures;
+  AtlasLayout layout;  // in the order of `pictures`
+};
+
+// Packs pictures, each with its gutter, into as many atlases as it takes, none larger than that on
+// either side and none empty. Requires pictures that fit into one.
+std::vector<PackedAtlas> PackAtlases(std::span<const ImageSize> pictures, int side_px);
+
+// Pictures and gutters where the layout has them, as `read` gives them by their place in it, in
+// RGB. Between them is their mean colour, which is what the smallest mipmaps see of it.
+Image PaintAtlas(const AtlasLayout& layout, const std::function<Image(size_t)>& read);
+
+// Texture coordinates in a picture of that size, to those in the atlas where it lies at `place`.
+Eigen::Vector2f InAtlas(const Eigen::Vector2f& uv, const ImageSize& picture,
+                        const Eigen::Vector2i& place, const ImageSize& atlas);
 
 }  // namespace stucco

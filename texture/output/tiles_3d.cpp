@@ -96,31 +96,25 @@ TilePicture PictureOf(const ModelTile& tile, const fs::path& folder,
   }
   if (painted.empty()) return picture;
   const AtlasLayout packed = PackAtlas(painted, options.atlas_px);
-  Image atlas{packed.size.width_px, packed.size.height_px, 3, {}};
-  atlas.data.resize(static_cast<size_t>(atlas.width_px) * atlas.height_px * 3);
   picture.layout.size = packed.size;
   picture.layout.places.resize(tile.facets.size());
-  size_t next = 0;
+  std::vector<size_t> facets;  // in the order of the atlas
   for (size_t i = 0; i < tile.facets.size(); ++i) {
-    const TexturedFacet* texture = tile.facets[i].texture;
-    if (texture == nullptr) continue;
-    picture.layout.places[i] = packed.places[next++];
-    PaintInAtlas(ReadPart(tile.facets[i], folder, picture.sizes[i]), picture.layout.places[i],
-                 atlas);
+    if (tile.facets[i].texture == nullptr) continue;
+    picture.layout.places[i] = packed.places[facets.size()];
+    facets.push_back(i);
   }
+  const Image atlas = PaintAtlas(packed, [&](size_t i) {
+    return ReadPart(tile.facets[facets[i]], folder, picture.sizes[facets[i]]);
+  });
   picture.jpeg = EncodeImage(atlas, "atlas.jpg", options.jpeg_quality);
   return picture;
 }
 
-// Texture coordinates of a facet's own picture to those of the atlas.
 void MoveIntoAtlas(const TilePicture& picture, size_t facet, GlbMesh& mesh) {
-  const auto vector = [](const ImageSize& size) {
-    return Eigen::Array2f(static_cast<float>(size.width_px), static_cast<float>(size.height_px));
-  };
-  const Eigen::Array2f place = picture.layout.places[facet].cast<float>().array();
   for (GlbPrimitive& primitive : mesh.primitives) {
     for (Eigen::Vector2f& uv : primitive.uv) {
-      uv = (place + uv.array() * vector(picture.sizes[facet])) / vector(picture.layout.size);
+      uv = InAtlas(uv, picture.sizes[facet], picture.layout.places[facet], picture.layout.size);
     }
   }
 }

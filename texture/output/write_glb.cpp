@@ -14,8 +14,10 @@
 
 #include "survey/encode_image.h"
 #include "survey/glb.h"
+#include "survey/image.h"
 #include "survey/parallel.h"
 #include "survey/pixels.h"
+#include "texture/output/atlas.h"
 #include "texture/output/glb_parts.h"
 
 namespace stucco {
@@ -26,7 +28,16 @@ struct LookPicture {
   int look = 0;
   const TexturedFacet* facet = nullptr;
   ImageSize size;  // in the model
-  int material = 0;
+  // Where it is: the sheet, and the place in it.
+  size_t sheet = 0;
+  Eigen::Vector2i place = Eigen::Vector2i::Zero();
+};
+
+// A picture of the model: of one facet, or of several side by side.
+struct Sheet {
+  std::string name;
+  std::vector<size_t> pictures;
+  AtlasLayout layout;
 };
 
 // Those of the first look first.
@@ -35,7 +46,7 @@ std::vector<LookPicture> PicturesOf(std::span<const ModelLook> looks) {
   for (size_t look = 0; look < looks.size(); ++look) {
     for (const TexturedFacet& facet : looks[look].textures.facets) {
       if (facet.image.empty()) continue;
-      pictures.push_back({static_cast<int>(look), &facet, {facet.width_px, facet.height_px}, 0});
+      pictures.push_back({static_cast<int>(look), &facet, {facet.width_px, facet.height_px}});
     }
   }
   return pictures;
@@ -55,20 +66,76 @@ void LimitSizes(const GlbOptions& options, std::vector<LookPicture>& pictures) {
   }
 }
 
+// Says in each picture where it is.
+std::vector<Sheet> LayOut(std::span<const ModelLook> looks, int atlas_px,
+                          std::vector<LookPicture>& pictures) {
+  std::map<std::string, int> looks_of;
+  for (const LookPicture& picture : pictures) ++looks_of[picture.facet->id];
+  std::vector<Sheet> sheets;
+  std::vector<size_t> sharing;
+  std::vector<ImageSize> sizes;
+  for (size_t i = 0; i < pictures.size(); ++i) {
+    const auto& [look, facet, size, sheet, place] = pictures[i];
+    const int side = std::max(size.width_px, size.height_px) + 2 * kAtlasGutter_px;
+    if (looks_of[facet->id] == 1 && side <= atlas_px) {
+      sharing.push_back(i);
+      sizes.push_back(size);
+      continue;
+    }
+    pictures[i].sheet = sheets.size();
+    sheets.push_back({look == 0 ? facet->id : fmt::format("{} {}", facet->id, looks[look].name),
+                      {i},
+                      {size, {Eigen::Vector2i::Zero()}}});
+  }
+  int number = 0;
+  for (PackedAtlas& atlas : PackAtlases(sizes, atlas_px)) {
+    Sheet sheet{fmt::format("atlas {}", ++number), {}, std::move(atlas.layout)};
+    for (size_t k = 0; k < atlas.pictures.size(); ++k) {
+      const size_t i = sharing[atlas.pictures[k]];
+      pictures[i].sheet = sheets.size();
+      pictures[i].place = sheet.layout.places[k];
+      sheet.pictures.push_back(i);
+    }
+    sheets.push_back(std::move(sheet));
+  }
+  return sheets;
+}
+
+Image ReadPicture(const LookPicture& picture, std::span<const ModelLook> looks) {
+  return ReadScaled(looks[picture.look].folder / picture.facet->image, picture.size);
+}
+
+std::string JpegOf(const Sheet& sheet, std::span<const LookPicture> pictures,
+                   std::span<const ModelLook> looks, int quality) {
+  const auto read = [&](size_t k) { return ReadPicture(pictures[sheet.pictures[k]], looks); };
+  const ImageSize& size = pictures[sheet.pictures[0]].size;
+  const bool is_alone = sheet.layout.size.width_px == size.width_px;
+  return EncodeImage(is_alone ? read(0) : PaintAtlas(sheet.layout, read), "picture.jpg", quality);
+}
+
 Eigen::Isometry3d TurnToYUp(const Eigen::Vector3d& up) {
   return YUpFromZUp() * Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
 }
 
-// `pictures`: of the facet, in the order of looks.
+// The material of a sheet: after the grey one.
+int MaterialOf(const LookPicture& picture) {
+  return static_cast<int>(picture.sheet) + 1;
+}
+
+// `pictures`: of the facet, in the order of looks, all alike in size and place.
 GlbMesh MeshOf(const Facet& facet, const std::vector<const LookPicture*>& pictures,
-               const Eigen::Isometry3d& model_from_world) {
-  const bool in_first = !pictures.empty() && pictures.front()->look == 0;
-  GlbMesh mesh = GlbMeshOf(facet, pictures.empty() ? nullptr : pictures.front()->facet,
-                           model_from_world, in_first ? pictures.front()->material : 0);
+               std::span<const Sheet> sheets, const Eigen::Isometry3d& model_from_world) {
+  if (pictures.empty()) return GlbMeshOf(facet, nullptr, model_from_world, 0);
+  const LookPicture& first = *pictures.front();
+  GlbMesh mesh =
+      GlbMeshOf(facet, first.facet, model_from_world, first.look == 0 ? MaterialOf(first) : 0);
   if (mesh.primitives.empty()) return mesh;
+  GlbPrimitive& primitive = mesh.primitives.front();
+  for (Eigen::Vector2f& uv : primitive.uv) {
+    uv = InAtlas(uv, first.size, first.place, sheets[first.sheet].layout.size);
+  }
   for (const LookPicture* picture : pictures) {
-    if (picture->look == 0) continue;
-    mesh.primitives.front().mappings.push_back({picture->look, picture->material});
+    if (picture->look > 0) primitive.mappings.push_back({picture->look, MaterialOf(*picture)});
   }
   return mesh;
 }
@@ -80,28 +147,20 @@ std::string GlbOfLooks(const Proxy& proxy, std::span<const ModelLook> looks,
   assert(!looks.empty());
   std::vector<LookPicture> pictures = PicturesOf(looks);
   LimitSizes(options, pictures);
-  std::vector<std::string> jpegs(pictures.size());
-  ParallelFor(pictures.size(), options.threads, [&](size_t i) {
-    const LookPicture& picture = pictures[i];
-    const Image scaled =
-        ReadScaled(looks[picture.look].folder / picture.facet->image, picture.size);
-    jpegs[i] = EncodeImage(scaled, "picture.jpg", options.jpeg_quality);
-  });
+  const std::vector<Sheet> sheets = LayOut(looks, options.atlas_px, pictures);
   GlbModel model;
+  model.textures.resize(sheets.size());
+  ParallelFor(sheets.size(), options.threads, [&](size_t i) {
+    model.textures[i] = {JpegOf(sheets[i], pictures, looks, options.jpeg_quality), "image/jpeg"};
+  });
   model.repeat_textures = false;
   model.offset = looks.front().textures.model_offset;
   model.materials.push_back(GlbMaterialOf("untextured", -1));
-  std::map<std::string, std::vector<const LookPicture*>> by_id;
-  for (size_t i = 0; i < pictures.size(); ++i) {
-    LookPicture& picture = pictures[i];
-    picture.material = static_cast<int>(model.materials.size());
-    by_id[picture.facet->id].push_back(&picture);
-    const std::string name =
-        picture.look == 0 ? picture.facet->id
-                          : fmt::format("{} {}", picture.facet->id, looks[picture.look].name);
-    model.materials.push_back(GlbMaterialOf(name, static_cast<int>(model.textures.size())));
-    model.textures.push_back({std::move(jpegs[i]), "image/jpeg"});
+  for (size_t i = 0; i < sheets.size(); ++i) {
+    model.materials.push_back(GlbMaterialOf(sheets[i].name, static_cast<int>(i)));
   }
+  std::map<std::string, std::vector<const LookPicture*>> by_id;
+  for (const LookPicture& picture : pictures) by_id[picture.facet->id].push_back(&picture);
   if (looks.size() > 1) {
     for (const ModelLook& look : looks) model.variants.push_back(look.name);
   }
@@ -109,7 +168,7 @@ std::string GlbOfLooks(const Proxy& proxy, std::span<const ModelLook> looks,
       TurnToYUp(proxy.up) * Eigen::Translation3d(-model.offset);
   for (const Building& building : proxy.buildings) {
     for (const Facet& facet : building.facets) {
-      GlbMesh mesh = MeshOf(facet, by_id[facet.id], model_from_world);
+      GlbMesh mesh = MeshOf(facet, by_id[facet.id], sheets, model_from_world);
       if (!mesh.primitives.empty()) model.meshes.push_back(std::move(mesh));
     }
   }

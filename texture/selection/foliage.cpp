@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
 #include <span>
+#include <utility>
 
 namespace stucco {
 namespace {
@@ -19,9 +20,13 @@ constexpr double kRestless = 0.1;       // of what is green: standard deviation 
 constexpr double kSamePattern = 0.5;    // correlation of windows
 constexpr double kMoved = 2;            // raster texels: windows of leaves are no longer alike
 constexpr double kMostLeaves = 0.3;
-constexpr double kLiesBack = -0.05;     // behind the wall's plane, world units: a pane, a niche
-constexpr double kMirrored = 0.9;       // of a patch of leaves
-constexpr int kCell = 8;  // texels of a picture, a side
+constexpr double kLiesBack = -0.05;  // behind the wall's plane, world units: a pane, a niche
+constexpr double kMirrored = 0.9;    // of a patch of leaves
+constexpr int kAmid = 6;             // raster texels: half a window of a crown
+constexpr float kAmidLeaves = 0.5f;  // of such a window
+constexpr float kAmidLeavesBehind = 0.25f;
+constexpr float kEnclosed = 0.7f;  // of a border
+constexpr int kCell = 8;           // texels of a picture, a side
 
 bool IsGreen(const float* rgb) {
   const float sum = rgb[0] + rgb[1] + rgb[2];
@@ -114,8 +119,8 @@ std::vector<uint8_t> LeafMask(const RasterPicture& picture, const TexelGrid& ras
   return out;
 }
 
-// By texel: a picture shows leaves, and those from elsewhere that see it freely do not show the
-// same.
+// By texel: a picture shows leaves, and the cloud has something there in front of the wall, or
+// those from elsewhere that see it freely do not show the same.
 std::vector<uint8_t> LeavesBeforeWall(std::span<const RasterPicture> pictures,
                                       std::span<const std::vector<uint8_t>> leaves, size_t asked,
                                       const TexelGrid& raster, double before) {
@@ -123,6 +128,10 @@ std::vector<uint8_t> LeavesBeforeWall(std::span<const RasterPicture> pictures,
   std::vector<uint8_t> out(raster.size(), 0);
   for (size_t i = 0; i < raster.size(); ++i) {
     if (!leaves[asked][i]) continue;
+    if (picture.sight[i] == Sight::kBehind) {
+      out[i] = 1;
+      continue;
+    }
     bool seen_elsewhere = false;
     bool agreed = false;
     for (size_t other = 0; other < pictures.size() && !agreed; ++other) {
@@ -165,6 +174,65 @@ void KeepMirrors(const RasterPicture& picture, const TexelGrid& raster,
   }
 }
 
+// What a picture shows amid leaves is of the same crown: dark leaves and boughs, which are not
+// green, and gaps that are too small to tell a wall by. Where the cloud, too, has something in
+// front fewer leaves around it are enough.
+void FillCrowns(const RasterPicture& picture, const TexelGrid& raster,
+                std::vector<uint8_t>& dropped) {
+  cv::Mat seen(raster.height, raster.width, CV_32F);
+  for (size_t i = 0; i < dropped.size(); ++i) {
+    seen.ptr<float>()[i] = picture.sight[i] != Sight::kNot;
+  }
+  const cv::Size window(2 * kAmid + 1, 2 * kAmid + 1);
+  cv::Mat leaves;
+  cv::boxFilter(cv::Mat(raster.height, raster.width, CV_8UC1, dropped.data()), leaves, CV_32F,
+                window, {-1, -1}, false, cv::BORDER_CONSTANT);
+  cv::boxFilter(seen, seen, CV_32F, window, {-1, -1}, false, cv::BORDER_CONSTANT);
+  for (size_t i = 0; i < dropped.size(); ++i) {
+    if (picture.sight[i] == Sight::kNot) continue;
+    const float most = picture.sight[i] == Sight::kBehind ? kAmidLeavesBehind : kAmidLeaves;
+    if (leaves.ptr<float>()[i] > most * seen.ptr<float>()[i]) dropped[i] = 1;
+  }
+}
+
+// What leaves enclose is the inside of a crown, or too little of the wall to be told from it:
+// pieces with leaves along most of their border, and much smaller than all leaves.
+void FillEnclosed(const RasterPicture& picture, const TexelGrid& raster,
+                  std::vector<uint8_t>& dropped) {
+  struct Piece {
+    int texels = 0;
+    int border = 0;
+    int leaves = 0;  // along the border
+  };
+  cv::Mat left(raster.height, raster.width, CV_8UC1);
+  int most = 0;
+  for (int i = 0; i < static_cast<int>(dropped.size()); ++i) {
+    left.data[i] = dropped[i] == 0 && picture.sight[i] != Sight::kNot;
+    most += dropped[i];
+  }
+  cv::Mat number;
+  std::vector<Piece> pieces(cv::connectedComponents(left, number, 4, CV_32S));
+  const auto number_of = [&](int x, int y) { return number.at<int>(y, x); };
+  for (int y = 0; y < raster.height; ++y) {
+    for (int x = 0; x < raster.width; ++x) {
+      if (number_of(x, y) == 0) continue;
+      Piece& piece = pieces[number_of(x, y)];
+      ++piece.texels;
+      for (const auto& [i, j] : {std::pair{x - 1, y}, {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
+        const bool outside = i < 0 || j < 0 || i >= raster.width || j >= raster.height;
+        if (!outside && number_of(i, j) != 0) continue;
+        ++piece.border;
+        piece.leaves += !outside && dropped[static_cast<size_t>(j) * raster.width + i];
+      }
+    }
+  }
+  for (size_t i = 0; i < dropped.size(); ++i) {
+    const Piece& piece = pieces[number.ptr<int>()[i]];
+    const bool enclosed = piece.leaves > kEnclosed * piece.border && 4 * piece.texels < most;
+    if (left.data[i] != 0 && enclosed) dropped[i] = 1;
+  }
+}
+
 // Whether so much would be left that no picture sees that green must be the wall's own.
 bool WouldLoseTooMuch(std::span<const RasterPicture> pictures,
                       std::span<const std::vector<uint8_t>> dropped,
@@ -194,6 +262,8 @@ void DropFoliage(const FacetRaster& raster, double before, std::vector<RasterPic
   for (size_t p = 0; p < pictures.size(); ++p) {
     dropped[p] = LeavesBeforeWall(pictures, leaves, p, raster.grid, before);
     KeepMirrors(pictures[p], raster.grid, dropped[p]);
+    FillCrowns(pictures[p], raster.grid, dropped[p]);
+    FillEnclosed(pictures[p], raster.grid, dropped[p]);
   }
   if (WouldLoseTooMuch(pictures, dropped, raster.inside)) return;
   for (size_t p = 0; p < pictures.size(); ++p) {
