@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "tests/texture/synthetic.h"
 #include "texture/painting/patch_fill.h"
@@ -106,6 +107,44 @@ TEST(FillWithPatches, ContinuesAPattern) {
   EXPECT_GT(patched, smooth + 4);
   EXPECT_GT(patched, 20);
   EXPECT_GT(test::Psnr(picture, truth, Inverse(hole)), 90);
+}
+
+// Shaded bricks above a plain plinth, a third of them missing down to the edge of the picture: the
+// hole is as restless as the wall beside it, and the plinth goes on.
+TEST(FillWithPatches, LargeHolesAreNoSmoothPatches) {
+  Image truth = Bricks();
+  std::mt19937 random(3);
+  for (int y = 0; y < kRows; ++y) {
+    for (int x = 0; x < kColumns; ++x) {
+      const int brick = (x + (y / 10 % 2) * 8) / 16 * 31 + y / 10 * 17;
+      for (int k = 0; k < 3; ++k) {
+        uint8_t& value = truth.Pixel(x, y)[k];
+        value = y >= 95 ? 160 : static_cast<uint8_t>(value - 60 + brick * 7 % 60 + random() % 8);
+      }
+    }
+  }
+  std::vector<uint8_t> hole(kColumns * kRows, 0);
+  for (int y = 25; y < kRows; ++y) {
+    for (int x = 50; x < 100; ++x) hole[y * kColumns + x] = 1;
+  }
+  Image picture = truth;
+  FillPictureSmoothly(picture, Inverse(hole));
+  FillWithPatches(picture, hole, Inverse(hole), 512, 1);
+  const auto spread = [](const Image& image, int left) {
+    double sum = 0, squares = 0;
+    for (int y = 30; y < 90; ++y) {
+      for (int x = left; x < left + 40; ++x) {
+        const double value = image.Pixel(x, y)[1];
+        sum += value;
+        squares += value * value;
+      }
+    }
+    return std::sqrt(squares / 2400 - sum * sum / 2400 / 2400);
+  };
+  EXPECT_GT(spread(picture, 55), 0.8 * spread(truth, 5));
+  for (int y = 100; y < kRows; ++y) {
+    for (int x = 50; x < 100; ++x) EXPECT_NEAR(picture.Pixel(x, y)[1], 160, 12) << x << ' ' << y;
+  }
 }
 
 TEST(FillWithPatches, IsTheSameEveryTime) {

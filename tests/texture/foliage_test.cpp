@@ -105,6 +105,26 @@ TEST(DropFoliage, LeavesThatDifferFromPhotoToPhotoStandBeforeTheWall) {
   EXPECT_EQ(pictures[1].sight[At(5, 5)], Sight::kNot);
 }
 
+// What is dark amid leaves is dropped with them, and what they enclose; the wall beside them is
+// not.
+TEST(DropFoliage, CrownsAreWhole) {
+  std::vector<RasterPicture> pictures = {Wall(kLeaf, 0.3f, 1, 30), Wall(kLeaf, 0.3f, 1, 0)};
+  const auto darken = [&](int from, int to) {
+    for (int y = from; y < to; ++y) {
+      for (int x = from; x < to; ++x) std::fill_n(&pictures[0].rgb[3 * At(x, y)], 3, 4.0f);
+    }
+  };
+  darken(6, 21);
+  darken(2, 4);
+  pictures.push_back(pictures[1]);
+  const auto left = Dropped(pictures);
+  EXPECT_EQ(left[0].sight[At(13, 13)], Sight::kNot);
+  EXPECT_EQ(left[0].sight[At(2, 2)], Sight::kNot);
+  EXPECT_EQ(left[0].sight[At(35, 10)], Sight::kFree);
+  EXPECT_EQ(left[0].sight[At(10, 35)], Sight::kFree);
+  EXPECT_EQ(Unseen(left[1]), 0);
+}
+
 // A wall whose upper left corner lies back, so many texels wide and high.
 std::shared_ptr<const Relief> Pane(int side) {
   auto pane = std::make_shared<Relief>();

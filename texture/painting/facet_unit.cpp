@@ -20,7 +20,7 @@ namespace {
 using nlohmann::json;
 
 // Raise when the meaning of a unit or the method behind it changes.
-constexpr char kVersion[] = "12";
+constexpr char kVersion[] = "13";
 
 json FromVector(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};

@@ -41,10 +41,10 @@ class Matcher {
  public:
   Matcher(Level& level, std::mt19937& random) : level_(level), random_(random) {
     const cv::Mat box = cv::Mat::ones(2 * kRadius + 1, 2 * kRadius + 1, CV_8U);
-    cv::Mat centers;
-    cv::erode(level.source, centers, box, cv::Point(-1, -1), 1, cv::BORDER_CONSTANT, cv::Scalar(0));
     cv::Mat touched;
     cv::dilate(level.hole, touched, box);
+    // Beyond the facet nothing is missing: its borders, too, have patches to copy.
+    const cv::Mat centers = level.source & ~touched;
     // Patches need a middle inside the facet.
     touched &= level.hole | level.source;
     cv::findNonZero(centers, sources_);
@@ -68,13 +68,16 @@ class Matcher {
   void Start(const cv::Mat& coarse_match) {
     match_.resize(targets_.size());
     for (size_t i = 0; i < targets_.size(); ++i) {
-      match_[i] = RandomSource();
+      match_[i] = SourceBeside(targets_[i].y);
       if (coarse_match.empty()) continue;
       const cv::Point parent(targets_[i].x / 2, targets_[i].y / 2);
       const auto& from = coarse_match.at<cv::Vec2i>(parent);
       const cv::Point place(2 * from[0] + targets_[i].x % 2, 2 * from[1] + targets_[i].y % 2);
       if (from[0] >= 0 && IsSource(place)) match_[i] = place;
     }
+    // What is in the hole so far is smooth, and would be matched with what is smooth.
+    distance_.assign(targets_.size(), 0);
+    Vote();
     Refresh();
   }
 
@@ -98,30 +101,37 @@ class Matcher {
     return at.x >= 0 && at.y >= 0 && at.x < is_source_.cols && at.y < is_source_.rows &&
            is_source_.at<uint8_t>(at) != 0;
   }
-  cv::Point RandomSource() { return sources_[random_() % sources_.size()]; }
+  // One in the same row where there is any: on facades things lie in rows.
+  cv::Point SourceBeside(int row) {
+    const auto [first, last] =
+        std::ranges::equal_range(sources_, row, {}, [](const cv::Point& at) { return at.y; });
+    const auto count = static_cast<size_t>(last - first);
+    return count > 0 ? first[random_() % count] : sources_[random_() % sources_.size()];
+  }
 
-  // Mean squared distance over the part of the target patch that is on the facet.
+  // Mean squared distance over the part of the target patch that is on the facet, the larger the
+  // less of it the source has.
   float Distance(const cv::Point& target, const cv::Point& source, float limit) const {
     float sum = 0;
-    int count = 0;
+    int asked = 0;
+    int compared = 0;
     const float stop = limit * (2 * kRadius + 1) * (2 * kRadius + 1);
+    const cv::Rect inside({}, level_.rgb.size());
     for (int dy = -kRadius; dy <= kRadius; ++dy) {
-      const int y = target.y + dy;
-      if (y < 0 || y >= level_.rgb.rows) continue;
-      const auto* a = level_.rgb.ptr<cv::Vec3f>(y);
-      const auto* b = level_.rgb.ptr<cv::Vec3f>(source.y + dy);
-      const auto* hole = level_.hole.ptr<uint8_t>(y);
-      const auto* known = level_.source.ptr<uint8_t>(y);
       for (int dx = -kRadius; dx <= kRadius; ++dx) {
-        const int x = target.x + dx;
-        if (x < 0 || x >= level_.rgb.cols || !(hole[x] || known[x])) continue;
-        const cv::Vec3f d = a[x] - b[source.x + dx];
+        const cv::Point at(target.x + dx, target.y + dy);
+        if (!inside.contains(at)) continue;
+        if (!level_.hole.at<uint8_t>(at) && !level_.source.at<uint8_t>(at)) continue;
+        ++asked;
+        const cv::Point from(source.x + dx, source.y + dy);
+        if (!inside.contains(from) || !level_.source.at<uint8_t>(from)) continue;
+        const cv::Vec3f d = level_.rgb.at<cv::Vec3f>(at) - level_.rgb.at<cv::Vec3f>(from);
         sum += d.dot(d);
-        ++count;
+        ++compared;
       }
       if (sum > stop) return std::numeric_limits<float>::max();
     }
-    return sum / static_cast<float>(count);
+    return sum * static_cast<float>(asked) / static_cast<float>(compared * compared);
   }
 
   void Refresh() {
@@ -152,6 +162,7 @@ class Matcher {
         const int neighbour = target_of_.at<int>(next);
         if (neighbour >= 0) Try(i, match_[neighbour] - step);
       }
+      Try(i, SourceBeside(targets_[i].y));
       for (int reach = std::max(level_.rgb.cols, level_.rgb.rows); reach >= 1; reach /= 2) {
         const int span = 2 * reach + 1;
         const cv::Point jump(static_cast<int>(random_() % span) - reach,
@@ -165,14 +176,16 @@ class Matcher {
   void Vote() {
     cv::Mat sum(level_.rgb.size(), CV_32FC3, cv::Scalar::all(0));
     cv::Mat weight(level_.rgb.size(), CV_32F, cv::Scalar(0));
+    const cv::Rect inside({}, level_.rgb.size());
     for (size_t i = 0; i < targets_.size(); ++i) {
       const float w = trust_[i] / (1 + distance_[i] / 100);
       for (int dy = -kRadius; dy <= kRadius; ++dy) {
         for (int dx = -kRadius; dx <= kRadius; ++dx) {
           const cv::Point at(targets_[i].x + dx, targets_[i].y + dy);
-          if (at.x < 0 || at.y < 0 || at.x >= sum.cols || at.y >= sum.rows) continue;
-          if (!level_.hole.at<uint8_t>(at)) continue;
-          sum.at<cv::Vec3f>(at) += w * level_.rgb.at<cv::Vec3f>(match_[i].y + dy, match_[i].x + dx);
+          const cv::Point from(match_[i].x + dx, match_[i].y + dy);
+          if (!inside.contains(at) || !inside.contains(from)) continue;
+          if (!level_.hole.at<uint8_t>(at) || !level_.source.at<uint8_t>(from)) continue;
+          sum.at<cv::Vec3f>(at) += w * level_.rgb.at<cv::Vec3f>(from);
           weight.at<float>(at) += w;
         }
       }
@@ -231,6 +244,8 @@ cv::Mat Synthesize(std::vector<Level>& levels, uint32_t seed) {
 void WriteBack(const Level& filled, const cv::Mat& field, const cv::Mat& hole, cv::Mat& full) {
   cv::Mat smooth;
   filled.rgb.convertTo(smooth, CV_8U);
+  // Votes mix what patches say finer than themselves: that comes from the texel's own match alone.
+  cv::GaussianBlur(smooth, smooth, {}, kRadius);
   cv::resize(smooth, smooth, full.size(), 0, 0, cv::INTER_CUBIC);
   const double sx = static_cast<double>(filled.rgb.cols) / full.cols;
   const double sy = static_cast<double>(filled.rgb.rows) / full.rows;
