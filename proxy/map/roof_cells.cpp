@@ -5,13 +5,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "proxy/facets/contour_lines.h"
 #include "proxy/facets/raster.h"
 #include "proxy/map/cell_labels.h"
 #include "proxy/map/eaves.h"
-#include "proxy/map/open_ground.h"
+#include "proxy/map/inner_walls.h"
+#include "proxy/map/roof_lines.h"
 #include "proxy/map/roof_patches.h"
 #include "survey/median.h"
 
@@ -28,202 +27,10 @@ constexpr double kLevelRoof = 0.3;  // the roof of last resort
 constexpr double kNoRoof = 0.3;     // the ground where nobody sees whether it lies open
 constexpr double kForbidden = 1e3;  // a square metre of roof in the ground
 constexpr double kMeets_m = 0.02;   // roofs nearer than this along a border meet there
-constexpr double kSameLine_m = 1e-5;
 
 RoofPlane RoofOf(const Plane& plane) {
   const double z = plane.normal.z();
   return {.slope = -plane.normal.head<2>() / z, .height = plane.offset / z};
-}
-
-Eigen::AlignedBox2d BoxAround(const MapBuilding& building) {
-  constexpr double kMargin_m = 1;
-  return BoundsOf(building, kMargin_m);
-}
-
-// How far two lines come apart inside the box; large where they are not about parallel.
-double Apart(const CutLine& line, const CutLine& other, const Eigen::AlignedBox2d& box) {
-  constexpr double kAlike = 0.1;
-  if (std::abs(Cross(line.direction, other.direction)) > kAlike) return 1e9;
-  const Eigen::Vector2d half = box.diagonal().norm() / 2 * line.direction;
-  const Eigen::Vector2d middle =
-      line.point + line.direction * line.direction.dot(box.center() - line.point);
-  double apart = 0;
-  for (const Eigen::Vector2d& p :
-       {Eigen::Vector2d(middle - half), Eigen::Vector2d(middle + half)}) {
-    apart = std::max(apart, std::abs(Cross(other.direction, p - other.point)));
-  }
-  return apart;
-}
-
-bool IsNew(const CutLine& line, const std::vector<CutLine>& lines, const Eigen::AlignedBox2d& box,
-           double apart) {
-  return std::ranges::none_of(
-      lines, [&](const CutLine& other) { return Apart(line, other, box) < apart; });
-}
-
-// Longest first, so that short edges follow long ones that they lie in line with.
-std::vector<CutLine> EdgeLines(const MapBuilding& building, const Eigen::AlignedBox2d& box) {
-  std::vector<Segment2d> edges;
-  for (const Polygon& part : building.parts) {
-    for (const Ring& ring : part.rings) {
-      for (size_t i = 0; i < ring.size(); ++i) {
-        edges.push_back(EdgeOf(ring, i));
-      }
-    }
-  }
-  std::stable_sort(edges.begin(), edges.end(), [](const Segment2d& a, const Segment2d& b) {
-    return (a.b - a.a).squaredNorm() > (b.b - b.a).squaredNorm();
-  });
-  constexpr double kSameEdge_m = 1e-4;
-  std::vector<CutLine> lines;
-  for (const Segment2d& edge : edges) {
-    const CutLine line{.point = edge.a, .direction = (edge.b - edge.a).normalized()};
-    if (IsNew(line, lines, box, kSameEdge_m)) lines.push_back(line);
-  }
-  return lines;
-}
-
-// The ground plan of a footprint in small cells: where each roof has its samples.
-struct CoverOfRoofs {
-  PlaneRaster raster;                      // its frame is that of the ground plan
-  std::vector<std::vector<float>> to_hit;  // of each roof: metres to its nearest sample
-  std::vector<float> to_open;              // metres to where the ground lies open; empty: nowhere
-};
-
-CoverOfRoofs CoverOf(const FittedBuilding& building, const RoofEvidence& evidence,
-                     std::span<const int> planes, const Tolerances& tolerances) {
-  CoverOfRoofs cover;
-  const Eigen::AlignedBox2d box = BoxAround(building.building);
-  cover.raster.cell = std::max(2 * tolerances.spacing, tolerances.level_of_detail / 2);
-  cover.raster.origin = box.min();
-  cover.raster.width = static_cast<int>(box.sizes().x() / cover.raster.cell) + 1;
-  cover.raster.height = static_cast<int>(box.sizes().y() / cover.raster.cell) + 1;
-  for (const int p : planes) {
-    std::vector<char> hit(static_cast<size_t>(cover.raster.width) * cover.raster.height, 0);
-    for (const int i : evidence.planes[p].points) {
-      const int at = cover.raster.IndexAt(evidence.samples.positions[i].head<2>());
-      if (at >= 0) hit[at] = 1;
-    }
-    cover.to_hit.push_back(DistancesTo(cover.raster, hit));
-  }
-  cover.to_open = DistancesToOpenGround(evidence, cover.raster);
-  return cover;
-}
-
-// Whether two roofs fall to opposite sides, so that they meet in a ridge.
-bool FallApart(const RoofPlane& a, const RoofPlane& b) {
-  constexpr double kOpposite = -0.98;  // cosine
-  return a.slope.dot(b.slope) < kOpposite * a.slope.norm() * b.slope.norm();
-}
-
-// The line in which two roofs meet, where both have samples near it, or one of two that fall apart:
-// the far side of a ridge is often seen only at its eaves. Nothing when they run parallel or meet
-// elsewhere.
-std::optional<CutLine> MeetingLine(const CoverOfRoofs& cover, const std::vector<RoofPlane>& roofs,
-                                   size_t a, size_t b, double reach) {
-  constexpr double kLeastSlope = 0.02;
-  constexpr double kLeastShared_m = 0.5;
-  const Eigen::Vector2d slope = roofs[a].slope - roofs[b].slope;
-  if (slope.norm() < kLeastSlope) return std::nullopt;
-  const Eigen::Vector2d n = slope.normalized();
-  CutLine line{.point = n * ((roofs[b].height - roofs[a].height) / slope.norm()),
-               .direction = {-n.y(), n.x()},
-               .crease = true};
-  const Eigen::AlignedBox2d box(
-      cover.raster.origin,
-      Eigen::Vector2d(cover.raster.Center(cover.raster.width - 1, cover.raster.height - 1)));
-  const Eigen::Vector2d middle =
-      line.point + line.direction * line.direction.dot(box.center() - line.point);
-  line.point = middle;
-  const double half = box.diagonal().norm() / 2;
-  const bool ridge = FallApart(roofs[a], roofs[b]);
-  double shared = 0;
-  for (double t = -half; t <= half; t += cover.raster.cell) {
-    const int at = cover.raster.IndexAt(middle + t * line.direction);
-    if (at < 0) continue;
-    const bool near_a = cover.to_hit[a][at] <= reach, near_b = cover.to_hit[b][at] <= reach;
-    if (ridge ? near_a || near_b : near_a && near_b) shared += cover.raster.cell;
-  }
-  if (shared < kLeastShared_m) return std::nullopt;
-  return line;
-}
-
-// Straight borders of what lies within reach of `to_hit`: what a roof covers, in the ground plan;
-// axes are those of the longest edge.
-std::vector<CutLine> BordersOf(const PlaneRaster& raster, const std::vector<float>& to_hit,
-                               const CutLine& axis, const std::vector<CutLine>& creases,
-                               double detail) {
-  constexpr int kMostLines = 10;
-  const Eigen::Vector2d u = axis.direction, v(-u.y(), u.x());
-  // The raster once more, turned to the axes.
-  PlaneRaster turned = raster;
-  const Eigen::Vector2d center = raster.Center(turned.width / 2, turned.height / 2);
-  const double half = std::hypot(turned.width, turned.height) / 2 * turned.cell;
-  turned.width = turned.height = static_cast<int>(2 * half / turned.cell) + 1;
-  turned.origin = Eigen::Vector2d(u.dot(center) - half, v.dot(center) - half);
-  const float reach = static_cast<float>(1.5 * turned.cell);
-  std::vector<Evidence> evidence(static_cast<size_t>(turned.width) * turned.height,
-                                 Evidence::kUnknown);
-  for (int y = 0; y < turned.height; ++y) {
-    for (int x = 0; x < turned.width; ++x) {
-      const Eigen::Vector2d p = turned.Center(x, y);
-      const int at = raster.IndexAt(p.x() * u + p.y() * v);
-      if (at >= 0 && to_hit[at] <= reach) {
-        evidence[turned.Index(x, y)] = Evidence::kSeen;
-      }
-    }
-  }
-  std::vector<CutLine> turned_creases;
-  for (const CutLine& crease : creases) {
-    CutLine line = crease;
-    line.point = {u.dot(crease.point), v.dot(crease.point)};
-    line.direction = {u.dot(crease.direction), v.dot(crease.direction)};
-    turned_creases.push_back(line);
-  }
-  auto lines =
-      ContourLines(turned, evidence, turned_creases,
-                   {.detail = detail, .most_lines = kMostLines, .free_length = 10 * detail});
-  for (CutLine& line : lines) {
-    line.point = Eigen::Vector2d(line.point.x() * u + line.point.y() * v);
-    line.direction = Eigen::Vector2d(line.direction.x() * u + line.direction.y() * v);
-  }
-  return lines;
-}
-
-std::vector<CutLine> LinesOf(const FittedBuilding& building, const RoofEvidence& evidence,
-                             const CoverOfRoofs& cover, const std::vector<RoofPlane>& roofs,
-                             const Tolerances& tolerances) {
-  constexpr size_t kMostLines = 120;  // some thousand cells; the first ones matter most
-  const Eigen::AlignedBox2d box = BoxAround(building.building);
-  std::vector<CutLine> lines = EdgeLines(building.building, box);
-  const CutLine axis = lines.front();
-  const size_t most = std::max(kMostLines, lines.size());
-  const auto add = [&](const CutLine& line, double apart) {
-    if (lines.size() < most && IsNew(line, lines, box, apart)) lines.push_back(line);
-  };
-  std::vector<CutLine> creases;
-  for (size_t a = 0; a < cover.to_hit.size(); ++a) {
-    for (size_t b = a + 1; b < cover.to_hit.size(); ++b) {
-      if (const auto line = MeetingLine(cover, roofs, a, b, tolerances.fill_gap)) {
-        creases.push_back(*line);
-      }
-    }
-  }
-  for (const CutLine& line : creases) add(line, kSameLine_m);
-  for (const Plane& step : evidence.steps) {
-    const Eigen::Vector2d n = step.normal.head<2>().normalized();
-    add({.point = n * (step.offset / step.normal.head<2>().norm()), .direction = {-n.y(), n.x()}},
-        tolerances.level_of_detail);
-  }
-  const double detail = tolerances.level_of_detail;
-  const auto add_borders = [&](const std::vector<float>& to_hit) {
-    for (const CutLine& line : BordersOf(cover.raster, to_hit, axis, creases, detail)) {
-      add(line, detail);
-    }
-  };
-  if (!cover.to_open.empty()) add_borders(cover.to_open);
-  for (const std::vector<float>& to_hit : cover.to_hit) add_borders(to_hit);
-  return lines;
 }
 
 Eigen::Vector2d MiddleOf(const Arrangement& arrangement, const std::vector<int>& face) {
@@ -392,6 +199,12 @@ std::vector<std::vector<double>> DataOf(const RoofCells& roof, const CellNumbers
   return data;
 }
 
+bool AreSame(const std::vector<RoofPlane>& some, const std::vector<RoofPlane>& others) {
+  return std::ranges::equal(some, others, [](const RoofPlane& a, const RoofPlane& b) {
+    return a.slope == b.slope && a.height == b.height;
+  });
+}
+
 // Whether a roof comes nearer to the ground than a building's may, over a face.
 bool IsBuried(const RoofCells& roof, size_t label, int face, double ground) {
   return std::ranges::any_of(roof.arrangement.faces[face], [&](int v) {
@@ -399,22 +212,9 @@ bool IsBuried(const RoofCells& roof, size_t label, int face, double ground) {
   });
 }
 
-}  // namespace
-
-RoofCells LabelRoof(const FittedBuilding& building, const RoofEvidence& evidence,
-                    std::span<const int> planes, const Tolerances& tolerances) {
-  RoofCells roof;
-  std::vector<double> heights;
-  for (const int p : planes) {
-    roof.roofs.push_back(RoofOf(evidence.planes[p]));
-    for (const int i : evidence.planes[p].points) {
-      heights.push_back(evidence.samples.positions[i].z());
-    }
-  }
-  LevelEaves(building, evidence, planes, tolerances, roof.roofs);
-  const CoverOfRoofs cover = CoverOf(building, evidence, planes, tolerances);
-  roof.roofs.push_back({.height = Median(heights).value_or(building.ground + kRaised_m)});
-  roof.lines = LinesOf(building, evidence, cover, roof.roofs, tolerances);
+// Gives the cells between the roof's lines their labels.
+void Label(const RoofTask& task, const CoverOfRoofs& cover, RoofCells& roof) {
+  const auto& [building, evidence, planes, tolerances] = task;
   roof.arrangement = Arrange(BoxAround(building.building), roof.lines);
   roof.labels = InsideOf(roof.arrangement, building.building);
   const CellNumbers numbers = NumberCells(roof.labels);
@@ -442,8 +242,49 @@ RoofCells LabelRoof(const FittedBuilding& building, const RoofEvidence& evidence
   for (size_t c = 0; c < labels.size(); ++c) {
     roof.labels[face_of_cell[c]] = labels[c] == none ? -1 : labels[c];
   }
+  std::vector<bool> inside(roof.labels.size(), false);
+  for (const int face : face_of_cell) inside[face] = true;
+  DropShortWalls(roof.arrangement, roof.lines, roof.roofs, inside, roof.labels);
   JoinAtCorners(roof.arrangement, roof.roofs, roof.labels);
-  return roof;
+}
+
+}  // namespace
+
+RoofCells LabelRoof(const FittedBuilding& building, const RoofEvidence& evidence,
+                    std::span<const int> planes, const Tolerances& tolerances) {
+  const RoofTask task{building, evidence, planes, tolerances};
+  RoofCells roof;
+  std::vector<double> heights;
+  for (const int p : planes) {
+    roof.roofs.push_back(RoofOf(evidence.planes[p]));
+    for (const int i : evidence.planes[p].points) {
+      heights.push_back(evidence.samples.positions[i].z());
+    }
+  }
+  const std::vector<RoofPlane> as_found = roof.roofs;
+  LevelEaves(building, evidence, planes, tolerances, roof.roofs);
+  const CoverOfRoofs cover = CoverOf(task);
+  const RoofPlane level{.height = Median(heights).value_or(building.ground + kRaised_m)};
+  roof.roofs.push_back(level);
+  roof.lines = LinesOf(task, cover, roof.roofs);
+  Label(task, cover, roof);
+
+  // Eaves over walls that are no edges of the footprint are known only now.
+  FittedBuilding walled = building;
+  const auto edges =
+      static_cast<int>(EdgeLines(building.building, BoxAround(building.building)).size());
+  for (const Segment2d& wall :
+       InnerWalls(roof.arrangement, roof.lines, edges, roof.roofs, roof.labels)) {
+    walled.edges.push_back({.line = wall, .facades = {}});
+  }
+  if (walled.edges.size() == building.edges.size()) return roof;
+  RoofCells again{.arrangement = {}, .lines = {}, .roofs = as_found, .labels = {}};
+  LevelEaves(walled, evidence, planes, tolerances, again.roofs);
+  again.roofs.push_back(level);
+  if (AreSame(again.roofs, roof.roofs)) return roof;
+  again.lines = WithCreases(task, roof.lines, CreasesOf(cover, again.roofs, tolerances));
+  Label(task, cover, again);
+  return again;
 }
 
 RoofCells FlatRoof(const MapBuilding& building, double height) {

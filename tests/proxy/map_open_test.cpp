@@ -3,6 +3,7 @@
 // Maps that draw more simply than what stands: corners and courtyards left out.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,31 @@ TEST(MapOpenGround, ACornerThatTheMapLeavesOutIsNotBuilt) {
     unknown_to_the_map += wall->planned_facades.empty() ? 1 : 0;
   }
   EXPECT_EQ(unknown_to_the_map, 2);
+}
+
+// The valley of a hip roof ends where the walls meet that the map leaves out, to the millimetre,
+// wherever noise puts these walls.
+TEST(MapOpenGround, AValleyEndsInTheCornerOfTheGarden) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& corner : test::HipLOutline()) box.extend(corner);
+  const Ring map = Rectangle(box.min().x(), box.min().y(), box.max().x(), box.max().y());
+  for (const uint32_t seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
+    test::CaptureOptions options = kDenseCapture;
+    options.seed = seed;
+    const auto captured = test::Capture({test::HipLHouse(5)}, {test::GroundSquare(25)}, options);
+    const MadeModel made = MakeModel(captured, {{"B0001", {map}, 8}});
+    const Building& house = ClosedIn(made, "B0001");
+    EXPECT_EQ(house.detail, "full") << seed;
+    EXPECT_EQ(OfClass(house, FacetClass::kWall).size(), 6u) << seed;
+    EXPECT_EQ(OfClass(house, FacetClass::kRoof).size(), 6u) << seed;
+    for (const Facet& facet : house.facets) {
+      for (size_t i = 0; i < facet.outer.size(); ++i) {
+        const Eigen::Vector3d& next = facet.outer[(i + 1) % facet.outer.size()];
+        if (next.z() > 6) continue;  // ridges of two wings may differ in height
+        EXPECT_GT((next - facet.outer[i]).norm(), 0.05) << seed << ' ' << facet.id;
+      }
+    }
+  }
 }
 
 TEST(MapOpenGround, ACourtyardThatTheMapLeavesOutIsNotBuilt) {
