@@ -116,7 +116,8 @@ std::string WorstList(const PageContent& page) {
     items += fmt::format(
         "<li>{}<span><button type=\"button\" class=\"link\" data-open=\"{}\">{}</button> "
         "<span class=\"quiet\">{}</span></span></li>",
-        VerdictBadge(row.verdict), i, IsolatedHtml(row.Name()), EscapeHtml(row.findings.front().text));
+        VerdictBadge(row.verdict), i, IsolatedHtml(row.Name()),
+        EscapeHtml(row.findings.front().text));
   }
   if (items.empty()) return "";
   return "<h3>Look at these first</h3><ul class=\"worst\">" + items + "</ul>";

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -94,8 +95,10 @@ class ShownParts {
       found.middle = frame.ToWorld(raster.origin + raster.cell * at);
       // The frame passes through the first point, the plane through all.
       found.middle -= plane.DistanceTo(found.middle) * plane.normal;
-      found.building = BuildingBeside(found.middle, std::sqrt(found.area));
-      if (!found.building.empty()) missing.push_back(std::move(found));
+      const Building* building = BuildingBeside(found.middle, std::sqrt(found.area));
+      if (building == nullptr || IsGround(plane, found.middle, *building)) continue;
+      found.building = building->id;
+      missing.push_back(std::move(found));
     }
     return missing;
   }
@@ -137,14 +140,25 @@ class ShownParts {
   }
 
   // By boxes: whose facets come within reach of a piece of this size.
-  std::string BuildingBeside(const Eigen::Vector3d& middle, double size) const {
+  const Building* BuildingBeside(const Eigen::Vector3d& middle, double size) const {
     const double reach = kBesideBuilding * scene_.tolerances.level_of_detail + size / 2;
     const auto near = Near(middle, reach);
-    if (near.empty()) return "";
+    if (near.empty()) return nullptr;
     const auto nearest = std::ranges::min_element(near, {}, [&](const auto& entry) {
       return std::pair(facets_[entry.second].box.squaredExteriorDistance(middle), entry.second);
     });
-    return facets_[nearest->second].building->id;
+    return facets_[nearest->second].building;
+  }
+
+  // What is level and at the foot of the building.
+  bool IsGround(const Plane& plane, const Eigen::Vector3d& middle, const Building& building) const {
+    constexpr double kLevel = 0.9;
+    if (plane.normal.dot(scene_.up) < kLevel) return false;
+    double foot = std::numeric_limits<double>::max();
+    for (const Facet& facet : building.facets) {
+      for (const Eigen::Vector3d& p : facet.outer) foot = std::min(foot, scene_.up.dot(p));
+    }
+    return scene_.up.dot(middle) < foot + kBesideBuilding * scene_.tolerances.level_of_detail;
   }
 
   const PlanarScene& scene_;

@@ -22,7 +22,8 @@ struct NotShown {
 
 // What photos show of buildings and the model does not, the largest first: pieces of `planes` at
 // least four times as large as the smallest facet, as wide as that everywhere, and no leaves, with
-// a building within six levels of detail. On a facet is what lies within two levels of detail of
+// a building within six levels of detail. What is level and no more than that above the foot of its
+// building is ground. On a facet is what lies within two levels of detail of
 // one that looks much the same way: windows in their wall, and bricks of a chimney, count as shown.
 std::vector<NotShown> FindNotShown(const PlanarScene& scene, std::span<const Plane> planes,
                                    std::span<const Building> buildings, int threads);

@@ -128,12 +128,12 @@ void DropShortWalls(const Arrangement& arrangement, std::span<const CutLine> lin
   for (int changes = 0; changes < kMostChanges; ++changes) {
     const bool changed = std::ranges::any_of(std::vector<int>(found.edges), [&](int e) {
       const Arrangement::Edge& edge = arrangement.edges[e];
-      if (edge.left < 0 || edge.right < 0 || !inside[edge.left] || !inside[edge.right]) return false;
+      if (edge.left < 0 || edge.right < 0 || !inside[edge.left] || !inside[edge.right])
+        return false;
       const bool left_goes = area(edge.left) < area(edge.right);
       const int cell = left_goes ? edge.left : edge.right;
       if (is_changed[cell]) return false;
-      const int before =
-          std::exchange(labels[cell], labels[left_goes ? edge.right : edge.left]);
+      const int before = std::exchange(labels[cell], labels[left_goes ? edge.right : edge.left]);
       ShortWalls::Found after = walls.Find(labels);
       // The first half of such a corner is no worse, the second one better.
       is_changed[cell] = after.length <= found.length * (1 + 1e-6);

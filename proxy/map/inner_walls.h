@@ -11,10 +11,10 @@
 
 namespace stucco {
 
-// Walls of a labelled ground plan (extrude_cells.h) that stand inside of a footprint, whose edges the
-// first `edges` of its lines are: where the ground lies open in a corner that the map has built, and
-// where a roof ends above another one. Each runs along its line from its first to its last piece,
-// the higher side on its left. Creases, in which roofs meet, are none.
+// Walls of a labelled ground plan (extrude_cells.h) that stand inside of a footprint, whose edges
+// the first `edges` of its lines are: where the ground lies open in a corner that the map has
+// built, and where a roof ends above another one. Each runs along its line from its first to its
+// last piece, the higher side on its left. Creases, in which roofs meet, are none.
 std::vector<Segment2d> InnerWalls(const Arrangement& arrangement, std::span<const CutLine> lines,
                                   int edges, std::span<const RoofPlane> roofs,
                                   const std::vector<int>& labels);

@@ -68,6 +68,29 @@ TEST_F(NotShownOfAHouse, APartOfAWallIsNamedWhereItIsLarge) {
   EXPECT_NEAR(found[0].middle.x(), 3.8, 0.4);
 }
 
+TEST_F(NotShownOfAHouse, TheGroundBesideItIsNone) {
+  Plane level;
+  level.normal = Eigen::Vector3d::UnitZ();
+  level.role = PlaneRole::kSlope;
+  level.area = 1500;
+  for (size_t i = 0; i < scene_.samples.size(); ++i) {
+    if (scene_.samples.positions[i].z() < 0.1) level.points.push_back(static_cast<int>(i));
+  }
+  ASSERT_GT(level.points.size(), 1000u);
+  planes_ = {level};
+  EXPECT_TRUE(Find().empty());
+  for (Facet& facet : proxy_.buildings[0].facets) {  // a house on posts, far above it
+    for (Eigen::Vector3d& p : facet.outer) p.z() += 2.5;
+    facet.offset += 2.5 * facet.normal.z();
+  }
+  EXPECT_TRUE(Find().empty());
+  for (Facet& facet : proxy_.buildings[0].facets) {  // a house whose flat wing lacks
+    for (Eigen::Vector3d& p : facet.outer) p.z() -= 7.5;
+    facet.offset -= 7.5 * facet.normal.z();
+  }
+  EXPECT_EQ(Find().size(), 1u);
+}
+
 TEST_F(NotShownOfAHouse, WhatIsFarFromAllBuildingsIsNone) {
   for (Facet& facet : proxy_.buildings[0].facets) {
     for (Eigen::Vector3d& p : facet.outer) p.x() += 100;
