@@ -226,7 +226,7 @@ void FollowTerrain(const PlanarScene& scene, std::vector<Building>& buildings,
   ground->facets = std::move(terrain);
 }
 
-// Says what photos show of buildings and no facet does.
+// Says what the cloud shows of buildings and no facet does.
 void NameNotShown(const PlanarScene& scene, std::span<const Plane> planes, const Proxy& proxy,
                   int threads, ProxyFindings& findings) {
   for (const NotShown& part : FindNotShown(scene, planes, proxy.buildings, threads)) {
@@ -234,7 +234,7 @@ void NameNotShown(const PlanarScene& scene, std::span<const Plane> planes, const
                        : part.role == PlaneRole::kCeiling ? "an underside"
                                                           : "a roof";
     findings.of_model.push_back(
-        fmt::format("{}: photos show {} that is no facet, {:.0f} {}, at {:.1f}, {:.1f}, {:.1f}",
+        fmt::format("{}: the cloud shows {} that is no facet, {:.0f} {}, at {:.1f}, {:.1f}, {:.1f}",
                     part.building, what, part.area, proxy.metric ? "m2" : "square units",
                     part.middle.x(), part.middle.y(), part.middle.z()));
   }

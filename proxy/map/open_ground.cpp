@@ -52,16 +52,26 @@ std::vector<char> LargePatches(const cv::Mat& open, double cell) {
   return large;
 }
 
-// Whether a place lies close in front of an upright plane above the footprint, and behind none.
+double DistanceBefore(const Plane& step, const Eigen::Vector2d& p) {
+  return step.normal.head<2>().dot(p) - step.offset;
+}
+
+// Whether a place lies close in front of an upright plane above the footprint, and behind none. Of
+// planes that look the same way the largest says so: the wall, not its balconies.
 bool IsBeforeWall(const RoofEvidence& evidence, const Eigen::Vector2d& p) {
-  bool before = false;
+  constexpr double kSameWay = 0.9;
+  std::vector<const Plane*> near;
   for (const Plane& step : evidence.steps) {
-    const double off = step.normal.head<2>().dot(p) - step.offset;
-    if (std::abs(off) > kEaves_m) continue;
-    if (off < 0) return false;
-    before = true;
+    if (std::abs(DistanceBefore(step, p)) <= kEaves_m) near.push_back(&step);
   }
-  return before;
+  std::erase_if(near, [&, all = near](const Plane* step) {
+    return std::ranges::any_of(all, [&](const Plane* other) {
+      return other->area > step->area && other->normal.dot(step->normal) > kSameWay;
+    });
+  });
+  return !near.empty() && std::ranges::all_of(near, [&](const Plane* step) {
+    return DistanceBefore(*step, p) >= 0;
+  });
 }
 
 }  // namespace

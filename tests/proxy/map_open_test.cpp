@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "proxy/map/open_ground.h"
 #include "tests/proxy/map_scene.h"
 #include "tests/proxy/scene.h"
 
@@ -91,6 +92,35 @@ TEST(MapOpenGround, AnOutlineThatIsALittleTooLargeKeepsItsRoof) {
       test::Capture({test::BoxHouse(10, 8, 6)}, {test::GroundSquare(25)}, options);
   const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-5, -4, 5.8, 4)}, 6}});
   EXPECT_NEAR(AreaOf(ClosedIn(made, "B0001"), FacetClass::kRoof), 80, 1);
+}
+
+// Eaves reach 0.8 m over a garden, before a wall with a balcony of 1 m.
+TEST(OpenGround, ReachesBelowEavesToTheWallAndNotToItsBalcony) {
+  RoofEvidence evidence;
+  for (double x = 0.05; x < 10; x += 0.1) {
+    for (double y = 0.05; y < 3.8; y += 0.1) evidence.samples.positions.emplace_back(x, y, 6);
+    for (double y = 3.85; y < 9; y += 0.1) evidence.open.emplace_back(x, y);
+  }
+  const auto add_step = [&](double offset, double area) {
+    Plane& step = evidence.steps.emplace_back();
+    step.role = PlaneRole::kWall;
+    step.normal = Eigen::Vector3d::UnitY();
+    step.offset = offset;
+    step.area = area;
+  };
+  add_step(4, 15);
+  add_step(3, 90);
+  PlaneRaster raster;
+  raster.cell = 0.25;
+  raster.width = raster.height = 40;
+  const auto distances = DistancesToOpenGround(evidence, raster);
+  ASSERT_EQ(distances.size(), 1600u);
+  const auto at = [&](double x, double y) { return distances[raster.IndexAt({x, y})]; };
+  EXPECT_EQ(at(5, 6), 0);
+  EXPECT_EQ(at(5, 3.4), 0);
+  EXPECT_GT(at(5, 2.7), 0);
+  evidence.steps.erase(evidence.steps.begin());
+  EXPECT_EQ(DistancesToOpenGround(evidence, raster), distances);
 }
 
 }  // namespace
