@@ -49,6 +49,25 @@ double MeanOf(std::span<const WallHit> hits) {
   return sum / static_cast<double>(hits.size());
 }
 
+// Squares of the wall in which hits lie.
+size_t CellsOf(std::span<const WallHit> hits) {
+  std::set<std::pair<int, int>> cells;
+  for (const WallHit& hit : hits) cells.insert(hit.cell);
+  return cells.size();
+}
+
+// The wall behind what was found where it was expected, if that is fronts of balconies: a strip
+// farther in that covers several times as much. Empty: there is none.
+std::span<const WallHit> WallBehind(std::span<const WallHit> hits, std::span<const WallHit> found,
+                                    double width) {
+  constexpr size_t kTimes = 4;
+  if (found.empty()) return {};
+  const auto end = std::ranges::lower_bound(hits, found.front().distance, {}, &WallHit::distance);
+  constexpr ExpectedWall kAnywhere{.distance = 0, .sigma = 1e6};
+  const auto behind = BestStrip({hits.begin(), end}, width, kAnywhere);
+  return CellsOf(behind) > kTimes * CellsOf(found) ? behind : std::span<const WallHit>();
+}
+
 // Where hits peak, in strips of this width around places a centimetre apart.
 class Peaks {
  public:
@@ -108,12 +127,16 @@ std::optional<double> WallAmong(std::span<const WallHit> hits, double level_of_d
   constexpr double kCellArea_m2 = 0.25;
   constexpr double kLeastArea_m2 = 1.5;
   constexpr double kLeastPerMetre_m = 0.4;  // of height, along the run
-  const auto near = BestStrip(hits, level_of_detail, expected);
-  std::set<std::pair<int, int>> cells;
-  for (const WallHit& hit : near) cells.insert(hit.cell);
-  const double area = kCellArea_m2 * static_cast<double>(cells.size());
+  ExpectedWall where = expected;
+  auto near = BestStrip(hits, level_of_detail, where);
+  const auto behind = WallBehind(hits, near, level_of_detail);
+  if (!behind.empty()) {
+    near = behind;
+    where.distance = MeanOf(behind);
+  }
+  const double area = kCellArea_m2 * static_cast<double>(CellsOf(near));
   if (area < std::max(kLeastArea_m2, kLeastPerMetre_m * length)) return std::nullopt;
-  const auto flat = BestStrip(near, kFlat_m, expected);
+  const auto flat = BestStrip(near, kFlat_m, where);
   if (flat.size() < kEnoughHits) return MeanOf(flat);
   // What the strip holds, and what windows that it has found may have before them.
   const double end = flat.back().distance + kFlat_m;

@@ -25,7 +25,8 @@ struct ExpectedWall {
 
 // Where the wall of an edge is, outwards of it in metres: where most of `hits` (by distance) lie in
 // a strip as wide as the level of detail, weighted by how likely the wall is that far from where it
-// is expected; of those in a strip of kFlat_m, weighted alike; and of those, where there are
+// is expected, or several times as much of it behind that, as behind the fronts of balconies; of
+// those in a strip of kFlat_m, weighted alike; and of those, where there are
 // enough, where they peak: a wall is flat, but for its windows, which stand a hand behind it, and a
 // mean lies between the two. Of two peaks so far apart the outer one is the wall, as long as it has
 // a quarter of the other's hits. Nothing where what lies there is too little for a wall of this

@@ -44,6 +44,23 @@ TEST(WallAmong, ManyPointsOutvoteTheOtherWalls) {
   EXPECT_NEAR(*WallAmong(hits, kDetail_m, {.distance = 0, .sigma = 0.15}, kLength_m), 0.8, 0.02);
 }
 
+// Fronts of balconies stand where the map, which traces them, has its line: dense, and on a tenth
+// of the wall. What covers several times as much behind them is the wall; a ledge that covers a
+// third of it is not passed over.
+TEST(WallAmong, IsBehindBalconies) {
+  const auto covering = [](double distance, int columns, int points, std::vector<WallHit>& hits) {
+    for (int k = 0; k < points; ++k) hits.push_back({distance, {k % columns, k / columns % 10}});
+    std::ranges::sort(hits, {}, &WallHit::distance);
+  };
+  std::vector<WallHit> hits;
+  covering(0, 2, 800, hits);
+  covering(-1.35, 20, 1500, hits);
+  const ExpectedWall at_the_line{.distance = 0, .sigma = 0.15};
+  EXPECT_NEAR(*WallAmong(hits, kDetail_m, at_the_line, kLength_m), -1.35, 0.02);
+  covering(0, 7, 800, hits);
+  EXPECT_NEAR(*WallAmong(hits, kDetail_m, at_the_line, kLength_m), 0, 0.02);
+}
+
 // Stereo runs from a wall into its windows, ten centimetres behind: a strip that holds all of a
 // wall holds half of what lies between.
 TEST(WallAmong, IsWhereAWallPeaksBesideItsWindows) {
