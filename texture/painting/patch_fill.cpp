@@ -103,8 +103,9 @@ class Matcher {
   }
   // One in the same row where there is any: on facades things lie in rows.
   cv::Point SourceBeside(int row) {
-    const auto [first, last] =
-        std::ranges::equal_range(sources_, row, {}, [](const cv::Point& at) { return at.y; });
+    const auto row_of = [](const cv::Point& at) { return at.y; };
+    const auto first = std::ranges::lower_bound(sources_, row, {}, row_of);
+    const auto last = std::ranges::upper_bound(sources_, row, {}, row_of);
     const auto count = static_cast<size_t>(last - first);
     return count > 0 ? first[random_() % count] : sources_[random_() % sources_.size()];
   }

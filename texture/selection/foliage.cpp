@@ -163,10 +163,12 @@ void KeepMirrors(const RasterPicture& picture, const TexelGrid& raster,
   };
   for (size_t i = 0; i < dropped.size(); ++i) {
     if (dropped[i] == 0 || !IsGreen(&picture.rgb[3 * i])) continue;
-    const double x = static_cast<double>(i % raster.width) + 0.5;
-    const double y = static_cast<double>(i / raster.width) + 0.5;
+    const size_t column = i % raster.width;
+    const size_t row = i / raster.width;
+    const double height =
+        raster.HeightAt(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     ++patch_of(i).green;
-    patch_of(i).back += raster.HeightAt(x, y) <= kLiesBack;
+    patch_of(i).back += height <= kLiesBack;
   }
   for (size_t i = 0; i < dropped.size(); ++i) {
     const bool is_mirrored = dropped[i] != 0 && patch_of(i).back > kMirrored * patch_of(i).green;
