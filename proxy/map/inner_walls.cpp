@@ -120,31 +120,26 @@ std::vector<Segment2d> InnerWalls(const Arrangement& arrangement, std::span<cons
 void DropShortWalls(const Arrangement& arrangement, std::span<const CutLine> lines,
                     std::span<const RoofPlane> roofs, const std::vector<bool>& inside,
                     std::vector<int>& labels) {
-  constexpr int kMostChanges = 50;
   const ShortWalls walls(arrangement, lines, roofs);
   const auto area = [&](int face) { return SignedArea(RingOf(arrangement, face)); };
   ShortWalls::Found found = walls.Find(labels);
   std::vector<bool> is_changed(labels.size(), false);
-  for (int changes = 0; changes < kMostChanges; ++changes) {
-    const bool changed = std::ranges::any_of(std::vector<int>(found.edges), [&](int e) {
-      const Arrangement::Edge& edge = arrangement.edges[e];
-      if (edge.left < 0 || edge.right < 0 || !inside[edge.left] || !inside[edge.right])
-        return false;
-      const bool left_goes = area(edge.left) < area(edge.right);
-      const int cell = left_goes ? edge.left : edge.right;
-      if (is_changed[cell]) return false;
-      const int before = std::exchange(labels[cell], labels[left_goes ? edge.right : edge.left]);
-      ShortWalls::Found after = walls.Find(labels);
-      // The first half of such a corner is no worse, the second one better.
-      is_changed[cell] = after.length <= found.length * (1 + 1e-6);
-      if (is_changed[cell]) {
-        found = std::move(after);
-      } else {
-        labels[cell] = before;
-      }
-      return static_cast<bool>(is_changed[cell]);
-    });
-    if (!changed) return;
+  for (size_t i = 0; i < found.edges.size();) {
+    const Arrangement::Edge& edge = arrangement.edges[found.edges[i++]];
+    if (edge.left < 0 || edge.right < 0 || !inside[edge.left] || !inside[edge.right]) continue;
+    const bool left_goes = area(edge.left) < area(edge.right);
+    const int cell = left_goes ? edge.left : edge.right;
+    if (is_changed[cell]) continue;
+    const int before = std::exchange(labels[cell], labels[left_goes ? edge.right : edge.left]);
+    ShortWalls::Found after = walls.Find(labels);
+    // The first half of such a corner is no worse, the second one better.
+    if (after.length > found.length * (1 + 1e-6)) {
+      labels[cell] = before;
+      continue;
+    }
+    is_changed[cell] = true;  // and never again: this ends
+    found = std::move(after);
+    i = 0;
   }
 }
 

@@ -331,6 +331,27 @@ TEST_F(Model, LooksAreVariants) {
   EXPECT_EQ(*findings, "");
 }
 
+// What looks otherwise on a later day keeps a picture of its own; what was seen only then shares
+// one.
+TEST_F(Model, LooksDoNotShareTheirAtlases) {
+  TextureSet others = textures_;
+  others.facets[1] = others.facets[0];
+  others.facets[1].id = "B0001/W02";
+  const std::vector<ModelLook> looks = {{kOwnLook, textures_, folder_.path()},
+                                        {"later", others, folder_.path()}};
+  GlbOptions options;
+  options.atlas_px = 128;
+  WriteFile(folder_.path() / "model.glb", GlbOfLooks(proxy_, looks, options));
+  const json gltf = GlbJson();
+  std::vector<std::string> names;
+  for (const json& material : gltf["materials"]) names.push_back(material["name"]);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"untextured", "B0001/W01", "B0001/W01 later", "atlas 1"}));
+  const json& behind = gltf["meshes"][1]["primitives"][0];
+  EXPECT_EQ(behind["material"], 0);
+  EXPECT_EQ(behind["extensions"]["KHR_materials_variants"]["mappings"][0]["material"], 3);
+}
+
 TEST_F(Model, OneLookHasNoVariants) {
   WriteGlb(proxy_, textures_, folder_.path(), {64, 90});
   EXPECT_EQ(GlbJson()["extensionsUsed"], json({"KHR_materials_unlit"}));
