@@ -229,7 +229,8 @@ void WriteModels(const Proxy& proxy, const TextureOptions& options, const StageC
   const GlbOptions glb{.max_px = options.glb_max_px,
                        .jpeg_quality = options.glb_quality,
                        .threads = EncodingThreads(textures, options.glb_atlas_px, context),
-                       .atlas_px = options.glb_atlas_px};
+                       .atlas_px = options.glb_atlas_px,
+                       .relief = options.glb_relief};
   WriteFile(context.out / "model.glb", GlbOfLooks(proxy, {&look, 1}, glb));
   context.progress->Advance();
   textures.model_obj = "model.obj";

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "proxy/map/outline_fit.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,12 +9,13 @@
 #include <set>
 #include <utility>
 
+#include "proxy/map/map_errors.h"
 #include "proxy/map/move_edges.h"
 #include "proxy/map/neighbours.h"
 #include "proxy/map/shared_length.h"
 #include "proxy/map/wall_among.h"
+#include "proxy/map/wall_turn.h"
 #include "survey/disjoint_sets.h"
-#include "survey/median.h"
 
 namespace stucco {
 namespace {
@@ -27,10 +27,10 @@ constexpr double kAboveGround_m = 0.5;
 // Edges that go on in one another and move together.
 struct Run {
   std::vector<int> edges;  // of one ring, in order
-  Eigen::Vector2d outwards = Eigen::Vector2d::Zero();
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero(), outwards = Eigen::Vector2d::Zero();
   double length = 0;
   bool party = false;
-  std::optional<double> offset;  // where the points are, outwards; nothing: too few
+  std::optional<HeldWall> held;  // where the points are; nothing: too few
 };
 
 struct RingPlace {
@@ -58,13 +58,18 @@ RingPlace RunsOf(const MapBuilding& building, size_t part, size_t ring_index,
     const bool joins = k > 0 && goes_on((i + ring.size() - 1) % ring.size());
     if (!joins) place.runs.emplace_back().party = party[i];
     Run& run = place.runs.back();
-    const double length = (EdgeOf(ring, i).b - EdgeOf(ring, i).a).norm();
+    const Segment2d edge = EdgeOf(ring, i);
+    const double length = (edge.b - edge.a).norm();
     run.edges.push_back(static_cast<int>(i));
-    run.outwards += length * OutwardsOf(EdgeOf(ring, i));
+    run.middle += length * (edge.a + edge.b) / 2;
+    run.outwards += length * OutwardsOf(edge);
     run.length += length;
     place.run_of_edge[i] = static_cast<int>(place.runs.size()) - 1;
   }
-  for (Run& run : place.runs) run.outwards.normalize();
+  for (Run& run : place.runs) {
+    run.outwards.normalize();
+    run.middle /= run.length;
+  }
   return place;
 }
 
@@ -72,6 +77,7 @@ std::vector<WallHit> HitsOf(const Samples& upright, const std::vector<int>& near
                             const Run& run, double ground) {
   constexpr double kLeastCosine = 0.8;  // 37 degrees: normals of stereo are rough
   constexpr double kCell_m = 0.5;
+  const Eigen::Vector2d onwards(-run.outwards.y(), run.outwards.x());
   std::vector<WallHit> hits;
   for (size_t e = 0; e < run.edges.size(); ++e) {
     const Segment2d edge = EdgeOf(ring, run.edges[e]);
@@ -88,9 +94,10 @@ std::vector<WallHit> HitsOf(const Samples& upright, const std::vector<int>& near
         continue;
       }
       // Cells of different edges of a run are told apart.
-      hits.push_back({distance,
-                      {static_cast<int>(at / kCell_m) + 100000 * static_cast<int>(e),
-                       static_cast<int>(std::floor(p.z() / kCell_m))}});
+      hits.push_back({.distance = distance,
+                      .cell = {static_cast<int>(at / kCell_m) + 100000 * static_cast<int>(e),
+                               static_cast<int>(std::floor(p.z() / kCell_m))},
+                      .along = onwards.dot(p.head<2>() - run.middle)});
     }
   }
   std::sort(hits.begin(), hits.end(),
@@ -106,23 +113,23 @@ struct Fitting {
 };
 
 // Where the points of each run are, outwards of the building's edges.
-void FindOffsets(const UprightSurvey& survey, const MapBuilding& building,
-                 const ExpectedWall& expected, Fitting& fitting) {
+void FindWalls(const UprightSurvey& survey, const MapBuilding& building,
+               const ExpectedWall& expected, Fitting& fitting) {
   for (RingPlace& place : fitting.rings) {
     const Ring& ring = building.parts[place.part].rings[place.ring];
     for (Run& run : place.runs) {
+      run.held.reset();
       if (run.party) continue;
-      run.offset = WallAmong(HitsOf(survey.samples, fitting.near, ring, run, fitting.ground),
-                             survey.tolerances.level_of_detail, expected, run.length);
-    }
-  }
-}
-
-// The runs of a building that points hold.
-void AddHeldRuns(const Fitting& fitting, std::vector<const Run*>& held) {
-  for (const RingPlace& place : fitting.rings) {
-    for (const Run& run : place.runs) {
-      if (run.offset) held.push_back(&run);
+      const auto hits = HitsOf(survey.samples, fitting.near, ring, run, fitting.ground);
+      const WallTurn turn = TurnAmong(hits, expected, run.length);
+      const auto offset = WallAmong(Turned(hits, turn.turn), survey.tolerances.level_of_detail,
+                                    expected, run.length);
+      if (!offset) continue;
+      run.held = {.middle = run.middle,
+                  .outwards = run.outwards,
+                  .offset = *offset,
+                  .turn = turn.turn,
+                  .span = turn.span};
     }
   }
 }
@@ -133,100 +140,10 @@ double HeldShare(const Fitting& fitting) {
     for (const Run& run : place.runs) {
       if (run.party) continue;
       free += run.length;
-      if (run.offset) held += run.length;
+      if (run.held) held += run.length;
     }
   }
   return free > 0 ? held / free : 0;
-}
-
-constexpr double kRunSigma_m = 0.15;  // of one run, beside what it shares with others
-
-// A run that stands far out of line has less to say (Huber).
-double WeightOf(double off) {
-  const double sigmas = std::abs(off) / kRunSigma_m;
-  return (sigmas > 1 ? 1 / sigmas : 1) / (kRunSigma_m * kRunSigma_m);
-}
-
-// How far the buildings of a map are shifted, each by itself.
-struct ShiftPrior {
-  std::vector<Eigen::Vector2d> done;  // by group: what they have been shifted by already
-  double sigma = kMapSigma_m;         // of all of it, per axis
-};
-
-// The shift that runs agree on, where all of them lie `outset` outside of the map's, of a group
-// that has been shifted by `done`.
-Eigen::Vector2d CommonShift(const std::vector<const Run*>& runs, double outset,
-                            const Eigen::Vector2d& done, double sigma) {
-  constexpr int kRounds = 10;
-  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
-  for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() / (sigma * sigma);
-    Eigen::Vector2d right = -done / (sigma * sigma);
-    for (const Run* run : runs) {
-      const double offset = *run->offset - outset;
-      const double weight = WeightOf(offset - run->outwards.dot(shift));
-      normal += weight * run->outwards * run->outwards.transpose();
-      right += weight * offset * run->outwards;
-    }
-    shift = normal.inverse() * right;
-  }
-  return shift;
-}
-
-// How the map's buildings lie against the walls: each group shifted, and all of them too large or
-// too small, as where a map traces eaves. Found together: of a building that shows one wall only,
-// nothing else tells the one from the other.
-struct MapErrors {
-  std::vector<Eigen::Vector2d> shifts;  // by group
-  double outset = 0;                    // of the walls from the outlines
-};
-
-MapErrors ErrorsOf(const std::vector<std::vector<const Run*>>& groups, const ShiftPrior& prior) {
-  constexpr int kRounds = 30;
-  MapErrors errors{.shifts = std::vector<Eigen::Vector2d>(groups.size(), Eigen::Vector2d::Zero())};
-  for (int round = 0; round < kRounds; ++round) {
-    double total = 1 / (kMapSigma_m * kMapSigma_m), sum = 0;
-    for (size_t g = 0; g < groups.size(); ++g) {
-      errors.shifts[g] = CommonShift(groups[g], errors.outset, prior.done[g], prior.sigma);
-      for (const Run* run : groups[g]) {
-        const double off = *run->offset - run->outwards.dot(errors.shifts[g]);
-        const double weight = WeightOf(off - errors.outset);
-        total += weight;
-        sum += weight * off;
-      }
-    }
-    errors.outset = sum / total;
-  }
-  return errors;
-}
-
-// How far buildings are shifted, by what most of them are: of a map that puts others where they
-// stand, one wall that is seen badly does not move a building.
-double SpreadOf(const std::vector<Eigen::Vector2d>& shifts,
-                const std::vector<std::vector<const Run*>>& groups) {
-  constexpr size_t kFewest = 3;
-  constexpr double kMedianOfPlane = 1.1774;  // of lengths, for normal distributions along both axes
-  constexpr double kLeast_m = 0.05;
-  std::vector<double> lengths;
-  for (size_t g = 0; g < groups.size(); ++g) {
-    if (!groups[g].empty()) lengths.push_back(shifts[g].norm());
-  }
-  if (lengths.size() < kFewest) return kMapSigma_m;
-  return std::clamp(*Median(lengths) / kMedianOfPlane, kLeast_m, kMapSigma_m);
-}
-
-// How far walls lie from where the errors of the map put them, by what most of them do.
-double SpreadOf(const std::vector<std::vector<const Run*>>& groups, const MapErrors& errors) {
-  constexpr size_t kFewest = 6;
-  constexpr double kSigmaOfMedian = 1.4826;  // of absolute deviations, for a normal distribution
-  std::vector<double> off;
-  for (size_t g = 0; g < groups.size(); ++g) {
-    for (const Run* run : groups[g]) {
-      off.push_back(std::abs(*run->offset - run->outwards.dot(errors.shifts[g]) - errors.outset));
-    }
-  }
-  if (off.size() < kFewest) return kMapSigma_m;
-  return std::clamp(kSigmaOfMedian * *Median(off), kRunSigma_m, kMapSigma_m);
 }
 
 // The building with every run where its points are; as it was where that crosses itself.
@@ -235,7 +152,8 @@ MapBuilding Fitted(const MapBuilding& building, const Fitting& fitting, double o
   for (const RingPlace& place : fitting.rings) {
     for (const int run_index : place.run_of_edge) {
       const Run& run = place.runs[run_index];
-      offsets[place.part].push_back(run.offset.value_or(run.party ? 0 : outset));
+      const double unseen = run.party ? 0 : outset;
+      offsets[place.part].push_back(run.held ? run.held->offset : unseen);
     }
   }
   MapBuilding fitted = building;
@@ -338,7 +256,7 @@ std::vector<FittedEdge> EdgesOf(const MapBuilding& mapped, const MapBuilding& fi
       edges.push_back({.line = EdgeOf(after, i),
                        .facades = FacadesOn(EdgeOf(before, i), mapped.id, facades),
                        .party = run.party,
-                       .fitted = run.offset.has_value()});
+                       .fitted = run.held.has_value()});
     }
   }
   return edges;
@@ -375,15 +293,41 @@ Fittings FittingsOf(const UprightSurvey& survey, std::span<const MapBuilding> bu
   return result;
 }
 
-// By group: the runs that points hold.
-std::vector<std::vector<const Run*>> HeldRuns(const std::vector<Fitting>& fittings,
-                                              const std::vector<std::vector<size_t>>& groups) {
-  std::vector<std::vector<const Run*>> held;
-  for (const std::vector<size_t>& group : groups) {
-    auto& runs = held.emplace_back();
-    for (const size_t b : group) AddHeldRuns(fittings[b], runs);
+// The walls of each group that points hold.
+std::vector<HeldGroup> HeldGroups(const Fittings& fittings) {
+  std::vector<HeldGroup> held;
+  for (const std::vector<size_t>& group : fittings.groups) {
+    HeldGroup& walls = held.emplace_back();
+    double length = 0;
+    for (const size_t b : group) {
+      for (const RingPlace& place : fittings.of_buildings[b].rings) {
+        for (const Run& run : place.runs) {
+          walls.middle += run.length * run.middle;
+          length += run.length;
+          if (run.held) walls.walls.push_back(*run.held);
+        }
+      }
+    }
+    walls.middle /= length;
   }
   return held;
+}
+
+// The buildings and their runs where the errors of the map leave them.
+void Move(const std::vector<HeldGroup>& held, const MapErrors& errors, Fittings& fittings,
+          std::vector<MapBuilding>& buildings) {
+  for (size_t g = 0; g < held.size(); ++g) {
+    const Eigen::Isometry2d motion = IsometryOf(errors.motions[g], held[g].middle);
+    for (const size_t b : fittings.groups[g]) {
+      buildings[b] = Moved(buildings[b], motion);
+      for (RingPlace& place : fittings.of_buildings[b].rings) {
+        for (Run& run : place.runs) {
+          run.middle = motion * run.middle;
+          run.outwards = motion.linear() * run.outwards;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -391,39 +335,35 @@ std::vector<std::vector<const Run*>> HeldRuns(const std::vector<Fitting>& fittin
 std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
                                         std::span<const MapBuilding> buildings,
                                         std::span<const Facade> facades, double plan_to_survey_m) {
-  auto [fittings, groups] = FittingsOf(survey, buildings, plan_to_survey_m);
-  std::vector<MapBuilding> shifted(buildings.begin(), buildings.end());
+  Fittings fittings = FittingsOf(survey, buildings, plan_to_survey_m);
+  std::vector<MapBuilding> moved(buildings.begin(), buildings.end());
   ExpectedWall expected;
-  ShiftPrior prior{.done = std::vector<Eigen::Vector2d>(groups.size(), Eigen::Vector2d::Zero())};
-  // Once the buildings are shifted, more of their walls are within reach.
+  MapPrior prior{.done = std::vector<GroupMotion>(fittings.groups.size())};
+  // Once the buildings are moved, more of their walls are within reach.
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
     for (size_t b = 0; b < buildings.size(); ++b) {
-      FindOffsets(survey, shifted[b], expected, fittings[b]);
+      FindWalls(survey, moved[b], expected, fittings.of_buildings[b]);
     }
-    const auto held = HeldRuns(fittings, groups);
+    const auto held = HeldGroups(fittings);
     const MapErrors errors = ErrorsOf(held, prior);
     expected = {.distance = errors.outset, .sigma = SpreadOf(held, errors)};
-    for (size_t g = 0; g < groups.size(); ++g) {
-      Eigen::Isometry2d motion = Eigen::Isometry2d::Identity();
-      motion.translation() = errors.shifts[g];
-      prior.done[g] += errors.shifts[g];
-      for (const size_t b : groups[g]) shifted[b] = Moved(shifted[b], motion);
-    }
-    prior.sigma = SpreadOf(prior.done, held);
+    Move(held, errors, fittings, moved);
+    prior = Learned(held, errors, std::move(prior));
   }
   std::vector<FittedBuilding> fitted(buildings.size());
   for (size_t b = 0; b < buildings.size(); ++b) {
-    FindOffsets(survey, shifted[b], expected, fittings[b]);
-    fitted[b].building = Fitted(shifted[b], fittings[b], expected.distance);
-    fitted[b].edges = EdgesOf(buildings[b], fitted[b].building, fittings[b], facades);
-    fitted[b].ground = fittings[b].ground;
-    fitted[b].held = HeldShare(fittings[b]);
+    Fitting& fitting = fittings.of_buildings[b];
+    FindWalls(survey, moved[b], expected, fitting);
+    fitted[b].building = Fitted(moved[b], fitting, expected.distance);
+    fitted[b].edges = EdgesOf(buildings[b], fitted[b].building, fitting, facades);
+    fitted[b].ground = fitting.ground;
+    fitted[b].held = HeldShare(fitting);
   }
   // Of a scan from above, without walls, a map is all that is known of them.
   const bool has_walls =
       std::ranges::any_of(fitted, [](const FittedBuilding& building) { return building.held > 0; });
-  if (has_walls) MeetNeighbours(survey, prior.sigma, fitted);
+  if (has_walls) MeetNeighbours(survey, prior.shift_sigma, fitted);
   return fitted;
 }
 

@@ -15,16 +15,6 @@ namespace {
 // With so many hits where a wall peaks tells more than the mean of all that stereo makes of it.
 constexpr size_t kEnoughHits = 200;
 
-// How likely a wall is that far from where it is expected, but for a factor.
-double Likelihood(double distance, const ExpectedWall& expected) {
-  constexpr double kMostWalls = 0.7;
-  const auto bell = [&](double sigma) {
-    const double off = (distance - expected.distance) / sigma;
-    return std::exp(-off * off / 2);
-  };
-  return kMostWalls * bell(expected.sigma) + (1 - kMostWalls) * bell(kMapSigma_m);
-}
-
 // The hits in the strip of this width that holds most of them, weighted by its likelihood.
 std::span<const WallHit> BestStrip(std::span<const WallHit> hits, double width,
                                    const ExpectedWall& expected) {
@@ -35,7 +25,7 @@ std::span<const WallHit> BestStrip(std::span<const WallHit> hits, double width,
   for (double at = -kMapReach_m; at <= kMapReach_m; at += kStep_m) {
     while (last < hits.size() && hits[last].distance <= at + width / 2) ++last;
     while (first < last && hits[first].distance < at - width / 2) ++first;
-    const double score = static_cast<double>(last - first) * Likelihood(at, expected);
+    const double score = static_cast<double>(last - first) * LikelihoodOf(at, expected);
     if (score <= best) continue;
     best = score;
     strip = hits.subspan(first, last - first);
@@ -121,6 +111,15 @@ class Peaks {
 };
 
 }  // namespace
+
+double LikelihoodOf(double distance, const ExpectedWall& expected) {
+  constexpr double kMostWalls = 0.7;
+  const auto bell = [&](double sigma) {
+    const double off = (distance - expected.distance) / sigma;
+    return std::exp(-off * off / 2);
+  };
+  return kMostWalls * bell(expected.sigma) + (1 - kMostWalls) * bell(kMapSigma_m);
+}
 
 std::optional<double> WallAmong(std::span<const WallHit> hits, double level_of_detail,
                                 const ExpectedWall& expected, double length) {

@@ -8,13 +8,15 @@
 
 namespace stucco {
 
-inline constexpr double kMapReach_m = 1.5;  // eaves that a map traces, and then some
-inline constexpr double kMapSigma_m = 0.5;  // of a map's edges, and of its buildings
+inline constexpr double kMapReach_m = 1.5;      // eaves that a map traces, and then some
+inline constexpr double kMapSigma_m = 0.5;      // of a map's edges, and of its buildings
+inline constexpr double kMapTurn_rad = 0.0087;  // of its buildings: half a degree
 
 // A near-vertical point beside an edge of a map.
 struct WallHit {
   double distance = 0;       // outwards of the edge, metres, within kMapReach_m
   std::pair<int, int> cell;  // half metres along and up
+  double along = 0;          // from the middle of the edge, metres
 };
 
 // Where the other walls of a map put this one, outwards of its edge in metres.
@@ -22,6 +24,9 @@ struct ExpectedWall {
   double distance = 0;
   double sigma = kMapSigma_m;  // of most walls; some are as far off as maps are
 };
+
+// How likely a wall is that far outwards of its edge, but for a factor.
+double LikelihoodOf(double distance, const ExpectedWall& expected);
 
 // Where the wall of an edge is, outwards of it in metres: where most of `hits` (by distance) lie in
 // a strip as wide as the level of detail, weighted by how likely the wall is that far from where it

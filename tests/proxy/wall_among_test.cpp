@@ -15,7 +15,9 @@ constexpr double kLength_m = 10;
 // `count` points evenly over a band of 6 cm and over the whole wall.
 void Add(double distance, int count, std::vector<WallHit>& hits) {
   for (int k = 0; k < count; ++k) {
-    hits.push_back({distance - 0.03 + 0.06 * k / count, {k % 20, k / 20 % 10}});
+    hits.push_back({.distance = distance - 0.03 + 0.06 * k / count,
+                    .cell = {k % 20, k / 20 % 10},
+                    .along = 0});
   }
   std::ranges::sort(hits, {}, &WallHit::distance);
 }
@@ -49,7 +51,8 @@ TEST(WallAmong, ManyPointsOutvoteTheOtherWalls) {
 // third of it is not passed over.
 TEST(WallAmong, IsBehindBalconies) {
   const auto covering = [](double distance, int columns, int points, std::vector<WallHit>& hits) {
-    for (int k = 0; k < points; ++k) hits.push_back({distance, {k % columns, k / columns % 10}});
+    for (int k = 0; k < points; ++k)
+      hits.push_back({.distance = distance, .cell = {k % columns, k / columns % 10}, .along = 0});
     std::ranges::sort(hits, {}, &WallHit::distance);
   };
   std::vector<WallHit> hits;

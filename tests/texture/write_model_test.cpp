@@ -18,6 +18,7 @@
 #include "survey/image.h"
 #include "tests/texture/khronos.h"
 #include "tests/texture/synthetic.h"
+#include "texture/grid/relief_file.h"
 #include "texture/output/orthophoto.h"
 #include "texture/output/write_glb.h"
 
@@ -356,6 +357,33 @@ TEST_F(Model, OneLookHasNoVariants) {
   WriteGlb(proxy_, textures_, folder_.path(), {64, 90});
   EXPECT_EQ(GlbJson()["extensionsUsed"], json({"KHR_materials_unlit"}));
   EXPECT_FALSE(GlbJson().contains("extensions"));
+}
+
+TEST_F(Model, HasReliefWhereItIsAskedFor) {
+  Relief relief;
+  relief.cell = 0.5;
+  relief.width = 8;
+  relief.height = 6;
+  relief.step = 0.1;
+  relief.highest = 0.6;
+  relief.heights.assign(48, 0);
+  relief.heights[17] = 0.6f;
+  const ReliefFiles files = EncodeRelief(relief);
+  std::filesystem::create_directories(folder_.path() / kReliefFolder);
+  WriteFile(folder_.path() / kReliefFolder / "B0001_W01.png", files.png);
+  WriteFile(folder_.path() / kReliefFolder / "B0001_W01.json", files.json);
+  const auto deepest = [&] {  // of the first wall, towards the viewer
+    return GlbJson()["accessors"][0]["max"][2].get<double>();
+  };
+  GlbOptions options;
+  WriteGlb(proxy_, textures_, folder_.path(), options);
+  EXPECT_NEAR(deepest(), 0, 1e-6);
+  options.relief = true;
+  WriteGlb(proxy_, textures_, folder_.path(), options);
+  EXPECT_NEAR(deepest(), 0.6, 1e-5);
+  if (const auto findings = test::KhronosFindings(folder_.path() / "model.glb")) {
+    EXPECT_EQ(*findings, "");
+  }
 }
 
 TEST_F(Model, WithoutPicturesIsStillWritten) {

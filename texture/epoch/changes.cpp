@@ -19,6 +19,8 @@ constexpr int kBlock = kChangeBlock;
 constexpr int kPart = 4;  // of a block, a side
 constexpr int kParts = kBlock / kPart;
 constexpr double kLeastShown = 0.5;  // of a block's texels, by both
+// Below eaves a wall has a third of the encoded brightness; panes are darker than that.
+constexpr double kDeepestShade = 1.1;
 // Logarithms of encoded colours, so that light is an offset; the offset keeps noise of black small.
 constexpr double kDarkOffset = 8;
 // The same white in the sun (5500 K) and under the sky alone (10000 K and more) differs by about
@@ -328,7 +330,10 @@ bool FacetChanges::IsOutdated(int x, int y, const uint8_t* before) const {
       outdated[static_cast<size_t>(y / kChangeBlock) * block_columns + x / kChangeBlock];
   if (colour.isZero()) return false;
   const Eigen::Vector3d own(before[0], before[1], before[2]);
-  return (LogColour(own) - LogColour(colour.cast<double>())).norm() < kOtherThing;
+  const Eigen::Vector3d differs = LogColour(own) - LogColour(colour.cast<double>());
+  const bool is_in_shade =
+      HueOf(differs).norm() < kOtherHue && differs.mean() < 0 && differs.mean() > -kDeepestShade;
+  return differs.norm() < kOtherThing || is_in_shade;
 }
 
 FacetChanges FindChanges(const FacetPicture& before, const FacetPicture& after,

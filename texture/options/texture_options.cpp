@@ -57,6 +57,8 @@ void Describe(OptionTable& table, TextureOptions& options) {
             "Side of the pictures in model.glb that small facets share; 0 gives each its own.");
   table.Add("glb_quality", options.glb_quality, 10, 100,
             "JPEG quality of the pictures inside model.glb.");
+  table.Add("glb_relief", options.glb_relief,
+            "Balconies, reveals and bays as geometry in model.glb; otherwise walls are flat.");
 }
 
 }  // namespace stucco

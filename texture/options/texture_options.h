@@ -30,6 +30,7 @@ struct TextureOptions {
   int glb_max_px = 4096;
   int glb_atlas_px = 4096;
   int glb_quality = 90;
+  bool glb_relief = false;
 };
 
 void Describe(OptionTable& table, TextureOptions& options);

@@ -8,6 +8,7 @@
 #include "survey/facet_picture.h"
 #include "survey/image.h"
 #include "survey/triangulate.h"
+#include "texture/output/relief_mesh.h"
 
 namespace stucco {
 
@@ -29,6 +30,25 @@ GlbMesh GlbMeshOf(const Facet& facet, const TexturedFacet* texture,
     primitive.positions.emplace_back((glb_from_world * vertex).cast<float>());
     primitive.normals.push_back(normal);
     if (texture) primitive.uv.emplace_back(OnPicture(*texture, vertex).cast<float>());
+  }
+  for (const auto& triangle : shape.triangles) {
+    primitive.indices.insert(primitive.indices.end(), triangle.begin(), triangle.end());
+  }
+  return mesh;
+}
+
+GlbMesh GlbMeshWithRelief(const Facet& facet, const TexelGrid& grid,
+                          const Eigen::Isometry3d& glb_from_world, int material) {
+  GlbMesh mesh{facet.id, {}};
+  const ReliefMesh shape = MeshWithRelief(facet, grid);
+  if (shape.triangles.empty()) return mesh;
+  GlbPrimitive& primitive = mesh.primitives.emplace_back();
+  primitive.material = material;
+  const Eigen::Array2d size(grid.width, grid.height);
+  for (const ReliefMesh::Vertex& vertex : shape.vertices) {
+    primitive.positions.emplace_back((glb_from_world * vertex.position).cast<float>());
+    primitive.normals.emplace_back((glb_from_world.linear() * vertex.normal).cast<float>());
+    primitive.uv.emplace_back((vertex.texel.array() / size).cast<float>());
   }
   for (const auto& triangle : shape.triangles) {
     primitive.indices.insert(primitive.indices.end(), triangle.begin(), triangle.end());

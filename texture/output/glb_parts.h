@@ -10,6 +10,7 @@
 #include "survey/pixels.h"
 #include "survey/proxy.h"
 #include "survey/texture_set.h"
+#include "texture/grid/grid.h"
 
 namespace stucco {
 
@@ -23,6 +24,10 @@ Eigen::Isometry3d YUpFromZUp();
 // texture its coordinates are those of the facet's own picture.
 GlbMesh GlbMeshOf(const Facet& facet, const TexturedFacet* texture,
                   const Eigen::Isometry3d& glb_from_world, int material);
+
+// The same with the relief of its grid as geometry. Requires a grid with relief.
+GlbMesh GlbMeshWithRelief(const Facet& facet, const TexelGrid& grid,
+                          const Eigen::Isometry3d& glb_from_world, int material);
 
 // Unlit; grey where `texture` is -1.
 GlbMaterial GlbMaterialOf(const std::string& name, int texture);

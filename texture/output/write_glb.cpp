@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -17,6 +19,8 @@
 #include "survey/image.h"
 #include "survey/parallel.h"
 #include "survey/pixels.h"
+#include "texture/grid/grid.h"
+#include "texture/grid/relief_file.h"
 #include "texture/output/atlas.h"
 #include "texture/output/glb_parts.h"
 
@@ -122,13 +126,25 @@ int MaterialOf(const LookPicture& picture) {
   return static_cast<int>(picture.sheet) + 1;
 }
 
-// `pictures`: of the facet, in the order of looks, all alike in size and place.
+// The relief of a facet as its first look has it; none where it is flat.
+std::shared_ptr<const Relief> ReliefOf(const LookPicture& picture,
+                                       std::span<const ModelLook> looks) {
+  const std::filesystem::path image = picture.facet->image;
+  return ReadRelief(looks[picture.look].folder, image.stem().string());
+}
+
+// `pictures`: of the facet, in the order of looks, all alike in size and place. Flat where there is
+// no relief.
 GlbMesh MeshOf(const Facet& facet, const std::vector<const LookPicture*>& pictures,
-               std::span<const Sheet> sheets, const Eigen::Isometry3d& model_from_world) {
+               std::shared_ptr<const Relief> relief, std::span<const Sheet> sheets,
+               const Eigen::Isometry3d& model_from_world) {
   if (pictures.empty()) return GlbMeshOf(facet, nullptr, model_from_world, 0);
   const LookPicture& first = *pictures.front();
-  GlbMesh mesh =
-      GlbMeshOf(facet, first.facet, model_from_world, first.look == 0 ? MaterialOf(first) : 0);
+  const int material = first.look == 0 ? MaterialOf(first) : 0;
+  TexelGrid grid = GridOf(*first.facet, facet);
+  grid.relief = std::move(relief);
+  GlbMesh mesh = grid.relief ? GlbMeshWithRelief(facet, grid, model_from_world, material)
+                             : GlbMeshOf(facet, first.facet, model_from_world, material);
   if (mesh.primitives.empty()) return mesh;
   GlbPrimitive& primitive = mesh.primitives.front();
   for (Eigen::Vector2f& uv : primitive.uv) {
@@ -168,7 +184,10 @@ std::string GlbOfLooks(const Proxy& proxy, std::span<const ModelLook> looks,
       TurnToYUp(proxy.up) * Eigen::Translation3d(-model.offset);
   for (const Building& building : proxy.buildings) {
     for (const Facet& facet : building.facets) {
-      GlbMesh mesh = MeshOf(facet, by_id[facet.id], sheets, model_from_world);
+      const auto& of_facet = by_id[facet.id];
+      const bool has_relief = options.relief && !of_facet.empty();
+      auto relief = has_relief ? ReliefOf(*of_facet.front(), looks) : nullptr;
+      GlbMesh mesh = MeshOf(facet, of_facet, std::move(relief), sheets, model_from_world);
       if (!mesh.primitives.empty()) model.meshes.push_back(std::move(mesh));
     }
   }

@@ -16,6 +16,7 @@ struct GlbOptions {
   int threads = 1;
   double most_texels = 128e6;  // of all pictures: more than graphics cards hold uncompressed
   int atlas_px = 0;            // side of the larger pictures that facets share; 0: each has its own
+  bool relief = false;         // of the first look, as geometry
 };
 
 // The whole proxy as binary glTF, self-contained: one mesh per facet with the facet's id as its

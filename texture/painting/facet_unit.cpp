@@ -139,6 +139,7 @@ std::string OptionsText(TextureOptions options) {
   options.glb_max_px = defaults.glb_max_px;
   options.glb_atlas_px = defaults.glb_atlas_px;
   options.glb_quality = defaults.glb_quality;
+  options.glb_relief = defaults.glb_relief;
   OptionTable table("texture");
   Describe(table, options);
   return CanonicalText(table);
