@@ -28,7 +28,7 @@ import surveys
 
 BENCH = pathlib.Path(__file__).parent
 STEPS = ("plan", "fly", "map", "run", "evaluate")
-MAP_ERRORS = ("shift", "turn", "jitter", "eaves", "missing", "simpler", "smaller")
+MAP_ERRORS = ("shift", "turn", "jitter", "eaves", "corners", "missing", "simpler", "smaller")
 FLIGHT = ["scene", "method", "photos", "hovers", "length (m)", "time (min)", "battery (%)",
           "Q_s", "Q_d", "Q_u", "Q_c"]
 GEOMETRY = ["scene", "method", "posed", "position (mm)", "rotation (deg)", "georeferenced (m)",

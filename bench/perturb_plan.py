@@ -4,12 +4,14 @@
 """Gives the map in a plan the errors of real maps, so that a model that goes by it has to find them.
 
 Usage: perturb_plan.py PLAN_JSON [--shift M] [--turn DEG] [--jitter 0.4] [--eaves 0.5]
+                       [--corners 0]
                        [--gone N] [--missing N] [--simpler N] [--smaller N]
                        [--seed 1]
 
 Rewrites plan.json in place and keeps the exact one beside it, as plan.exact.json, where it starts
 from when it is called again: all buildings shifted and turned together, each shifted by itself (one
-standard deviation), outlines moved outwards (eaves), and N rectangles added that are not there; N
+standard deviation), outlines moved outwards (eaves), each corner measured by itself (one standard
+deviation), and N rectangles added that are not there; N
 buildings that stand missing from it; N outlines drawn more simply, without one of their corners
 that point inwards (an L becomes a rectangle), and N Ls without one of their wings. What is not said
 is as real maps are: the shift 0.5 to 3 m, the turn half a degree (one standard deviation), a
@@ -162,7 +164,8 @@ def exact_plan(path):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("plan", type=pathlib.Path)
-    for name, value in (("shift", None), ("turn", None), ("jitter", 0.4), ("eaves", 0.5)):
+    for name, value in (("shift", None), ("turn", None), ("jitter", 0.4), ("eaves", 0.5),
+                        ("corners", 0.0)):
         parser.add_argument(f"--{name}", type=float, default=value)
     for name, value in (("gone", 0), ("missing", None), ("simpler", None), ("smaller", None)):
         parser.add_argument(f"--{name}", type=int, default=value)
@@ -185,12 +188,17 @@ def main():
         return [round(math.cos(turn) * p[0] - math.sin(turn) * p[1] + shift[0] + own[0], 3),
                 round(math.sin(turn) * p[0] + math.cos(turn) * p[1] + shift[1] + own[1], 3)]
 
+    measured = random.Random(f"corners {wanted.seed}")  # the other dice fall as they did
+
+    def off(p):
+        return [c + (measured.gauss(0, wanted.corners) if wanted.corners else 0) for c in p]
+
     corners = {}  # of a building: where each corner went
     for footprint in plan["footprints"]:
         own = (dice.gauss(0, wanted.jitter), dice.gauss(0, wanted.jitter))
         table = corners.setdefault(footprint["building"], [])
         for r, ring in enumerate(footprint["rings_m"]):
-            moved = [common(p, own) for p in outwards(ring, wanted.eaves)]
+            moved = [common(off(p), own) for p in outwards(ring, wanted.eaves)]
             table += zip(ring, moved)
             footprint["rings_m"][r] = moved
     for facade in plan["facades"]:

@@ -13,9 +13,23 @@
 namespace stucco {
 namespace {
 
-// Where a corner between two edges goes when they move outwards.
-Eigen::Vector2d CornerMove(const Eigen::Vector2d& n1, double o1, const Eigen::Vector2d& n2,
-                           double o2) {
+// An edge at one of its ends once it has moved.
+struct MovedLine {
+  Eigen::Vector2d outwards;
+  double by = 0;  // outwards, from where the end was
+};
+
+MovedLine LineAt(const Segment2d& edge, const EdgeMove& move, double at_corner) {
+  const Eigen::Vector2d along = edge.b - edge.a, outwards = OutwardsOf(edge);
+  const double slope = (move.at_end - move.at_start) / along.norm();
+  const Eigen::Vector2d turned = (outwards - slope * along.normalized()).normalized();
+  return {turned, at_corner * outwards.dot(turned)};
+}
+
+// Where a corner between two edges goes.
+Eigen::Vector2d CornerMove(const MovedLine& before, const MovedLine& after) {
+  const auto& [n1, o1] = before;
+  const auto& [n2, o2] = after;
   constexpr double kParallel = 0.26;  // sine of 15 degrees
   constexpr double kFarthest = 3;     // times the larger offset: sharp corners run away
   const double cross = Cross(n1, n2);
@@ -66,16 +80,17 @@ bool IsSimple(const Polygon& polygon) {
   return !edges.empty();
 }
 
-std::optional<Polygon> WithEdgesMoved(const Polygon& polygon, std::span<const double> outwards_m) {
-  assert(outwards_m.size() == EdgeCount(polygon));
+std::optional<Polygon> WithEdgesMoved(const Polygon& polygon, std::span<const EdgeMove> moves) {
+  assert(moves.size() == EdgeCount(polygon));
   Polygon moved = polygon;
   size_t first = 0;
   for (size_t r = 0; r < polygon.rings.size(); ++r) {
     const Ring& ring = polygon.rings[r];
     for (size_t i = 0; i < ring.size(); ++i) {
       const size_t before = (i + ring.size() - 1) % ring.size();
-      moved.rings[r][i] += CornerMove(OutwardsOf(EdgeOf(ring, before)), outwards_m[first + before],
-                                      OutwardsOf(EdgeOf(ring, i)), outwards_m[first + i]);
+      const EdgeMove &to_here = moves[first + before], &from_here = moves[first + i];
+      moved.rings[r][i] += CornerMove(LineAt(EdgeOf(ring, before), to_here, to_here.at_end),
+                                      LineAt(EdgeOf(ring, i), from_here, from_here.at_start));
     }
     first += ring.size();
   }

@@ -108,7 +108,10 @@ void MoveEdges(std::span<const double> offsets, FittedBuilding& building) {
   for (const Polygon& part : building.building.parts) {
     size_t edges = 0;
     for (const Ring& ring : part.rings) edges += ring.size();
-    auto polygon = WithEdgesMoved(part, offsets.subspan(first, edges));
+    std::vector<EdgeMove> moves;
+    moves.reserve(edges);
+    for (const double offset : offsets.subspan(first, edges)) moves.push_back({offset, offset});
+    auto polygon = WithEdgesMoved(part, moves);
     if (!polygon) return;
     moved.push_back(std::move(*polygon));
     first += edges;

@@ -31,6 +31,7 @@ struct Run {
   double length = 0;
   bool party = false;
   std::optional<HeldWall> held;  // where the points are; nothing: too few
+  double own_turn = 0;           // radians, where it is surely turned against its building
 };
 
 struct RingPlace {
@@ -112,6 +113,16 @@ struct Fitting {
   double ground = 0;
 };
 
+// How far a wall is turned by itself, as where the corners of a map were measured one by one.
+double OwnTurn(const WallTurn& turn, double length) {
+  constexpr double kLeast_m = 0.05;  // at its ends: walls of a house are square to each other
+  constexpr double kLeastShare = 0.6;
+  constexpr double kLeastGain = 1.15;
+  const bool is_sure = turn.gain > kLeastGain && turn.span > kLeastShare * length &&
+                       std::abs(turn.turn) * length / 2 > kLeast_m;
+  return is_sure ? turn.turn : 0;
+}
+
 // Where the points of each run are, outwards of the building's edges.
 void FindWalls(const UprightSurvey& survey, const MapBuilding& building,
                const ExpectedWall& expected, Fitting& fitting) {
@@ -124,6 +135,7 @@ void FindWalls(const UprightSurvey& survey, const MapBuilding& building,
       const WallTurn turn = TurnAmong(hits, expected, run.length);
       const auto offset = WallAmong(Turned(hits, turn.turn), survey.tolerances.level_of_detail,
                                     expected, run.length);
+      run.own_turn = offset ? OwnTurn(turn, run.length) : 0;
       if (!offset) continue;
       run.held = {.middle = run.middle,
                   .outwards = run.outwards,
@@ -146,19 +158,30 @@ double HeldShare(const Fitting& fitting) {
   return free > 0 ? held / free : 0;
 }
 
+// How an edge of a run moves onto its points.
+EdgeMove MoveOf(const Run& run, const Segment2d& edge) {
+  const Eigen::Vector2d onwards(-run.outwards.y(), run.outwards.x());
+  const auto at = [&](const Eigen::Vector2d& end) {
+    return run.held->offset - run.own_turn * onwards.dot(end - run.middle);
+  };
+  return {at(edge.a), at(edge.b)};
+}
+
 // The building with every run where its points are; as it was where that crosses itself.
 MapBuilding Fitted(const MapBuilding& building, const Fitting& fitting, double outset) {
-  std::vector<std::vector<double>> offsets(building.parts.size());
+  std::vector<std::vector<EdgeMove>> moves(building.parts.size());
   for (const RingPlace& place : fitting.rings) {
-    for (const int run_index : place.run_of_edge) {
-      const Run& run = place.runs[run_index];
+    const Ring& ring = building.parts[place.part].rings[place.ring];
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const Run& run = place.runs[place.run_of_edge[i]];
       const double unseen = run.party ? 0 : outset;
-      offsets[place.part].push_back(run.held ? run.held->offset : unseen);
+      moves[place.part].push_back(run.held ? MoveOf(run, EdgeOf(ring, i))
+                                           : EdgeMove{unseen, unseen});
     }
   }
   MapBuilding fitted = building;
   for (size_t p = 0; p < fitted.parts.size(); ++p) {
-    auto moved = WithEdgesMoved(building.parts[p], offsets[p]);
+    auto moved = WithEdgesMoved(building.parts[p], moves[p]);
     if (!moved) return building;
     fitted.parts[p] = std::move(*moved);
   }
@@ -293,24 +316,35 @@ Fittings FittingsOf(const UprightSurvey& survey, std::span<const MapBuilding> bu
   return result;
 }
 
-// The walls of each group that points hold.
+// Adds the walls of a building that points hold; the middle is summed up by length.
+void AddHeld(const Fitting& fitting, HeldGroup& group, double& length) {
+  for (const RingPlace& place : fitting.rings) {
+    for (const Run& run : place.runs) {
+      group.middle += run.length * run.middle;
+      length += run.length;
+      if (run.held) group.walls.push_back(*run.held);
+    }
+  }
+}
+
 std::vector<HeldGroup> HeldGroups(const Fittings& fittings) {
   std::vector<HeldGroup> held;
   for (const std::vector<size_t>& group : fittings.groups) {
     HeldGroup& walls = held.emplace_back();
     double length = 0;
-    for (const size_t b : group) {
-      for (const RingPlace& place : fittings.of_buildings[b].rings) {
-        for (const Run& run : place.runs) {
-          walls.middle += run.length * run.middle;
-          length += run.length;
-          if (run.held) walls.walls.push_back(*run.held);
-        }
-      }
-    }
+    for (const size_t b : group) AddHeld(fittings.of_buildings[b], walls, length);
     walls.middle /= length;
   }
   return held;
+}
+
+void MoveRuns(const Eigen::Isometry2d& motion, Fitting& fitting) {
+  for (RingPlace& place : fitting.rings) {
+    for (Run& run : place.runs) {
+      run.middle = motion * run.middle;
+      run.outwards = motion.linear() * run.outwards;
+    }
+  }
 }
 
 // The buildings and their runs where the errors of the map leave them.
@@ -320,12 +354,7 @@ void Move(const std::vector<HeldGroup>& held, const MapErrors& errors, Fittings&
     const Eigen::Isometry2d motion = IsometryOf(errors.motions[g], held[g].middle);
     for (const size_t b : fittings.groups[g]) {
       buildings[b] = Moved(buildings[b], motion);
-      for (RingPlace& place : fittings.of_buildings[b].rings) {
-        for (Run& run : place.runs) {
-          run.middle = motion * run.middle;
-          run.outwards = motion.linear() * run.outwards;
-        }
-      }
+      MoveRuns(motion, fittings.of_buildings[b]);
     }
   }
 }

@@ -91,8 +91,8 @@ double SpanOf(std::span<const WallHit> hits) {
 
 WallTurn TurnAmong(std::span<const WallHit> hits, const ExpectedWall& expected, double length) {
   constexpr double kStep_rad = 0.001;
-  constexpr int kSteps = 26;
-  constexpr double kSigma_rad = 0.0175;
+  constexpr int kSteps = 40;
+  constexpr double kSigma_rad = 0.03;  // corners off by 0.2 m, walls of 10 m
   if (hits.empty()) return {};
   std::vector<double> likelihood;
   likelihood.reserve(Histogram::kRows);
@@ -100,17 +100,19 @@ WallTurn TurnAmong(std::span<const WallHit> hits, const ExpectedWall& expected, 
     likelihood.push_back(LikelihoodOf(Histogram::DistanceOf(row), expected));
   }
   const Histogram histogram(hits, length);
-  double best = 0;
+  double best = 0, unturned = 0;
   WallTurn found;
   for (int step = -kSteps; step <= kSteps; ++step) {
     const double turn = step * kStep_rad;
     const double sigmas = turn / kSigma_rad;
     const double score = histogram.Best(-turn, likelihood) * std::exp(-sigmas * sigmas / 2);
+    if (step == 0) unturned = score;
     if (score <= best) continue;
     best = score;
     found.turn = turn;
   }
   found.span = SpanOf(hits);
+  if (unturned > 0) found.gain = best / unturned;
   return found;
 }
 

@@ -11,8 +11,9 @@ namespace stucco {
 
 // How a wall is turned against the edge of a map.
 struct WallTurn {
-  double turn = 0;  // radians, counter-clockwise seen from above, within 1.5 degrees
+  double turn = 0;  // radians, counter-clockwise seen from above, within 2.3 degrees
   double span = 0;  // metres of the wall that tell: points at one end of it tell little
+  double gain = 1;  // how much more lies in line at this turn than without one: a factor
 };
 
 // The turn at which most of `hits` lie in one line, those where the wall is expected before others;

@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What bench/ladder.py extrudes from a map is closed, and maps keep sense under errors."""
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -113,6 +114,23 @@ class PerturbedPlan(unittest.TestCase):
             facade = moved["facades"][2]
             length = sum((a - b) ** 2 for a, b in zip(facade["a_m"], facade["b_m"])) ** 0.5
             self.assertLessEqual(moved["views"][0]["targets"][0]["along_m"][1], length)
+
+    def test_corners_are_measured_one_by_one(self):
+        rings = []
+        for corners in ("0", "0.2"):
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder) / "plan.json"
+                path.write_text(json.dumps(plan()))
+                subprocess.run([sys.executable, BENCH / "perturb_plan.py", path, "--simpler", "0",
+                                "--corners", corners], check=True, stdout=subprocess.DEVNULL)
+                moved = json.loads(path.read_text())
+            rings.append(moved["footprints"][0]["rings_m"][0])
+            ends = {tuple(f[end]) for f in moved["facades"] for end in ("a_m", "b_m")}
+            self.assertLessEqual(ends, {tuple(p) for f in moved["footprints"]
+                                        for ring in f["rings_m"] for p in ring})
+        off = [[a - b for a, b in zip(p, q)] for p, q in zip(*rings)]
+        self.assertEqual(len({tuple(p) for p in off}), len(off))
+        self.assertTrue(all(0 < math.hypot(*p) < 1 for p in off))
 
     def test_what_is_not_said_is_as_real_maps_are(self):
         ring = [[0, 0], [20, 0], [20, 10], [8, 10], [8, 20], [0, 20]]

@@ -125,5 +125,26 @@ TEST(MapErrors, BuildingsOfAModelAreTurnedOneByOne) {
   }
 }
 
+// A cadastre measures corners one by one: each of these is off by 0.25 m.
+TEST(MapErrors, WallsOfAModelAreTurnedOneByOne) {
+  const Ring truth = test::Rectangle(-12, -6, 12, 6);
+  Ring mapped = truth;
+  mapped[0] += Eigen::Vector2d(0.1, 0.2);
+  mapped[1] += Eigen::Vector2d(-0.2, -0.15);
+  mapped[2] += Eigen::Vector2d(0.2, 0.15);
+  mapped[3] += Eigen::Vector2d(-0.1, -0.2);
+  const auto captured = test::Capture({test::FlatHouse(truth, 8)}, {test::GroundSquare(30)},
+                                      {.spacing = 0.2, .noise = 0.02});
+  const test::MadeModel made = test::MakeModel(captured, {{"B0001", {mapped}, 8}});
+  const auto roofs = test::OfClass(test::ClosedIn(made, "B0001"), FacetClass::kRoof);
+  ASSERT_EQ(roofs.size(), 1u);
+  ASSERT_EQ(roofs[0]->outer.size(), 4u);
+  for (const auto& p : roofs[0]->outer) {
+    double nearest = 1e9;
+    for (const auto& corner : truth) nearest = std::min(nearest, (corner - p.head<2>()).norm());
+    EXPECT_LT(nearest, 0.08);
+  }
+}
+
 }  // namespace
 }  // namespace stucco

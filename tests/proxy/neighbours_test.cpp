@@ -96,11 +96,21 @@ TEST(MeetNeighbours, AlleysStayOpen) {
 
 TEST(WithEdgesMoved, MovesEdgesOutwardsAndRefusesWhatCrossesItself) {
   const Polygon square{{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}}};
-  const auto moved = WithEdgesMoved(square, std::vector<double>{0, 1, 0.5, 0});
+  const auto moved =
+      WithEdgesMoved(square, std::vector<EdgeMove>{{0, 0}, {1, 1}, {0.5, 0.5}, {0, 0}});
   ASSERT_TRUE(moved);
   EXPECT_DOUBLE_EQ(Area(*moved), 5 * 4.5);
-  EXPECT_FALSE(WithEdgesMoved(square, std::vector<double>{0, -5, 0, 0}));
-  EXPECT_FALSE(WithEdgesMoved(square, std::vector<double>{0, -2.5, 0, 0}));
+  EXPECT_FALSE(WithEdgesMoved(square, std::vector<EdgeMove>{{}, {-5, -5}, {}, {}}));
+  EXPECT_FALSE(WithEdgesMoved(square, std::vector<EdgeMove>{{}, {-2.5, -2.5}, {}, {}}));
+}
+
+TEST(WithEdgesMoved, TurnsEdgesThatMoveByMoreAtOneEnd) {
+  const Polygon square{{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}}};
+  const auto moved = WithEdgesMoved(square, std::vector<EdgeMove>{{}, {0, 0.5}, {}, {}});
+  ASSERT_TRUE(moved);
+  EXPECT_LT((moved->rings[0][1] - Eigen::Vector2d(4, 0)).norm(), 1e-9);
+  EXPECT_LT((moved->rings[0][2] - Eigen::Vector2d(4.5, 4)).norm(), 1e-9);
+  EXPECT_LT((moved->rings[0][3] - Eigen::Vector2d(0, 4)).norm(), 1e-9);
 }
 
 }  // namespace
