@@ -12,9 +12,8 @@
 namespace stucco {
 namespace {
 
-constexpr double kWallSigma_m = 0.15;      // of one wall, beside what it shares with others
-constexpr double kSigmaOfMedian = 1.4826;  // of absolute deviations, for a normal distribution
-constexpr size_t kFewestGroups = 3;        // that tell how a map is
+constexpr double kWallSigma_m = 0.15;  // of one wall, beside what it shares with others
+constexpr size_t kFewestGroups = 3;    // that tell how a map is
 
 double WeightOf(double off) {
   const double sigmas = std::abs(off) / kWallSigma_m;
@@ -122,7 +121,7 @@ double SpreadOf(std::span<const HeldGroup> groups, const MapErrors& errors) {
     }
   }
   if (off.size() < kFewest) return kMapSigma_m;
-  return std::clamp(kSigmaOfMedian * *Median(off), kWallSigma_m, kMapSigma_m);
+  return std::clamp(*Median(off) / kMedianOfNormal, kWallSigma_m, kMapSigma_m);
 }
 
 MapPrior Learned(std::span<const HeldGroup> groups, const MapErrors& errors, MapPrior prior) {
@@ -136,7 +135,7 @@ MapPrior Learned(std::span<const HeldGroup> groups, const MapErrors& errors, Map
   if (turns.size() < kFewestGroups) return prior;
   prior.turn = *Median(turns);
   for (double& turn : turns) turn = std::abs(turn - prior.turn);
-  prior.turn_sigma = std::clamp(kSigmaOfMedian * *Median(turns), kLeastTurn_rad, kMapTurn_rad);
+  prior.turn_sigma = std::clamp(*Median(turns) / kMedianOfNormal, kLeastTurn_rad, kMapTurn_rad);
   return prior;
 }
 

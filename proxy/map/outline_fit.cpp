@@ -74,6 +74,7 @@ RingPlace RunsOf(const MapBuilding& building, size_t part, size_t ring_index,
   return place;
 }
 
+// In no order.
 std::vector<WallHit> HitsOf(const Samples& upright, const std::vector<int>& near, const Ring& ring,
                             const Run& run, double ground) {
   constexpr double kLeastCosine = 0.8;  // 37 degrees: normals of stereo are rough
@@ -101,8 +102,6 @@ std::vector<WallHit> HitsOf(const Samples& upright, const std::vector<int>& near
                       .along = onwards.dot(p.head<2>() - run.middle)});
     }
   }
-  std::sort(hits.begin(), hits.end(),
-            [](const WallHit& a, const WallHit& b) { return a.distance < b.distance; });
   return hits;
 }
 

@@ -19,7 +19,7 @@ constexpr int kBlock = kChangeBlock;
 constexpr int kPart = 4;  // of a block, a side
 constexpr int kParts = kBlock / kPart;
 constexpr double kLeastShown = 0.5;  // of a block's texels, by both
-// Below eaves a wall has a third of the encoded brightness; panes are darker than that.
+// Shade of eaves is believed down to a third of the encoded brightness: panes may be darker.
 constexpr double kDeepestShade = 1.1;
 // Logarithms of encoded colours, so that light is an offset; the offset keeps noise of black small.
 constexpr double kDarkOffset = 8;
