@@ -32,7 +32,7 @@ import surveys
 BENCH = pathlib.Path(__file__).parent
 HEAD = ["scene", "rung", "posed", "model error (m)", "its walls (m)", "walls complete",
         "roofs (m)", "roofs complete", "buildings complete", "closed",
-        "facets / truth", "ids", "CPU s"]
+        "facets / truth", "of them on roofs", "ids", "CPU s"]
 PICTURES = ["painted", "SSIM on planes", "one ideal photo", "shift (m)"]
 
 
@@ -233,6 +233,7 @@ class Ladder:
                 loop.percent(proxy["building_completeness_all"]),
                 loop.of_all(proxy["watertight"], proxy["truth_buildings"]),
                 loop.of_all(proxy["facets"], proxy["truth_facets"]),
+                str(proxy["superstructure_facets"]),
                 loop.percent(proxy["facade_id_rate"]), surveys.number(figures["cpu_s"], 0),
                 *(pictures if self.has_pictures() else [])]
 

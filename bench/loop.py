@@ -34,7 +34,7 @@ FLIGHT = ["scene", "method", "photos", "hovers", "length (m)", "time (min)", "ba
 GEOMETRY = ["scene", "method", "posed", "position (mm)", "rotation (deg)", "georeferenced (m)",
             "cloud error (m)", "complete: seen", "all", "its walls: seen", "model error (m)",
             "complete: seen", "all", "its walls (m)", "complete: seen", "watertight",
-            "facets / truth", "ids"]
+            "facets / truth", "of them on roofs", "ids"]
 PICTURES = ["scene", "method", "painted", "SSIM", "one ideal photo", "on planes", "one ideal photo",
             "MS-SSIM", "PSNR", "GMSD", "FLIP", "LPIPS", "misregistration (px)", "(m)",
             "held out: compared", "SSIM", "PSNR", "FLIP"]
@@ -72,7 +72,8 @@ def geometry_cells(figures):
             percent(proxy["building_completeness"]), percent(proxy["building_completeness_all"]),
             surveys.number(proxy["wall_error95_m"], 3), percent(proxy["wall_completeness"]),
             of_all(proxy["watertight"], proxy["truth_buildings"]),
-            of_all(proxy["facets"], proxy["truth_facets"]), percent(proxy["facade_id_rate"])]
+            of_all(proxy["facets"], proxy["truth_facets"]),
+            str(proxy["superstructure_facets"]), percent(proxy["facade_id_rate"])]
 
 
 def picture_cells(figures):

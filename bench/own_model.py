@@ -22,7 +22,7 @@ import sys
 import surveys
 import texture_choice
 
-HEAD = ("model", "error (m)", "its walls (m)", "facets / truth", "closed", "ids", "painted", "SSIM",
+HEAD = ("model", "error (m)", "its walls (m)", "facets / truth", "of them on roofs", "closed", "ids", "painted", "SSIM",
         "ceiling", "on planes", "ceiling", "shift (m)")
 
 
@@ -63,7 +63,7 @@ def row(name, survey):
     plane = texture["plane"]
     return (name, surveys.number(proxy["building_error95_m"], 3),
             surveys.number(proxy["wall_error95_m"], 3),
-            f"{proxy['facets']} / {proxy['truth_facets']}",
+            f"{proxy['facets']} / {proxy['truth_facets']}", str(proxy["superstructure_facets"]),
             f"{proxy['watertight']} of {proxy['truth_buildings']}",
             f"{100 * proxy['facade_id_rate']:.1f} %", f"{100 * texture['painted']:.1f} %",
             surveys.number(texture["ssim_mean"], 3),

@@ -46,9 +46,11 @@ std::string SurfaceText(const char* name, const SurfaceFigures& figures) {
 std::string ProxyText(const evaluate::ProxyFigures& proxy) {
   return fmt::format(
       "buildings   {} (truth {}): {} watertight, {} manifold, {} cross themselves\n"
-      "facets      {} (truth {}); right facade id on {} of the walls\n",
+      "facets      {}, {} of them of what stands on roofs (truth {} and none); right facade id on "
+      "{} of the walls\n",
       proxy.buildings, proxy.truth_buildings, proxy.watertight, proxy.manifold,
-      proxy.self_intersecting, proxy.facets, proxy.truth_facets, Percent(proxy.facade_id_rate));
+      proxy.self_intersecting, proxy.facets, proxy.superstructure_facets, proxy.truth_facets,
+      Percent(proxy.facade_id_rate));
 }
 
 std::string PictureText(const char* name, const PictureFigures& figures) {

@@ -84,6 +84,7 @@ Json ProxyJson(const ProxyFigures& proxy) {
                {"manifold", proxy.manifold},
                {"self_intersecting", proxy.self_intersecting},
                {"facets", proxy.facets},
+               {"superstructure_facets", proxy.superstructure_facets},
                {"truth_facets", proxy.truth_facets}};
   AddParts(proxy.surface, json);
   json["facade_id_rate"] = Number(proxy.facade_id_rate);

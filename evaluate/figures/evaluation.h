@@ -50,6 +50,7 @@ struct ProxyFigures {
   int self_intersecting = 0;
   int truth_buildings = 0;
   int facets = 0;
+  int superstructure_facets = 0;  // of them, of what stands on roofs and the truth has not
   int truth_facets = 0;
   PartFigures surface;
   double facade_id_rate = kNotMeasured;  // share of the truth's wall area whose facet has its id

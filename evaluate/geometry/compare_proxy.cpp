@@ -10,6 +10,7 @@
 #include "evaluate/geometry/part_near.h"
 #include "evaluate/geometry/seen.h"
 #include "evaluate/geometry/solid_check.h"
+#include "evaluate/geometry/superstructures.h"
 
 namespace stucco::evaluate {
 namespace {
@@ -126,7 +127,10 @@ ProxyFigures CompareProxy(const Proxy& result, const Similarity& truth_from_resu
     ++figures.truth_buildings;
     figures.truth_facets += static_cast<int>(building.facets.size());
   }
-  figures.surface = MeasureSurfaces(Moved(result, truth_from_result), truth, tolerance_m, threads);
+  const Proxy moved = Moved(result, truth_from_result);
+  figures.superstructure_facets =
+      CountSuperstructures(moved, VisibleSurface(truth.facets), SurfaceIndex(truth.relief));
+  figures.surface = MeasureSurfaces(moved, truth, tolerance_m, threads);
   figures.facade_id_rate = FacadeIdRate(MatchFacets(result, truth.facets, truth_from_result));
   return figures;
 }

@@ -90,7 +90,7 @@ Surface ReliefOf(const simulate::Scene& scene) {
   return SurfaceOf(scene, false);
 }
 
-double Area(const Surface& surface) {
+double SurfaceArea(const Surface& surface) {
   double area = 0;
   for (const auto& triangle : surface.triangles) area += AreaVector(surface, triangle).norm();
   return area;

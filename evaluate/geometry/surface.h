@@ -35,7 +35,7 @@ bool IsOfBuilding(int group);
 Surface SurfaceOf(const simulate::Scene& scene);
 Surface ReliefOf(const simulate::Scene& scene);
 
-double Area(const Surface& surface);
+double SurfaceArea(const Surface& surface);
 
 struct SurfacePoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();

@@ -87,7 +87,8 @@ std::string Solids(const ProxyFigures& proxy) {
                    FigureHtml("manifold", of_all(proxy.manifold)) +
                    FigureHtml("cutting themselves", of_all(proxy.self_intersecting)) +
                    FigureHtml("facets", fmt::format("{}", proxy.facets),
-                              fmt::format("the truth has {}", proxy.truth_facets)) +
+                              fmt::format("{} of them on roofs; the truth has {} and none there",
+                                          proxy.superstructure_facets, proxy.truth_facets)) +
                    FigureHtml("facades with the right id", Percent(proxy.facade_id_rate),
                               "of the truth's wall area"));
 }

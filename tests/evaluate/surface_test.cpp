@@ -21,17 +21,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-Surface Box() {
+Surface BoxSurface() {
   Surface surface;
   for (const Facet& facet : MadeBox("B", {0, 0, 0}, {10, 8, 6}).facets) Append(facet, surface);
   return surface;
 }
 
 TEST(Surface, HasTheAreaOfItsFacets) {
-  EXPECT_NEAR(Area(Box()), 2 * (80 + 60 + 48), 1e-9);
-  Surface twice = Box();
-  Append(Box(), twice);
-  EXPECT_NEAR(Area(twice), 4 * (80 + 60 + 48), 1e-9);
+  EXPECT_NEAR(SurfaceArea(BoxSurface()), 2 * (80 + 60 + 48), 1e-9);
+  Surface twice = BoxSurface();
+  Append(BoxSurface(), twice);
+  EXPECT_NEAR(SurfaceArea(twice), 4 * (80 + 60 + 48), 1e-9);
 }
 
 TEST(Surface, KnowsThePartsOfASceneByTheirNames) {
@@ -47,7 +47,7 @@ TEST(Surface, OfASceneIsItsReliefAndWhatStandsAbout) {
   const simulate::Scene scene = MadeScene(MadeTruth());
   const Surface all = SurfaceOf(scene);
   const Surface relief = ReliefOf(scene);
-  EXPECT_NEAR(Area(all) - Area(relief), 2 * (4 + 8 + 8), 1e-3);  // the tree
+  EXPECT_NEAR(SurfaceArea(all) - SurfaceArea(relief), 2 * (4 + 8 + 8), 1e-3);  // the tree
   EXPECT_EQ(std::count(all.groups.begin(), all.groups.end(), kStandsAbout), 12);
   EXPECT_EQ(std::count(relief.groups.begin(), relief.groups.end(), kStandsAbout), 0);
 }
@@ -57,19 +57,19 @@ TEST(PartNear, CutsLargeTrianglesAtTheBorder) {
   field.vertices = {{-400, -400, 0}, {400, -400, 0}, {400, 400, 0}, {-400, 400, 0}};
   field.triangles = {{0, 1, 2}, {0, 2, 3}};
   field.groups = {2, 2};
-  const SurfaceIndex box(Box());  // 10 x 8 m at the origin
+  const SurfaceIndex box(BoxSurface());  // 10 x 8 m at the origin
   const Surface near = PartNear(field, box, 15);
   // The rectangle, grown by 15 m with round corners.
   const double area = 10 * 8 + 15 * 2 * (10 + 8) + std::numbers::pi * 15 * 15;
-  EXPECT_NEAR(Area(near), area, 0.005 * area);
+  EXPECT_NEAR(SurfaceArea(near), area, 0.005 * area);
   for (const Vector3d& vertex : near.vertices) EXPECT_LT(box.Distance(vertex), 15.3);
   EXPECT_EQ(near.groups, std::vector<int>(near.triangles.size(), 2));
-  EXPECT_NEAR(Area(PartNear(Box(), box, 15)), Area(Box()), 1e-9);
+  EXPECT_NEAR(SurfaceArea(PartNear(BoxSurface(), box, 15)), SurfaceArea(BoxSurface()), 1e-9);
   EXPECT_TRUE(PartNear(field, SurfaceIndex(Surface()), 15).triangles.empty());
 }
 
 TEST(SamplePoints, AreSpreadByArea) {
-  const auto points = SamplePoints(Box(), 37600, 1);
+  const auto points = SamplePoints(BoxSurface(), 37600, 1);
   ASSERT_EQ(points.size(), 37600u);
   int walls = 0;
   Vector3d sum = Vector3d::Zero();
@@ -80,8 +80,8 @@ TEST(SamplePoints, AreSpreadByArea) {
   EXPECT_NEAR(walls, 21600, 2);  // at most one part of equal area lies across each border
   // Standard deviation of the mean below 6 / sqrt(12 * 37600), far less by the even parts.
   EXPECT_NEAR((sum / 37600 - Vector3d(5, 4, 3)).norm(), 0, 0.02);
-  EXPECT_EQ(points[9].position, SamplePoints(Box(), 37600, 1)[9].position);
-  EXPECT_NE(points[9].position, SamplePoints(Box(), 37600, 2)[9].position);
+  EXPECT_EQ(points[9].position, SamplePoints(BoxSurface(), 37600, 1)[9].position);
+  EXPECT_NE(points[9].position, SamplePoints(BoxSurface(), 37600, 2)[9].position);
 }
 
 TEST(SamplePoints, FillATriangleEvenly) {
@@ -110,7 +110,7 @@ TEST(SamplePoints, NothingHasNone) {
 }
 
 TEST(SurfaceIndex, DistancesAreExact) {
-  const SurfaceIndex box(Box());
+  const SurfaceIndex box(BoxSurface());
   EXPECT_NEAR(box.Distance({5, 4, 7.5}), 1.5, 1e-12);
   EXPECT_NEAR(box.Distance({5, 4, 5}), 1, 1e-12);     // inside
   EXPECT_NEAR(box.Distance({13, 12, 3}), 5, 1e-12);   // an edge
@@ -120,7 +120,7 @@ TEST(SurfaceIndex, DistancesAreExact) {
 }
 
 TEST(SurfaceIndex, AgreesWithTryingEveryTriangleFarFromTheOrigin) {
-  Surface far = Box();
+  Surface far = BoxSurface();
   for (Vector3d& vertex : far.vertices) vertex += Vector3d(713.123456789, -955.3, 41.7);
   const SurfaceIndex index(far);
   std::vector<SurfaceIndex> single;
@@ -145,7 +145,7 @@ TEST(SurfaceIndex, AgreesWithTryingEveryTriangleFarFromTheOrigin) {
 }
 
 TEST(SurfaceIndex, KnowsWhatIsInTheWay) {
-  const SurfaceIndex box(Box());
+  const SurfaceIndex box(BoxSurface());
   EXPECT_TRUE(box.Blocked({-5, 4, 3}, {15, 4, 3}));
   EXPECT_FALSE(box.Blocked({-5, 4, 7}, {15, 4, 7}));
   EXPECT_FALSE(box.Blocked({-5, 4, 3}, {-1, 4, 3}));  // ends before it

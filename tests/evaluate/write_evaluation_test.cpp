@@ -32,6 +32,7 @@ TEST(EvaluationJson, KeepsTheNamesThatOthersRelyOn) {
                            "/proxy/completeness",
                            "/proxy/facets",
                            "/proxy/truth_facets",
+                           "/proxy/superstructure_facets",
                            "/proxy/facade_id_rate",
                            "/dense/wall_completeness",
                            "/proxy/building_error95_m",
