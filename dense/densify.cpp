@@ -33,7 +33,7 @@ namespace stucco {
 namespace {
 
 // Raise when the code behind a checkpoint changes what it computes.
-constexpr char kDepthVersion[] = "depth-6";
+constexpr char kDepthVersion[] = "depth-7";
 constexpr int kLevels = 3;
 constexpr int kSpecklePixels = 60;
 constexpr float kSpeckleStep = 0.01f;

@@ -3,8 +3,8 @@
 #include "dense/patch.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 
 #if defined(__x86_64__)
@@ -24,7 +24,7 @@ using Ints = int32_t __attribute__((vector_size(32)));
 struct Offsets {
   alignas(32) float x[kPatchSamples] = {};
   alignas(32) float y[kPatchSamples] = {};
-  float spatial[kPatchSamples] = {};
+  alignas(32) float spatial[kPatchSamples] = {};
   Offsets() {
     int i = 0;
     for (int dy = -kPatchRadius; dy <= kPatchRadius; dy += 2) {
@@ -42,46 +42,75 @@ struct Offsets {
 
 const Offsets kOffsets;
 
-// Of the difference of two grey values.
+// Of the difference of two grey values; floats as words, to be fetched as pixels are.
 struct ColorWeights {
-  float of[256];
+  uint32_t of[256];
   ColorWeights() {
     for (int i = 0; i < 256; ++i) {
       const float difference = static_cast<float>(i) / kColorSigma;
-      of[i] = std::exp(-0.5f * difference * difference);
+      of[i] = std::bit_cast<uint32_t>(std::exp(-0.5f * difference * difference));
     }
   }
 };
 
 const ColorWeights kColorWeights;
 
-}  // namespace
-
-ReferencePatch MakeReferencePatch(const PackedImage& image, int x, int y) {
-  ReferencePatch patch;
-  float values[kPatchSamples];
-  const int center = image.gray[static_cast<size_t>(y) * image.width + x];
-  float weight_sum = 0;
-  float mean = 0;
-  for (int i = 0; i < kPatchSamples; ++i) {
-    const int px = std::clamp(x + static_cast<int>(kOffsets.x[i]), 0, image.width - 1);
-    const int py = std::clamp(y + static_cast<int>(kOffsets.y[i]), 0, image.height - 1);
-    const int value = image.gray[static_cast<size_t>(py) * image.width + px];
-    values[i] = static_cast<float>(value);
-    patch.weights[i] = kOffsets.spatial[i] * kColorWeights.of[std::abs(value - center)];
-    weight_sum += patch.weights[i];
-    mean += patch.weights[i] * values[i];
-  }
-  mean /= weight_sum;
-  for (int i = 0; i < kPatchSamples; ++i) {
-    patch.weights[i] /= weight_sum;
-    patch.weighted[i] = patch.weights[i] * (values[i] - mean);
-    patch.variance += patch.weighted[i] * (values[i] - mean);
-  }
-  return patch;
+__attribute__((always_inline)) inline void Clamp(int last, Ints& values) {
+  const Ints least = {};
+  const Ints most = least + last;
+  values = values < least ? least : values;
+  values = values > most ? most : values;
 }
 
-namespace {
+__attribute__((always_inline)) inline float Sum(const Floats& of) {
+  float sum = 0;
+  for (int lane = 0; lane < 8; ++lane) sum += of[lane];
+  return sum;
+}
+
+// This and what follows take a way to fetch the words at eight places. They are inlined into what
+// is compiled for one kind of processor; all of them give the same bits, as no operation is fused
+// or reordered.
+template <typename Fetch>
+__attribute__((always_inline)) inline ReferencePatch ReferenceBy(const Fetch& fetch,
+                                                                 const PackedImage& image, int x,
+                                                                 int y) {
+  const int center = image.gray[static_cast<size_t>(y) * image.width + x];
+  Floats values[kPatchSamples / 8], weights[kPatchSamples / 8];
+  Floats weight_sum = {}, weighted_sum = {};
+  for (int i = 0; i < kPatchSamples / 8; ++i) {
+    Floats dx, dy, spatial;
+    std::memcpy(&dx, kOffsets.x + 8 * i, sizeof dx);
+    std::memcpy(&dy, kOffsets.y + 8 * i, sizeof dy);
+    std::memcpy(&spatial, kOffsets.spatial + 8 * i, sizeof spatial);
+    Ints column = __builtin_convertvector(dx, Ints) + x;
+    Ints row = __builtin_convertvector(dy, Ints) + y;
+    Clamp(image.width - 1, column);
+    Clamp(image.height - 1, row);
+    Ints quad, bits;
+    fetch(image.quads.data(), row * image.width + column, quad);
+    const Ints value = quad & 255;
+    const Ints difference = value - center;
+    fetch(kColorWeights.of, difference < 0 ? -difference : difference, bits);
+    values[i] = __builtin_convertvector(value, Floats);
+    weights[i] = spatial * reinterpret_cast<Floats>(bits);
+    weight_sum += weights[i];
+    weighted_sum += weights[i] * values[i];
+  }
+  const float scale = 1 / Sum(weight_sum);
+  const float mean = Sum(weighted_sum) * scale;
+  ReferencePatch patch;
+  Floats variance = {};
+  for (int i = 0; i < kPatchSamples / 8; ++i) {
+    weights[i] *= scale;
+    const Floats weighted = weights[i] * (values[i] - mean);
+    variance += weighted * (values[i] - mean);
+    std::memcpy(patch.weights + 8 * i, &weights[i], sizeof weighted);
+    std::memcpy(patch.weighted + 8 * i, &weighted, sizeof weighted);
+  }
+  patch.variance = Sum(variance);
+  return patch;
+}
 
 // Whether the window's corners are inside of the source; then all of it is.
 __attribute__((always_inline)) inline bool IsInside(const PatchWarp& warp,
@@ -132,12 +161,6 @@ __attribute__((always_inline)) inline Sampled Sample(const Fetch& fetch, const P
   return at;
 }
 
-__attribute__((always_inline)) inline float Sum(const Floats& of) {
-  float sum = 0;
-  for (int lane = 0; lane < 8; ++lane) sum += of[lane];
-  return sum;
-}
-
 // Eight samples of the window and what the reference weighs them with.
 struct Lanes {
   Floats dx, dy;
@@ -153,9 +176,6 @@ __attribute__((always_inline)) inline Lanes LanesAt(const ReferencePatch& patch,
   return lanes;
 }
 
-// Both of the following take a way to fetch the words at eight places. They are inlined into what
-// is compiled for one kind of processor; all of them give the same bits, as no operation is fused
-// or reordered.
 template <typename Fetch>
 __attribute__((always_inline)) inline float CostBy(const Fetch& fetch, const ReferencePatch& patch,
                                                    const PackedImage& source,
@@ -256,6 +276,11 @@ struct Gathers {
   }
 };
 
+__attribute__((target("avx2"))) ReferencePatch ReferenceByGathers(const PackedImage& image, int x,
+                                                                  int y) {
+  return ReferenceBy(Gathers(), image, x, y);
+}
+
 __attribute__((target("avx2"))) float CostByGathers(const ReferencePatch& patch,
                                                     const PackedImage& source,
                                                     const PatchWarp& warp) {
@@ -276,6 +301,10 @@ struct Loads {
   }
 };
 
+ReferencePatch ReferenceByLoads(const PackedImage& image, int x, int y) {
+  return ReferenceBy(Loads(), image, x, y);
+}
+
 float CostByLoads(const ReferencePatch& patch, const PackedImage& source, const PatchWarp& warp) {
   return CostBy(Loads(), patch, source, warp);
 }
@@ -295,10 +324,16 @@ const PatchCode& Fastest() {
 std::vector<PatchCode> PatchCodes() {
   std::vector<PatchCode> codes;
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) codes.push_back({CostByGathers, AddStepByGathers});
+  if (__builtin_cpu_supports("avx2")) {
+    codes.push_back({ReferenceByGathers, CostByGathers, AddStepByGathers});
+  };
 #endif
-  codes.push_back({CostByLoads, AddStepByLoads});
+  codes.push_back({ReferenceByLoads, CostByLoads, AddStepByLoads});
   return codes;
+}
+
+ReferencePatch MakeReferencePatch(const PackedImage& image, int x, int y) {
+  return Fastest().reference(image, x, y);
 }
 
 float PatchCost(const ReferencePatch& patch, const PackedImage& source, const PatchWarp& warp) {

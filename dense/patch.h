@@ -55,6 +55,7 @@ void AddStep(const ReferencePatch& patch, const PackedImage& source, const Patch
 
 // The code for the above that this processor can run, the fastest first. All give the same bits.
 struct PatchCode {
+  ReferencePatch (*reference)(const PackedImage&, int x, int y);
   float (*cost)(const ReferencePatch&, const PackedImage&, const PatchWarp&);
   void (*add_step)(const ReferencePatch&, const PackedImage&, const PatchWarp&, StepSums&);
 };

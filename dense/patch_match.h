@@ -20,7 +20,7 @@ struct DepthSeed {
 };
 
 struct PatchMatchOptions {
-  int iterations = 1;  // at the finest level; coarser ones do more
+  int iterations = 1;  // at every level but the coarsest, which does more
   int views_per_pixel = 3;
   float min_depth = 0;
   float max_depth = 0;

@@ -52,7 +52,7 @@ Stage CalibStage() {
 Stage DenseStage() {
   Stage stage;
   stage.name = "dense";
-  stage.version = 6;
+  stage.version = 7;
   stage.title = "the dense point cloud";
   stage.needs = {"ingest", "calib"};
   stage.inputs = {kCapturesFile, kSparseFolder};
@@ -75,7 +75,7 @@ Stage ProxyStage() {
   Stage stage;
   stage.name = "proxy";
   stage.title = "the planar model";
-  stage.version = 28;
+  stage.version = 29;
   stage.needs = {"calib", "dense"};
   stage.inputs = {kCloudFile, kSparseFolder, kGeorefFile, kPlanFile};
   stage.cost = {.cpu_s_per_photo = 0.25, .disk_mb_per_photo = 0.02, .memory_mb = 700};
@@ -87,7 +87,7 @@ Stage TextureStage() {
   Stage stage;
   stage.name = "texture";
   stage.title = "facade textures and the textured model";
-  stage.version = 14;
+  stage.version = 15;
   stage.needs = {"ingest", "calib", "dense", "proxy"};
   stage.inputs = {kFacetsFile, kSparseFolder, kGeorefFile, kCloudFile, kCapturesFile, kPlanFile};
   stage.opens_photos = true;

@@ -229,6 +229,7 @@ void WriteModels(const Proxy& proxy, const TextureOptions& options, const StageC
   const GlbOptions glb{.max_px = options.glb_max_px,
                        .jpeg_quality = options.glb_quality,
                        .threads = EncodingThreads(textures, options.glb_atlas_px, context),
+                       .most_texels = 1e6 * options.glb_megapixels,
                        .atlas_px = options.glb_atlas_px,
                        .relief = options.glb_relief};
   WriteFile(context.out / "model.glb", GlbOfLooks(proxy, {&look, 1}, glb));

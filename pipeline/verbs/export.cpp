@@ -119,6 +119,7 @@ ExportReport ExportGlb(const fs::path& survey, const ExportRequest& request,
                                      {.max_px = options.glb_max_px,
                                       .jpeg_quality = options.glb_quality,
                                       .threads = ResolvedThreads(settings.run),
+                                      .most_texels = 1e6 * options.glb_megapixels,
                                       .atlas_px = options.glb_atlas_px,
                                       .relief = options.glb_relief});
   if (!request.out.parent_path().empty()) fs::create_directories(request.out.parent_path(), error);

@@ -10,6 +10,7 @@
 
 #include "proxy/map/roof_cells.h"
 #include "proxy/map/wall_facets.h"
+#include "proxy/map/wall_tops.h"
 #include "proxy/solids/closed_check.h"
 #include "proxy/solids/soundness.h"
 #include "proxy/solids/written_check.h"
@@ -37,42 +38,25 @@ bool AreLeaves(const Samples& samples) {
   return static_cast<double>(up) < kMostLookUp * static_cast<double>(samples.size());
 }
 
-// Heights of what lies on the building's walls and looks out of them, as leaves beside them do not.
-std::vector<double> HeightsOnWalls(const FittedBuilding& fitted, const Samples& near,
-                                   double reach) {
-  constexpr double kOutwards = 0.9;  // cosine of 25 degrees
-  std::vector<double> heights;
-  for (size_t i = 0; i < near.size(); ++i) {
-    const Eigen::Vector2d place = near.positions[i].head<2>();
-    const Eigen::Vector2d normal = near.normals[i].head<2>();
-    const bool on_wall = std::ranges::any_of(fitted.edges, [&](const FittedEdge& edge) {
-      return edge.fitted && OutwardsOf(edge.line).dot(normal) > kOutwards &&
-             Distance(edge.line, place) < reach;
-    });
-    if (on_wall) heights.push_back(near.positions[i].z());
-  }
-  return heights;
-}
-
 // Height of a level top: the middle of what lies above the footprint, else (nothing does, or leaves
 // do) where its walls end.
-std::optional<double> TopOf(const BuildingEvidence& evidence, const Tolerances& tolerances) {
+std::optional<double> TopOf(const BuildingEvidence& evidence, const WallTops& walls) {
   constexpr size_t kFewest = 30;
-  constexpr double kWallTop = 0.95;
   const Samples& above = evidence.roof.samples;
-  if (above.size() >= kFewest && !AreLeaves(above)) {
-    std::vector<double> heights;
-    heights.reserve(above.size());
-    for (const auto& p : above.positions) heights.push_back(p.z());
-    return Median(std::move(heights));
-  }
-  std::vector<double> heights =
-      HeightsOnWalls(evidence.fitted, evidence.near, tolerances.level_of_detail);
-  if (heights.size() < kFewest) return std::nullopt;
-  const auto top =
-      heights.begin() + static_cast<ptrdiff_t>(kWallTop * static_cast<double>(heights.size() - 1));
-  std::ranges::nth_element(heights, top);
-  return *top;
+  if (above.size() < kFewest || AreLeaves(above)) return walls.Height();
+  std::vector<double> heights;
+  heights.reserve(above.size());
+  for (const auto& p : above.positions) heights.push_back(p.z());
+  return Median(std::move(heights));
+}
+
+// Whether the roof's planes are seen on so little of the footprint that they tell nothing of the
+// rest.
+bool HardlyShowsRoof(const BuildingEvidence& evidence) {
+  constexpr double kLeast = 0.1;
+  double seen = 0;
+  for (const Plane& plane : evidence.roof.planes) seen += plane.area;
+  return seen < kLeast * Area(evidence.fitted.building);
 }
 
 // Nobody sees the ground below a building; below trees one does, between the leaves.
@@ -283,9 +267,14 @@ ClosedBuilding BuildingCloser::Close(const MapBuilding& mapped, const FittedBuil
   constexpr double kAround_m = 1;
   BuildingEvidence evidence;
   evidence.fitted = fitted;
-  evidence.roof = FindRoofPlanes(survey_, fitted, options_);
   evidence.near = SubsetOf(survey_.samples, survey_.bins.In(BoundsOf(fitted.building, kAround_m)));
-  evidence.top = TopOf(evidence, survey_.tolerances);
+  const WallTops walls(fitted, evidence.near, survey_.tolerances.level_of_detail);
+  evidence.roof = FindRoofPlanes(survey_, fitted, walls, options_);
+  evidence.top = TopOf(evidence, walls);
+  if (HardlyShowsRoof(evidence) && walls.Height()) {
+    evidence.roof.planes.clear();  // a level roof where the walls end
+    evidence.top = walls.Height();
+  }
   evidence.map_top = mapped.z_m.to_m + plan_to_survey_m;
   evidence.walls_seen = !survey_.samples.camera_centers.empty() || fitted.held > 0;
   ClosedBuilding closed;

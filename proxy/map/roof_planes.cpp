@@ -155,7 +155,7 @@ Samples SubsetOf(const Samples& samples, const std::vector<int>& indices) {
 }
 
 RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& building,
-                            const ProxyOptions& options) {
+                            const WallTops& walls, const ProxyOptions& options) {
   const Samples& upright = survey.samples;
   const Tolerances& tolerances = survey.tolerances;
   RoofEvidence evidence;
@@ -171,6 +171,7 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
       if (upright.normals[i].z() > kGroundNormal) evidence.open.emplace_back(p.head<2>());
       continue;
     }
+    if (walls.IsBelow(p)) continue;
     if (upright_thing) {
       steps.push_back(i);
     } else if (upright.normals[i].z() > kRoofNormal) {
@@ -183,8 +184,8 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
   std::erase_if(planes, [&](const Plane& plane) {
     return IsRim(plane, evidence.samples, building.building, 2 * tolerances.level_of_detail);
   });
-  const std::vector<Plane> walls = WallDirections(building);
-  planes.insert(planes.end(), walls.begin(), walls.end());
+  const std::vector<Plane> directions = WallDirections(building);
+  planes.insert(planes.end(), directions.begin(), directions.end());
   Regularise(evidence.samples, tolerances, Eigen::Vector3d::UnitZ(),
              {.vertical_tolerance_deg = options.vertical_tolerance_deg,
               .align_tolerance_deg = options.align_tolerance_deg},
@@ -200,7 +201,7 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
   const Samples on_steps = SubsetOf(upright, steps);
   evidence.steps = Detect(on_steps, tolerances, options);
   std::erase_if(evidence.steps, [](const Plane& plane) { return !LooksLikeWall(plane.normal); });
-  for (Plane& step : evidence.steps) TurnAlong(walls, on_steps, step);
+  for (Plane& step : evidence.steps) TurnAlong(directions, on_steps, step);
   return evidence;
 }
 

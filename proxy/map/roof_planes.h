@@ -7,6 +7,7 @@
 #include "proxy/cloud/samples.h"
 #include "proxy/map/outline_fit.h"
 #include "proxy/map/upright_survey.h"
+#include "proxy/map/wall_tops.h"
 #include "proxy/options/proxy_options.h"
 #include "proxy/planes/plane.h"
 
@@ -14,7 +15,7 @@ namespace stucco {
 
 // What the cloud shows above a footprint, in the upright frame.
 struct RoofEvidence {
-  Samples samples;                    // above the ground, inside of the outline
+  Samples samples;                    // above the ground and not far below the tops of its walls
   std::vector<Plane> planes;          // roofs, by falling area; `points` are indices into `samples`
   std::vector<Plane> steps;           // upright, inside of the outline
   std::vector<Eigen::Vector2d> open;  // inside of the outline, where the ground shows
@@ -24,9 +25,9 @@ struct RoofEvidence {
 
 // The planes of a building's roof, found among the samples above its own footprint, with details
 // that do not depend on the rest of the survey, and regularised by themselves and its walls. Rough
-// surfaces (crowns of trees) are none.
+// surfaces (crowns of trees) are none, nor is what lies inside of it, below the tops of its walls.
 RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& building,
-                            const ProxyOptions& options);
+                            const WallTops& walls, const ProxyOptions& options);
 
 // The samples by their indices; the cameras stay behind.
 Samples SubsetOf(const Samples& samples, const std::vector<int>& indices);

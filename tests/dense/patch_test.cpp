@@ -139,6 +139,11 @@ TEST(PatchCost, HasTheSameBitsWhateverTheProcessorCan) {
     StepSums sums;
     codes.back().add_step(patch, image, warp, sums);
     for (const PatchCode& code : codes) {
+      const ReferencePatch made = code.reference(image, x % 7, y);  // partly outside, too
+      const ReferencePatch other = codes.back().reference(image, x % 7, y);
+      EXPECT_TRUE(std::ranges::equal(made.weights, other.weights)) << k;
+      EXPECT_TRUE(std::ranges::equal(made.weighted, other.weighted)) << k;
+      EXPECT_EQ(made.variance, other.variance) << k;
       EXPECT_EQ(code.cost(patch, image, warp), cost) << k;
       StepSums same;
       code.add_step(patch, image, warp, same);

@@ -149,6 +149,22 @@ TEST(MapSolids, WithoutRoofPointsEndsWhereItsWallsEnd) {
   EXPECT_TRUE(Says(made.findings.notes, "B0001: closed, LoD1.2"));
 }
 
+TEST(MapSolids, WhatLiesInsideOfATowerIsNotItsRoof) {
+  test::CaptureOptions options = kCapture;
+  options.hide = {"roof"};
+  test::House floors = FlatHouse(Rectangle(-6, -6, 6, 0), 15);  // of loggias
+  floors.polygons = {floors.polygons.back()};
+  floors.polygons.back().name = "floors";
+  test::House tower = FlatHouse(Rectangle(-7, -7, 7, 7), 40);
+  tower.polygons.back().name = "roof";
+  const auto captured = test::Capture({tower, floors}, {test::GroundSquare(25)}, options);
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-7, -7, 7, 7)}, 9}});
+  const Building& house = ClosedIn(made, "B0001");
+  EXPECT_EQ(house.facets.size(), 6u);
+  EXPECT_NEAR(TopOf(*OfClass(house, FacetClass::kRoof)[0]), 40, 0.4);
+  EXPECT_TRUE(Says(made.findings.notes, "B0001: closed, LoD1.2"));
+}
+
 // A street of boxes of different sizes.
 struct StreetOfFive {
   std::vector<test::House> houses;

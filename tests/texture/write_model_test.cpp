@@ -172,7 +172,7 @@ TEST_F(Model, KhronosValidatorFindsNothingInTheGlb) {
 }
 
 TEST_F(Model, GlbReadsBackYUpWithTextureCoordinates) {
-  WriteGlb(proxy_, textures_, folder_.path(), {16, 90});
+  WriteGlb(proxy_, textures_, folder_.path(), {64, 90, 1, 300});
   Assimp::Importer importer;
   const aiScene* scene =
       importer.ReadFile((folder_.path() / "model.glb").string(), aiProcess_ValidateDataStructure);
@@ -294,6 +294,57 @@ TEST_F(Model, FacetsShareAnAtlas) {
 }
 
 // The wall is blue on a later day, when what is behind it was seen for the first time.
+// The wall's picture of 40 x 30 texels in tiles of at most 16: four across, two down. Every place
+// of the wall is in one of them, with the texel that it has in the whole picture.
+TEST_F(Model, LargePicturesAreCutIntoTiles) {
+  WriteGlb(proxy_, textures_, folder_.path(), {.max_px = 16});
+  const json gltf = GlbJson();
+  ASSERT_EQ(gltf["meshes"].size(), 2u);  // a mesh a facet, as ever
+  const json& tiles = gltf["meshes"][0]["primitives"];
+  ASSERT_EQ(tiles.size(), 8u);
+  EXPECT_EQ(gltf["images"].size(), 8u);
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile((folder_.path() / "model.glb").string(), 0);
+  ASSERT_TRUE(scene);
+  double area = 0;
+  std::map<std::pair<int, int>, int> seen;  // tiles by the place of their first corner
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    const aiMesh* mesh = scene->mMeshes[m];
+    if (!mesh->HasTextureCoords(0)) continue;
+    for (unsigned f = 0; f < mesh->mNumFaces; ++f) {
+      const unsigned* index = mesh->mFaces[f].mIndices;
+      const aiVector3D a = mesh->mVertices[index[0]];
+      area += 0.5 * ((mesh->mVertices[index[1]] - a) ^ (mesh->mVertices[index[2]] - a)).Length();
+    }
+    // Coordinates of a tile of 10 x 15 texels go from 0 to 1 over 1 m and 1.5 m.
+    const aiVector3D at = mesh->mVertices[0], uv = mesh->mTextureCoords[0][0];
+    const double left = at.x - uv.x * 1.0, below = at.y - uv.y * 1.5;
+    EXPECT_NEAR(left, std::round(left), 1e-5);
+    EXPECT_NEAR(below / 1.5, std::round(below / 1.5), 1e-5);
+    ++seen[{static_cast<int>(std::lround(left)), static_cast<int>(std::lround(below / 1.5))}];
+  }
+  EXPECT_NEAR(area, 11, 1e-4);
+  EXPECT_EQ(seen.size(), 8u);
+}
+
+TEST_F(Model, TilesOfLooksAreVariants) {
+  const ModelLook now{"now", textures_, folder_.path()};
+  const ModelLook then{"then", textures_, folder_.path()};
+  const std::vector<ModelLook> looks = {now, then};
+  WriteFile(folder_.path() / "model.glb", GlbOfLooks(proxy_, looks, {.max_px = 16}));
+  const json gltf = GlbJson();
+  EXPECT_EQ(gltf["images"].size(), 16u);
+  for (const json& tile : gltf["meshes"][0]["primitives"]) {
+    const json& mappings = tile["extensions"]["KHR_materials_variants"]["mappings"];
+    ASSERT_EQ(mappings.size(), 1u);  // the first look is what it has without a variant
+    EXPECT_EQ(mappings[0]["variants"], json({1}));
+    EXPECT_NE(mappings[0]["material"], tile["material"]);
+  }
+  if (const auto findings = test::KhronosFindings(folder_.path() / "model.glb")) {
+    EXPECT_EQ(*findings, "");
+  }
+}
+
 TEST_F(Model, LooksAreVariants) {
   const std::filesystem::path later = folder_.path() / "later";
   std::filesystem::create_directories(later / "textures");

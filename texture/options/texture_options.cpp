@@ -51,8 +51,12 @@ void Describe(OptionTable& table, TextureOptions& options) {
   table.Add("debug", options.debug,
             "Leave pictures in debug/ that explain each facet: its candidates with what stands "
             "before it, who paints what, light before and after, relief. Paints every facet anew.");
-  table.Add("glb_max_px", options.glb_max_px, 64, 16384,
-            "Longest side of the pictures inside model.glb, pixels.");
+  table.Add(
+      "glb_max_px", options.glb_max_px, 64, 16384,
+      "Longest side of the pictures inside model.glb, pixels; larger ones are cut into tiles.");
+  table.Add(
+      "glb_megapixels", options.glb_megapixels, 1, 4096,
+      "Of all pictures inside model.glb together; where they have more all are made smaller.");
   table.Add("glb_atlas_px", options.glb_atlas_px, 0, 16384,
             "Side of the pictures in model.glb that small facets share; 0 gives each its own.");
   table.Add("glb_quality", options.glb_quality, 10, 100,

@@ -28,6 +28,7 @@ struct TextureOptions {
   bool orthophotos = true;
   bool debug = false;
   int glb_max_px = 4096;
+  int glb_megapixels = 128;  // more than graphics cards hold uncompressed
   int glb_atlas_px = 4096;
   int glb_quality = 90;
   bool glb_relief = false;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "texture/output/glb_parts.h"
 
+#include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -11,6 +13,22 @@
 #include "texture/output/relief_mesh.h"
 
 namespace stucco {
+namespace {
+
+// A picture, area-averaged to a size that is not larger.
+Image ReadScaled(const std::filesystem::path& path, const ImageSize& size) {
+  Image full = ReadImage(path);
+  if (full.width_px == size.width_px && full.height_px == size.height_px) return full;
+  Image scaled{size.width_px, size.height_px, full.channels, {}};
+  scaled.data.resize(static_cast<size_t>(size.width_px) * size.height_px * full.channels);
+  const int type = CV_8UC(full.channels);
+  cv::Mat to(size.height_px, size.width_px, type, scaled.data.data());
+  cv::resize(cv::Mat(full.height_px, full.width_px, type, full.data.data()), to, to.size(), 0, 0,
+             cv::INTER_AREA);
+  return scaled;
+}
+
+}  // namespace
 
 Eigen::Isometry3d YUpFromZUp() {
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
@@ -64,16 +82,16 @@ GlbMaterial GlbMaterialOf(const std::string& name, int texture) {
           .two_sided = false};
 }
 
-Image ReadScaled(const std::filesystem::path& path, const ImageSize& size) {
-  Image full = ReadImage(path);
-  if (full.width_px == size.width_px && full.height_px == size.height_px) return full;
-  Image scaled{size.width_px, size.height_px, full.channels, {}};
-  scaled.data.resize(static_cast<size_t>(size.width_px) * size.height_px * full.channels);
-  const int type = CV_8UC(full.channels);
-  cv::Mat to(size.height_px, size.width_px, type, scaled.data.data());
-  cv::resize(cv::Mat(full.height_px, full.width_px, type, full.data.data()), to, to.size(), 0, 0,
-             cv::INTER_AREA);
-  return scaled;
+Image ReadPart(const TexturedFacet& texture, const std::filesystem::path& folder,
+               const PicturePart& part, const ImageSize& size) {
+  const std::filesystem::path path = folder / texture.image;
+  if (IsWhole(part)) return ReadScaled(path, size);
+  const ImageSize full = SizeOf(part, {texture.width_px, texture.height_px});
+  const double scale = static_cast<double>(size.width_px) / full.width_px;
+  const Image whole = ReadScaled(
+      path, {std::max(size.width_px, static_cast<int>(std::lround(scale * texture.width_px))),
+             std::max(size.height_px, static_cast<int>(std::lround(scale * texture.height_px)))});
+  return Cut(whole, part, size);
 }
 
 }  // namespace stucco

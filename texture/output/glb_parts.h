@@ -11,6 +11,7 @@
 #include "survey/proxy.h"
 #include "survey/texture_set.h"
 #include "texture/grid/grid.h"
+#include "texture/output/picture_part.h"
 
 namespace stucco {
 
@@ -32,7 +33,9 @@ GlbMesh GlbMeshWithRelief(const Facet& facet, const TexelGrid& grid,
 // Unlit; grey where `texture` is -1.
 GlbMaterial GlbMaterialOf(const std::string& name, int texture);
 
-// A picture, area-averaged to a size that is not larger. Throws Error (kBadInput).
-Image ReadScaled(const std::filesystem::path& path, const ImageSize& size);
+// A part of a facet's picture, which lies in `folder`, area-averaged to a size that is not larger.
+// Throws Error (kBadInput).
+Image ReadPart(const TexturedFacet& texture, const std::filesystem::path& folder,
+               const PicturePart& part, const ImageSize& size);
 
 }  // namespace stucco

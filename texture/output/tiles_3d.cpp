@@ -66,19 +66,6 @@ TileFrame FrameOf(const std::vector<TiledFacet>& facets, const Eigen::Vector3d& 
   return frame;
 }
 
-// The part of a facet's picture that a tile has, in the size that it has there.
-Image ReadPart(const TiledFacet& facet, const fs::path& folder, const ImageSize& size) {
-  const TexturedFacet& texture = *facet.texture;
-  if (IsWhole(facet.part)) return ReadScaled(folder / texture.image, size);
-  const ImageSize full = SizeOf(facet.part, {texture.width_px, texture.height_px});
-  const double scale = static_cast<double>(size.width_px) / full.width_px;
-  const Image whole = ReadScaled(
-      folder / texture.image,
-      {std::max(size.width_px, static_cast<int>(std::lround(scale * texture.width_px))),
-       std::max(size.height_px, static_cast<int>(std::lround(scale * texture.height_px)))});
-  return Cut(whole, facet.part, size);
-}
-
 // The pictures of a tile in one, and where each lies.
 struct TilePicture {
   AtlasLayout layout;
@@ -105,7 +92,8 @@ TilePicture PictureOf(const ModelTile& tile, const fs::path& folder,
     facets.push_back(i);
   }
   const Image atlas = PaintAtlas(packed, [&](size_t i) {
-    return ReadPart(tile.facets[facets[i]], folder, picture.sizes[facets[i]]);
+    const TiledFacet& facet = tile.facets[facets[i]];
+    return ReadPart(*facet.texture, folder, facet.part, picture.sizes[facets[i]]);
   });
   picture.jpeg = EncodeImage(atlas, "atlas.jpg", options.jpeg_quality);
   return picture;

@@ -9,8 +9,10 @@
 #include <cassert>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -23,14 +25,16 @@
 #include "texture/grid/relief_file.h"
 #include "texture/output/atlas.h"
 #include "texture/output/glb_parts.h"
+#include "texture/output/picture_part.h"
 
 namespace stucco {
 namespace {
 
-// What a facet looks like in one of the looks.
+// What a facet, or a tile of a large one, looks like in one of the looks.
 struct LookPicture {
   int look = 0;
   const TexturedFacet* facet = nullptr;
+  PicturePart part = kWholePicture;
   ImageSize size;  // in the model
   // Where it is: the sheet, and the place in it.
   size_t sheet = 0;
@@ -44,13 +48,31 @@ struct Sheet {
   AtlasLayout layout;
 };
 
+// A picture of that size, or tiles of it of which no side is longer than `most_px`.
+void AddTiles(const PicturePart& part, const ImageSize& picture, int most_px,
+              std::vector<PicturePart>& tiles) {
+  const ImageSize size = SizeOf(part, picture);
+  if (std::max(size.width_px, size.height_px) <= most_px) {
+    tiles.push_back(part);
+    return;
+  }
+  const auto [first, second] = Halved(part, picture);
+  AddTiles(first, picture, most_px, tiles);
+  AddTiles(second, picture, most_px, tiles);
+}
+
 // Those of the first look first.
-std::vector<LookPicture> PicturesOf(std::span<const ModelLook> looks) {
+std::vector<LookPicture> PicturesOf(std::span<const ModelLook> looks, int most_px) {
   std::vector<LookPicture> pictures;
   for (size_t look = 0; look < looks.size(); ++look) {
     for (const TexturedFacet& facet : looks[look].textures.facets) {
       if (facet.image.empty()) continue;
-      pictures.push_back({static_cast<int>(look), &facet, {facet.width_px, facet.height_px}});
+      const ImageSize size{facet.width_px, facet.height_px};
+      std::vector<PicturePart> tiles;
+      AddTiles(kWholePicture, size, most_px, tiles);
+      for (const PicturePart& part : tiles) {
+        pictures.push_back({static_cast<int>(look), &facet, part, SizeOf(part, size)});
+      }
     }
   }
   return pictures;
@@ -58,8 +80,7 @@ std::vector<LookPicture> PicturesOf(std::span<const ModelLook> looks) {
 
 void LimitSizes(const GlbOptions& options, std::vector<LookPicture>& pictures) {
   double texels = 0;
-  for (LookPicture& picture : pictures) {
-    picture.size = ScaledSize(picture.size, options.max_px);
+  for (const LookPicture& picture : pictures) {
     texels += static_cast<double>(picture.size.width_px) * picture.size.height_px;
   }
   if (texels <= options.most_texels) return;
@@ -73,15 +94,15 @@ void LimitSizes(const GlbOptions& options, std::vector<LookPicture>& pictures) {
 // Says in each picture where it is.
 std::vector<Sheet> LayOut(std::span<const ModelLook> looks, int atlas_px,
                           std::vector<LookPicture>& pictures) {
-  std::map<std::string, int> looks_of;
-  for (const LookPicture& picture : pictures) ++looks_of[picture.facet->id];
+  std::map<std::string, std::set<int>> looks_of;
+  for (const LookPicture& picture : pictures) looks_of[picture.facet->id].insert(picture.look);
   std::vector<Sheet> sheets;
   std::vector<size_t> sharing;
   std::vector<ImageSize> sizes;
   for (size_t i = 0; i < pictures.size(); ++i) {
-    const auto& [look, facet, size, sheet, place] = pictures[i];
+    const auto& [look, facet, part, size, sheet, place] = pictures[i];
     const int side = std::max(size.width_px, size.height_px) + 2 * kAtlasGutter_px;
-    if (looks_of[facet->id] == 1 && side <= atlas_px) {
+    if (looks_of[facet->id].size() == 1 && side <= atlas_px) {
       sharing.push_back(i);
       sizes.push_back(size);
       continue;
@@ -106,7 +127,7 @@ std::vector<Sheet> LayOut(std::span<const ModelLook> looks, int atlas_px,
 }
 
 Image ReadPicture(const LookPicture& picture, std::span<const ModelLook> looks) {
-  return ReadScaled(looks[picture.look].folder / picture.facet->image, picture.size);
+  return ReadPart(*picture.facet, looks[picture.look].folder, picture.part, picture.size);
 }
 
 std::string JpegOf(const Sheet& sheet, std::span<const LookPicture> pictures,
@@ -133,25 +154,44 @@ std::shared_ptr<const Relief> ReliefOf(const LookPicture& picture,
   return ReadRelief(looks[picture.look].folder, image.stem().string());
 }
 
-// `pictures`: of the facet, in the order of looks, all alike in size and place. Flat where there is
-// no relief.
+// What of a facet's mesh, with coordinates of its whole picture, one of its pictures is on.
+// `looks`: those of this place, in the order of looks, all alike in size and place.
+GlbPrimitive PrimitiveOf(const GlbPrimitive& whole, std::span<const LookPicture* const> looks,
+                         std::span<const Sheet> sheets) {
+  const LookPicture& first = *looks.front();
+  GlbPrimitive primitive = IsWhole(first.part) ? whole : ClippedTo(first.part, whole);
+  primitive.material = first.look == 0 ? MaterialOf(first) : 0;
+  for (Eigen::Vector2f& uv : primitive.uv) {
+    uv = InAtlas(uv, first.size, first.place, sheets[first.sheet].layout.size);
+  }
+  for (const LookPicture* picture : looks) {
+    if (picture->look > 0) primitive.mappings.push_back({picture->look, MaterialOf(*picture)});
+  }
+  return primitive;
+}
+
+// `pictures`: of the facet, in the order of looks, the same tiles in each. Flat where there is no
+// relief.
 GlbMesh MeshOf(const Facet& facet, const std::vector<const LookPicture*>& pictures,
                std::shared_ptr<const Relief> relief, std::span<const Sheet> sheets,
                const Eigen::Isometry3d& model_from_world) {
   if (pictures.empty()) return GlbMeshOf(facet, nullptr, model_from_world, 0);
-  const LookPicture& first = *pictures.front();
-  const int material = first.look == 0 ? MaterialOf(first) : 0;
-  TexelGrid grid = GridOf(*first.facet, facet);
+  const TexturedFacet& texture = *pictures.front()->facet;
+  TexelGrid grid = GridOf(texture, facet);
   grid.relief = std::move(relief);
-  GlbMesh mesh = grid.relief ? GlbMeshWithRelief(facet, grid, model_from_world, material)
-                             : GlbMeshOf(facet, first.facet, model_from_world, material);
+  GlbMesh mesh = grid.relief ? GlbMeshWithRelief(facet, grid, model_from_world, 0)
+                             : GlbMeshOf(facet, &texture, model_from_world, 0);
   if (mesh.primitives.empty()) return mesh;
-  GlbPrimitive& primitive = mesh.primitives.front();
-  for (Eigen::Vector2f& uv : primitive.uv) {
-    uv = InAtlas(uv, first.size, first.place, sheets[first.sheet].layout.size);
-  }
-  for (const LookPicture* picture : pictures) {
-    if (picture->look > 0) primitive.mappings.push_back({picture->look, MaterialOf(*picture)});
+  const GlbPrimitive whole = std::move(mesh.primitives.front());
+  mesh.primitives.clear();
+  for (const LookPicture* tile : pictures) {
+    if (tile->look != pictures.front()->look) break;
+    std::vector<const LookPicture*> looks;
+    std::ranges::copy_if(pictures, std::back_inserter(looks), [&](const LookPicture* picture) {
+      return picture->part.isApprox(tile->part, 0);
+    });
+    GlbPrimitive primitive = PrimitiveOf(whole, looks, sheets);
+    if (!primitive.indices.empty()) mesh.primitives.push_back(std::move(primitive));
   }
   return mesh;
 }
@@ -161,7 +201,7 @@ GlbMesh MeshOf(const Facet& facet, const std::vector<const LookPicture*>& pictur
 std::string GlbOfLooks(const Proxy& proxy, std::span<const ModelLook> looks,
                        const GlbOptions& options) {
   assert(!looks.empty());
-  std::vector<LookPicture> pictures = PicturesOf(looks);
+  std::vector<LookPicture> pictures = PicturesOf(looks, options.max_px);
   LimitSizes(options, pictures);
   const std::vector<Sheet> sheets = LayOut(looks, options.atlas_px, pictures);
   GlbModel model;

@@ -137,6 +137,7 @@ std::string OptionsText(TextureOptions options) {
   options.guided = defaults.guided;  // the keys say which photos are planned
   options.debug = defaults.debug;
   options.glb_max_px = defaults.glb_max_px;
+  options.glb_megapixels = defaults.glb_megapixels;
   options.glb_atlas_px = defaults.glb_atlas_px;
   options.glb_quality = defaults.glb_quality;
   options.glb_relief = defaults.glb_relief;
