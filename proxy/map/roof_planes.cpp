@@ -140,6 +140,16 @@ void TurnAlong(std::span<const Plane> walls, const Samples& samples, Plane& step
   step.offset = offset / static_cast<double>(step.points.size());
 }
 
+// Upright planes among the samples by their indices, along the walls where they nearly are.
+std::vector<Plane> StepsAmong(const UprightSurvey& survey, const std::vector<int>& indices,
+                              std::span<const Plane> walls, const ProxyOptions& options) {
+  const Samples samples = SubsetOf(survey.samples, indices);
+  std::vector<Plane> steps = Detect(samples, survey.tolerances, options);
+  std::erase_if(steps, [](const Plane& plane) { return !LooksLikeWall(plane.normal); });
+  for (Plane& step : steps) TurnAlong(walls, samples, step);
+  return steps;
+}
+
 }  // namespace
 
 Samples SubsetOf(const Samples& samples, const std::vector<int>& indices) {
@@ -198,10 +208,7 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
   std::stable_sort(planes.begin(), planes.end(),
                    [](const Plane& a, const Plane& b) { return a.area > b.area; });
   evidence.planes = std::move(planes);
-  const Samples on_steps = SubsetOf(upright, steps);
-  evidence.steps = Detect(on_steps, tolerances, options);
-  std::erase_if(evidence.steps, [](const Plane& plane) { return !LooksLikeWall(plane.normal); });
-  for (Plane& step : evidence.steps) TurnAlong(directions, on_steps, step);
+  evidence.steps = StepsAmong(survey, steps, directions, options);
   return evidence;
 }
 
