@@ -9,6 +9,7 @@
 #include <numeric>
 #include <span>
 
+#include "dense/internal/pixel_random.h"
 #include "dense/internal/source_geometry.h"
 #include "dense/patch.h"
 
@@ -50,26 +51,6 @@ constexpr std::array<std::array<int, 2>, 4> kFar[4] = {
     {{{5, 0}, {9, 0}, {15, 0}, {21, 0}}},
 };
 
-// PCG hash (Jarzynski & Olano 2020).
-class Random {
- public:
-  Random(uint32_t seed, uint32_t pixel, uint32_t round) : state_(seed * 747796405u + pixel) {
-    state_ = Next() + round * 2891336453u;
-    Next();
-  }
-  uint32_t Next() {
-    state_ = state_ * 747796405u + 2891336453u;
-    const uint32_t word = ((state_ >> ((state_ >> 28u) + 4u)) ^ state_) * 277803737u;
-    return (word >> 22u) ^ word;
-  }
-  float Uniform(float low, float high) {
-    return low + (high - low) * static_cast<float>(Next() >> 8) * 0x1p-24f;
-  }
-
- private:
-  uint32_t state_;
-};
-
 struct Pixel {
   int x = 0;
   int y = 0;
@@ -100,7 +81,7 @@ class LevelMatcher {
   void StartFromSeeds() {
     for (int y = 0; y < view_.height; ++y) {
       for (int x = 0; x < view_.width; ++x) {
-        Random random(options_.seed, static_cast<uint32_t>(Index(x, y)), 0);
+        PixelRandom random(options_.seed, static_cast<uint32_t>(Index(x, y)), 0);
         planes_[Index(x, y)] = RandomPlane(random, x, y);
       }
     }
@@ -242,7 +223,7 @@ class LevelMatcher {
     return along_ray < kSteepest * AwayNormal(view_, at.x, at.y, plane).norm();
   }
 
-  DepthPlane RandomPlane(Random& random, int x, int y) const {
+  DepthPlane RandomPlane(PixelRandom& random, int x, int y) const {
     // Uniform in inverse depth: as many planes per pixel of disparity everywhere.
     const float inverse_depth =
         random.Uniform(1 / options_.max_depth, 1 / std::max(options_.min_depth, 1e-9f));
@@ -435,8 +416,8 @@ class LevelMatcher {
     Step(search);
     if (!anew) return;
     const auto [x, y] = search.at;
-    Random random(options_.seed, static_cast<uint32_t>(Index(x, y)),
-                  static_cast<uint32_t>(1 + iteration + 100 * level_));
+    PixelRandom random(options_.seed, static_cast<uint32_t>(Index(x, y)),
+                       static_cast<uint32_t>(1 + iteration + 100 * level_));
     const DepthPlane other = RandomPlane(random, x, y);
     Offer(other, search);
     Offer(other.MovedTo(search.best.inverse_depth), search);
