@@ -326,7 +326,7 @@ std::vector<PatchCode> PatchCodes() {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2")) {
     codes.push_back({ReferenceByGathers, CostByGathers, AddStepByGathers});
-  };
+  }
 #endif
   codes.push_back({ReferenceByLoads, CostByLoads, AddStepByLoads});
   return codes;

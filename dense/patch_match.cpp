@@ -31,9 +31,9 @@ constexpr float kSamePx = 0.02f;  // planes that take no pixel of a window furth
 // steps follow its noise.
 constexpr float kDamping = 1;
 constexpr int kCoarsestRounds = 4;
-// A plane that costs less than this, geometry included, in the second pass is kept as it is: to
-// look on takes a fifth of that pass and moves no figure of the cloud by more than a thousandth.
-// With 0.25 a hundredth of the roofs goes.
+// A plane that costs less than this, geometry included, in the second pass is kept as it is. With
+// plain pixels left alone that saves a fifth of the pass; the cloud loses two thousandths of its
+// roofs at most. With 0.25 it loses a hundredth.
 constexpr float kSettled = 0.12f;
 constexpr float kLongestStep = 0.1f;  // change of the inverse depth, relative
 
