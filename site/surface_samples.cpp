@@ -114,25 +114,31 @@ Eigen::Vector2d PointInside(const Polygon& polygon) {
   return best;
 }
 
-void AddLevel(const Eigen::Vector2d& at, double z, SurfaceKind kind, const SampleOptions& options,
+// On a level surface; `footprint`: of a roof, else -1.
+void AddLevel(const Eigen::Vector2d& at, double z, int footprint, const SampleOptions& options,
               std::vector<SurfaceSample>& out) {
   if (!IsWithin(options, at)) return;
-  out.push_back({{at.x(), at.y(), z + options.off_surface_m}, Eigen::Vector3d::UnitZ(), kind, -1});
+  out.push_back({.position = {at.x(), at.y(), z + options.off_surface_m},
+                 .normal = Eigen::Vector3d::UnitZ(),
+                 .kind = footprint >= 0 ? SurfaceKind::kRoof : SurfaceKind::kGround,
+                 .footprint = footprint});
 }
 
 void SampleRoof(const Site& site, const Stacks& stacks, size_t index, const SampleOptions& options,
                 std::vector<SurfaceSample>& out) {
   const Footprint& footprint = site.footprints[index];
   if (footprint.outline.rings.empty() || footprint.outline.rings.front().empty()) return;
+  const double spacing =
+      options.roof_spacings_m.empty() ? options.spacing_m : options.roof_spacings_m.at(index);
   std::vector<Eigen::Vector2d> points;
-  for (const GridCell& cell : CellsInside(footprint.outline, options.spacing_m)) {
-    points.push_back(CenterOf(cell, options.spacing_m));
+  for (const GridCell& cell : CellsInside(footprint.outline, spacing)) {
+    points.push_back(CenterOf(cell, spacing));
   }
   if (points.empty()) points.push_back(PointInside(footprint.outline));
   const std::vector<size_t>& stack = stacks.at(footprint.building);
   for (const Eigen::Vector2d& at : points) {
     if (BuiltOver(site, stack, index, at)) continue;
-    AddLevel(at, footprint.z_m.to_m, SurfaceKind::kRoof, options, out);
+    AddLevel(at, footprint.z_m.to_m, static_cast<int>(index), options, out);
   }
 }
 
@@ -168,7 +174,7 @@ void SampleGround(const Site& site, const SampleOptions& options, std::vector<Su
   for (const GridCell& cell : Without(near, std::move(built))) {
     const Eigen::Vector2d at = CenterOf(cell, size);
     if (options.area_only && !Contains(site.area, at)) continue;
-    AddLevel(at, site.terrain.HeightAt(at), SurfaceKind::kGround, options, out);
+    AddLevel(at, site.terrain.HeightAt(at), -1, options, out);
   }
 }
 
@@ -195,10 +201,11 @@ void SampleFromAbove(const Site& site, const SampleOptions& options,
     const Interval& z = site.footprints[ground.nearest[cell]].z_m;
     const bool is_roof = ground.covered[cell];
     const Eigen::Vector2d at = ground.Middle(cell);
-    out.push_back({{at.x(), at.y(), (is_roof ? z.to_m : z.from_m) + options.off_surface_m},
-                   Eigen::Vector3d::UnitZ(),
-                   is_roof ? SurfaceKind::kRoof : SurfaceKind::kGround,
-                   -1});
+    out.push_back(
+        {.position = {at.x(), at.y(), (is_roof ? z.to_m : z.from_m) + options.off_surface_m},
+         .normal = Eigen::Vector3d::UnitZ(),
+         .kind = is_roof ? SurfaceKind::kRoof : SurfaceKind::kGround,
+         .footprint = is_roof ? ground.nearest[cell] : -1});
   }
 }
 

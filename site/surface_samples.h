@@ -19,11 +19,13 @@ struct SurfaceSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // outward
   SurfaceKind kind = SurfaceKind::kWall;
-  int facade = -1;  // of walls: index into Site::facades
+  int facade = -1;     // of walls: index into Site::facades
+  int footprint = -1;  // of roofs: index into Site::footprints
 };
 
 struct SampleOptions {
   double spacing_m = 3.5;
+  std::vector<double> roof_spacings_m = {};  // by footprint, with kTerrain; empty: `spacing_m`
   bool never_farther = false;  // than `spacing_m` from each other on a wall; else about as far
   int fewest_rows = 2;         // of a wall
   double ground_reach_m = 20;  // ground counts as far as this from the buildings

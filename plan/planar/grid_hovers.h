@@ -30,6 +30,17 @@ GridStep StepOf(const Site& site, const CameraPreset& camera, const GridOptions&
 std::vector<Hover> GridHovers(const Site& site, const CameraPreset& camera,
                               const GridOptions& options);
 
+// How many times finer than the grid hovers above this footprint have to be, as a power of two:
+// what rises near to the ceiling is so close below the drone that photos of the grid hardly overlap
+// there, or miss it. 1 where they overlap by three fifths, or as much as was asked for, and where
+// the map does not tell how high the roof is.
+int FinerAbove(const Site& site, const Footprint& footprint, const GridOptions& options);
+
+// Hovers between those of the grid, as many times finer as FinerAbove tells, from where a roof is
+// seen at 45 degrees or steeper. Throws Error (kBadInput) as GridHovers does.
+std::vector<Hover> HoversAboveHighRoofs(const Site& site, const CameraPreset& camera,
+                                        const GridOptions& options);
+
 // The five photos for flight lines with this yaw.
 std::vector<Shot> FiveShots(double yaw_rad);
 

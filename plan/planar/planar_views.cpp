@@ -28,6 +28,10 @@ constexpr double kGoodPairs = 6;
 constexpr double kSpacingOfGrid = 0.75;
 constexpr double kFinest_m = 3.5;
 constexpr double kCoarsest_m = 8;
+// Those of six hovers, on roofs so close that each photo shows a few metres of them: other surfaces
+// have these by the hovers that others need. Of roofs with seven or more such pairs dense matching
+// finds nineteen twentieths, of those with fewer next to nothing (docs/benchmarks.md).
+constexpr double kGoodPairsNear = 15;
 // Ground counts up to this many d_min from the buildings.
 constexpr double kGroundReach = 2;
 constexpr int kMostRounds = 5;  // of moves and removals; the last ones gain next to nothing
@@ -43,9 +47,36 @@ double SpacingOf(const PlanarOptions& options, const GridStep& step) {
   return std::clamp(kSpacingOfGrid * MeanStep(step), kFinest_m, kCoarsest_m);
 }
 
+// Of the samples on each roof: as much finer as the hovers above it, as far as that tells anything.
+std::vector<double> RoofSpacings(const Site& site, const GridOptions& grid, double spacing_m) {
+  std::vector<double> out;
+  for (const Footprint& footprint : site.footprints) {
+    const double finer = spacing_m / FinerAbove(site, footprint, grid);
+    out.push_back(std::min(spacing_m, std::max(finer, kFinest_m)));
+  }
+  return out;
+}
+
 double TauOf(const Site& site, const PlanarOptions& options) {
   if (options.tau_r > 0) return options.tau_r;
   return kGoodPairs * GoodPair(site.safe_altitude_m, options.d_max_m);
+}
+
+// What thinning out must leave, more where roofs are close below.
+std::vector<Requirement> RequirementsOf(const ViewGraph& graph, const Site& site,
+                                        const PlanarOptions& options) {
+  const std::vector<SurfaceSample>& samples = graph.view().samples;
+  std::vector<Requirement> out = stucco::plan::RequirementsOf(graph, samples, TauOf(site, options));
+  if (options.tau_r > 0) return out;
+  for (size_t s = 0; s < samples.size(); ++s) {
+    if (samples[s].footprint < 0) continue;
+    const Footprint& footprint = site.footprints[samples[s].footprint];
+    if (FinerAbove(site, footprint, options.grid) == 1) continue;
+    const double distance = site.CeilingAt(samples[s].position.head<2>()) - samples[s].position.z();
+    out[s].reconstructability = std::min(graph.state(s).reconstructability,
+                                         kGoodPairsNear * GoodPair(distance, options.d_max_m));
+  }
+  return out;
 }
 
 // The grid less what was removed.
@@ -82,20 +113,23 @@ double Square(double value) {
 std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
                                const PlanarOptions& options, std::span<const Hover> dipping,
                                Progress& progress) {
-  const std::vector<Hover> full = GridHovers(site, camera, options.grid);
+  const std::vector<Hover> full = Joined(GridHovers(site, camera, options.grid),
+                                         HoversAboveHighRoofs(site, camera, options.grid));
   if (full.empty()) return {};
   const GridStep step = StepOf(site, camera, options.grid);
-  const SurfaceView view(site, camera.Field(),
-                         SampleSurface(site, {.spacing_m = SpacingOf(options, step),
-                                              .ground_reach_m = kGroundReach * site.d_min_m}),
-                         options.d_max_m);
-  // First, so that nothing counts on them.
+  const double spacing = SpacingOf(options, step);
+  SampleOptions samples{.spacing_m = spacing, .ground_reach_m = kGroundReach * site.d_min_m};
+  // First, so that nothing counts on them; by samples that stand for one area each.
   std::vector<Hover> grid = full;
-  const size_t idle = DropIdleShots(view, Square(SpacingOf(options, step)), options.threads, grid);
+  const size_t idle = DropIdleShots(
+      SurfaceView(site, camera.Field(), SampleSurface(site, samples), options.d_max_m),
+      Square(spacing), options.threads, grid);
   if (idle > 0) {
     progress.Note(
         fmt::format("{} photos of the full grid would show next to nothing of the area", idle));
   }
+  samples.roof_spacings_m = RoofSpacings(site, options.grid, spacing);
+  const SurfaceView view(site, camera.Field(), SampleSurface(site, samples), options.d_max_m);
   progress.Begin("planar views: what they see", 1);
   ViewGraph graph(view, options.d_max_m, options.threads);
   graph.AddAll(Joined(grid, dipping));
@@ -103,7 +137,7 @@ std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
 
   const double tau = TauOf(site, options);
   const Obstacles obstacles(site);
-  const std::vector<Requirement> requirements = RequirementsOf(graph, view.samples, tau);
+  const std::vector<Requirement> requirements = RequirementsOf(graph, site, options);
   ThinOut(graph,
           {.obstacles = obstacles,
            .requirements = requirements,

@@ -52,27 +52,71 @@ std::vector<char> LargePatches(const cv::Mat& open, double cell) {
   return large;
 }
 
-double DistanceBefore(const Plane& step, const Eigen::Vector2d& p) {
-  return step.normal.head<2>().dot(p) - step.offset;
-}
-
 // Whether a place lies close in front of an upright plane above the footprint, and behind none. Of
 // planes that look the same way the largest says so: the wall, not its balconies.
 bool IsBeforeWall(const RoofEvidence& evidence, const Eigen::Vector2d& p) {
   constexpr double kSameWay = 0.9;
-  std::vector<const Plane*> near;
-  for (const Plane& step : evidence.steps) {
-    if (std::abs(DistanceBefore(step, p)) <= kEaves_m) near.push_back(&step);
+  std::vector<const RoofStep*> near;
+  for (const RoofStep& step : evidence.steps) {
+    if (std::abs(step.Before(p)) <= kEaves_m) near.push_back(&step);
   }
-  std::erase_if(near, [&, all = near](const Plane* step) {
-    return std::ranges::any_of(all, [&](const Plane* other) {
-      return other->area > step->area && other->normal.dot(step->normal) > kSameWay;
+  std::erase_if(near, [&, all = near](const RoofStep* step) {
+    return std::ranges::any_of(all, [&](const RoofStep* other) {
+      return other->plane.area > step->plane.area &&
+             other->plane.normal.dot(step->plane.normal) > kSameWay;
     });
   });
-  return !near.empty() && std::ranges::all_of(near, [&](const Plane* step) {
-    return DistanceBefore(*step, p) >= 0;
-  });
+  return !near.empty() &&
+         std::ranges::all_of(near, [&](const RoofStep* step) { return step->Before(p) >= 0; });
 }
+
+// What nobody saw between a wall and the open ground before it: walls and what stands at them hide
+// the foot of a wall from above.
+class HiddenFoot {
+ public:
+  HiddenFoot(const RoofEvidence& evidence, const PlaneRaster& raster, const std::vector<char>& open)
+      : evidence_(evidence), raster_(raster), open_(open), covered_(open.size(), 0) {
+    for (const Eigen::Vector3d& p : evidence.samples.positions) {
+      const int at = raster.IndexAt(p.head<2>());
+      if (at >= 0) covered_[at] = 1;
+    }
+  }
+
+  bool Holds(const Eigen::Vector2d& p) const {
+    return std::ranges::any_of(evidence_.steps, [&](const RoofStep& step) {
+      const double before = step.Before(p);
+      return before > 0 && before < kReach_m && step.Faces(p) && IsBare(step, p, before) &&
+             LeadsToOpenGround(step, p, before);
+    });
+  }
+
+ private:
+  static constexpr double kReach_m = 3;
+
+  // All the way to the wall, but for its eaves.
+  bool IsBare(const RoofStep& step, const Eigen::Vector2d& p, double before) const {
+    for (double back = 0; before - back > kEaves_m; back += raster_.cell) {
+      const int at = raster_.IndexAt(p - back * step.plane.normal.head<2>());
+      if (at < 0 || covered_[at] != 0) return false;
+    }
+    return true;
+  }
+
+  bool LeadsToOpenGround(const RoofStep& step, const Eigen::Vector2d& p, double before) const {
+    for (double way = raster_.cell; way < kReach_m; way += raster_.cell) {
+      const int at = raster_.IndexAt(p + way * step.plane.normal.head<2>());
+      if (at < 0) return false;
+      if (open_[at] != 0) return true;
+      if (before + way > kEaves_m && covered_[at] != 0) return false;
+    }
+    return false;
+  }
+
+  const RoofEvidence& evidence_;
+  const PlaneRaster& raster_;
+  const std::vector<char>& open_;
+  std::vector<char> covered_;
+};
 
 }  // namespace
 
@@ -80,10 +124,13 @@ std::vector<float> DistancesToOpenGround(const RoofEvidence& evidence, const Pla
   std::vector<char> open = LargePatches(ShownGround(evidence, raster), raster.cell);
   if (open.empty()) return {};
   const std::vector<float> to_patches = DistancesTo(raster, open);
+  const std::vector<char> patches = open;
+  const HiddenFoot hidden(evidence, raster, patches);
   for (size_t at = 0; at < open.size(); ++at) {
     const int x = static_cast<int>(at) % raster.width, y = static_cast<int>(at) / raster.width;
+    const Eigen::Vector2d p = raster.Center(x, y);
     const bool near = to_patches[at] < kEaves_m;
-    if (near && IsBeforeWall(evidence, raster.Center(x, y))) open[at] = 1;
+    if ((near && IsBeforeWall(evidence, p)) || hidden.Holds(p)) open[at] = 1;
   }
   return DistancesTo(raster, open);
 }

@@ -11,8 +11,8 @@ namespace stucco {
 
 // Metres from each cell of a raster over the ground plan to where the ground of a footprint lies
 // open: it shows over a few square metres and nowhere in strips (strips are where an outline is a
-// little too large), and nothing lies above it but the eaves of the walls beside. Empty where it
-// lies open nowhere.
+// little too large), and nothing lies above it but the eaves of the walls beside; or it is hidden
+// over up to 3 m between such ground and a wall that faces it. Empty where it lies open nowhere.
 std::vector<float> DistancesToOpenGround(const RoofEvidence& evidence, const PlaneRaster& raster);
 
 }  // namespace stucco

@@ -204,11 +204,11 @@ std::vector<CutLine> LinesOf(const RoofTask& task, const CoverOfRoofs& cover,
   const std::vector<CutLine> creases = CreasesOf(cover, roofs, task.tolerances);
   for (const CutLine& line : creases) list.Add(line, kSameLine_m);
   const double detail = task.tolerances.level_of_detail;
-  for (const Plane& step : task.evidence.steps) {
-    const Eigen::Vector2d n = step.normal.head<2>().normalized();
-    list.Add(
-        {.point = n * (step.offset / step.normal.head<2>().norm()), .direction = {-n.y(), n.x()}},
-        detail);
+  for (const RoofStep& step : task.evidence.steps) {
+    const auto normal = step.plane.normal.head<2>();
+    const Eigen::Vector2d n = normal.normalized();
+    list.Add({.point = n * (step.plane.offset / normal.norm()), .direction = {-n.y(), n.x()}},
+             detail);
   }
   const auto add_borders = [&](const std::vector<float>& to_hit) {
     for (const CutLine& line : BordersOf(cover.raster, to_hit, axis, creases, detail)) {

@@ -73,7 +73,7 @@ class Tidier {
       const Patch patch = PatchAt(static_cast<int>(cell));
       for (const int c : patch.cells) done[c] = true;
       if (patch.around < 0 || patch.around == none_ || patch.label == none_) continue;
-      if (MayGo(patch) && (IsSlight(patch) || IsRim(patch))) {
+      if (MayGo(patch) && (IsSlight(patch) || IsRim(patch) || IsNotWorthIt(patch))) {
         for (const int c : patch.cells) labels_[c] = patch.around;
       } else if (!patch.AtBorder()) {
         Square(patch);
@@ -208,6 +208,15 @@ class Tidier {
       for (const Ring& ring : polygon.rings) corners += ring.size();
     }
     return corners;
+  }
+
+  // Whether its corners cost more than the patch explains.
+  bool IsNotWorthIt(const Patch& patch) const {
+    std::vector<int> without = labels_;
+    for (const int cell : patch.cells) without[cell] = patch.around;
+    const auto corners = static_cast<double>(CornersOf(patch.cells, labels_, patch.label));
+    return CostOf(patch.cells, without) <
+           CostOf(patch.cells, labels_) + kCorner * std::pow(input_.level_of_detail, 2) * corners;
   }
 
   // What the labels cost on these cells and where they meet others.

@@ -11,6 +11,7 @@
 
 #include "proxy/cloud/grid_index.h"
 #include "proxy/cloud/normals.h"
+#include "proxy/map/parapets.h"
 #include "proxy/planes/densest.h"
 #include "proxy/planes/find_planes.h"
 #include "proxy/planes/regularise.h"
@@ -47,66 +48,6 @@ std::vector<Plane> Detect(const Samples& samples, const Tolerances& tolerances,
   return FindPlanes(samples, index, agreement, tolerances, options);
 }
 
-// Share of a plane's samples within `width` of the outline.
-double OnRim(const Plane& plane, const Samples& samples, const MapBuilding& building,
-             double width) {
-  const auto on_rim = std::ranges::count_if(plane.points, [&](int i) {
-    return ToOutline(building, samples.positions[i].head<2>()) < width;
-  });
-  return static_cast<double>(on_rim) / static_cast<double>(plane.points.size());
-}
-
-// Gutters and parapets, and how the cloud rounds them off, are no roofs of their own.
-bool IsRim(const Plane& plane, const Samples& samples, const MapBuilding& building, double width) {
-  constexpr double kMost = 0.9;  // of its samples
-  return OnRim(plane, samples, building, width) > kMost;
-}
-
-// What of a plane lies away from the outline.
-struct Inside {
-  double samples = 0;
-  double points = 0;  // of the cloud, that its samples stand for
-  double Density() const { return points / std::max(1.0, samples); }
-};
-
-Inside InsideOf(const Plane& plane, const Samples& samples, const MapBuilding& building,
-                double width) {
-  Inside inside;
-  for (const int i : plane.points) {
-    if (ToOutline(building, samples.positions[i].head<2>()) < width) continue;
-    inside.points += samples.weights[i];
-    ++inside.samples;
-  }
-  return inside;
-}
-
-// Parapets of a roof run along the outline above it. What else lies at their height, where hardly
-// anything is seen, are strays, which a parapet's plane would make a roof of. Planes that are as
-// dense inside as the roof are platforms.
-void DropParapets(const Samples& samples, const MapBuilding& building, double width,
-                  std::vector<Plane>& planes) {
-  constexpr double kHighest_m = 1.2;
-  constexpr double kParallel = 0.999;  // cosine
-  constexpr double kMost = 0.5;        // of its samples
-  constexpr double kSparse = 0.5;      // of the roof's density
-  std::vector<Inside> insides;
-  insides.reserve(planes.size());
-  for (const Plane& plane : planes) insides.push_back(InsideOf(plane, samples, building, width));
-  std::vector<Plane> kept;
-  for (size_t p = 0; p < planes.size(); ++p) {
-    bool has_roof = false;
-    for (size_t r = 0; r < planes.size(); ++r) {
-      const double above = planes[p].offset - planes[r].offset;
-      has_roof |= planes[p].normal.dot(planes[r].normal) > kParallel && above > 0 &&
-                  above < kHighest_m && insides[p].points < insides[r].points &&
-                  insides[p].Density() < kSparse * insides[r].Density();
-    }
-    const bool parapet = has_roof && OnRim(planes[p], samples, building, width) > kMost;
-    if (!parapet) kept.push_back(planes[p]);
-  }
-  planes = std::move(kept);
-}
-
 // Upright planes along the outline, without samples: they only give roofs their directions.
 std::vector<Plane> WallDirections(const FittedBuilding& building) {
   std::vector<Plane> walls;
@@ -140,13 +81,29 @@ void TurnAlong(std::span<const Plane> walls, const Samples& samples, Plane& step
   step.offset = offset / static_cast<double>(step.points.size());
 }
 
+RoofStep StepOf(Plane plane, const Samples& samples) {
+  RoofStep step{.plane = std::move(plane)};
+  std::vector<double> along;
+  for (const int i : step.plane.points) {
+    const Eigen::Vector3d& p = samples.positions[i];
+    along.push_back(step.plane.normal.x() * p.y() - step.plane.normal.y() * p.x());
+  }
+  const auto [from, to] = std::ranges::minmax(along);
+  step.from = from;
+  step.to = to;
+  return step;
+}
+
 // Upright planes among the samples by their indices, along the walls where they nearly are.
-std::vector<Plane> StepsAmong(const UprightSurvey& survey, const std::vector<int>& indices,
-                              std::span<const Plane> walls, const ProxyOptions& options) {
+std::vector<RoofStep> StepsAmong(const UprightSurvey& survey, const std::vector<int>& indices,
+                                 std::span<const Plane> walls, const ProxyOptions& options) {
   const Samples samples = SubsetOf(survey.samples, indices);
-  std::vector<Plane> steps = Detect(samples, survey.tolerances, options);
-  std::erase_if(steps, [](const Plane& plane) { return !LooksLikeWall(plane.normal); });
-  for (Plane& step : steps) TurnAlong(walls, samples, step);
+  std::vector<RoofStep> steps;
+  for (Plane& plane : Detect(samples, survey.tolerances, options)) {
+    if (!LooksLikeWall(plane.normal) || plane.points.empty()) continue;
+    TurnAlong(walls, samples, plane);
+    steps.push_back(StepOf(std::move(plane), samples));
+  }
   return steps;
 }
 
@@ -191,9 +148,7 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
   MeasureCover(upright, inside, building.ground, evidence);
   evidence.samples = SubsetOf(upright, above);
   std::vector<Plane> planes = Detect(evidence.samples, tolerances, options);
-  std::erase_if(planes, [&](const Plane& plane) {
-    return IsRim(plane, evidence.samples, building.building, 2 * tolerances.level_of_detail);
-  });
+  DropRims(evidence.samples, building.building, 2 * tolerances.level_of_detail, planes);
   const std::vector<Plane> directions = WallDirections(building);
   planes.insert(planes.end(), directions.begin(), directions.end());
   Regularise(evidence.samples, tolerances, Eigen::Vector3d::UnitZ(),

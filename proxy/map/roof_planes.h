@@ -13,11 +13,28 @@
 
 namespace stucco {
 
+// An upright plane inside of an outline, and from where to where it was seen: `from` and `to` along
+// its normal turned to the left, seen from above.
+struct RoofStep {
+  Plane plane;
+  double from = 0;
+  double to = 0;
+
+  // Metres before it; negative: behind.
+  double Before(const Eigen::Vector2d& p) const {
+    return plane.normal.head<2>().dot(p) - plane.offset;
+  }
+  bool Faces(const Eigen::Vector2d& p) const {
+    const double along = plane.normal.x() * p.y() - plane.normal.y() * p.x();
+    return along >= from && along <= to;
+  }
+};
+
 // What the cloud shows above a footprint, in the upright frame.
 struct RoofEvidence {
-  Samples samples;                    // above the ground and not far below the tops of its walls
-  std::vector<Plane> planes;          // roofs, by falling area; `points` are indices into `samples`
-  std::vector<Plane> steps;           // upright, inside of the outline
+  Samples samples;            // above the ground and not far below the tops of its walls
+  std::vector<Plane> planes;  // roofs, by falling area; `points` are indices into `samples`
+  std::vector<RoofStep> steps;
   std::vector<Eigen::Vector2d> open;  // inside of the outline, where the ground shows
   double seen_m2 = 0;  // of the footprint but for its rim, where the cloud has anything
   double bare_m2 = 0;  // of it, where the cloud shows the ground itself

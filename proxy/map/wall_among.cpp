@@ -46,16 +46,28 @@ size_t CellsOf(std::span<const WallHit> hits) {
   return cells.size();
 }
 
+// How many times as much as what was found a strip so far behind it covers, to be the wall. Panes
+// lie up to half a metre behind a wall, and may be most of what is seen of it; what lies farther in
+// are loggias, of which fronts are a third or more, or the wall behind balconies.
+double TimesOfWall(double depth) {
+  constexpr double kDeepest_m = 0.6;  // of panes
+  constexpr double kPanes = 4, kLoggias = 3;
+  return depth < kDeepest_m ? kPanes : kLoggias;
+}
+
 // The wall behind what was found where it was expected, if that is fronts of balconies: a strip
 // farther in that covers several times as much. Empty: there is none.
 std::span<const WallHit> WallBehind(std::span<const WallHit> hits, std::span<const WallHit> found,
                                     double width) {
-  constexpr size_t kTimes = 4;
   if (found.empty()) return {};
   const auto end = std::ranges::lower_bound(hits, found.front().distance, {}, &WallHit::distance);
   constexpr ExpectedWall kAnywhere{.distance = 0, .sigma = 1e6};
   const auto behind = BestStrip({hits.begin(), end}, width, kAnywhere);
-  return CellsOf(behind) > kTimes * CellsOf(found) ? behind : std::span<const WallHit>();
+  if (behind.empty()) return {};
+  const double times = TimesOfWall(MeanOf(found) - MeanOf(behind));
+  const bool is_wall =
+      static_cast<double>(CellsOf(behind)) > times * static_cast<double>(CellsOf(found));
+  return is_wall ? behind : std::span<const WallHit>();
 }
 
 // Where hits peak, in strips of this width around places a centimetre apart.

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "plan/planar/grid_hovers.h"
 #include "survey/error.h"
@@ -100,6 +103,61 @@ TEST(GridHovers, AnAreaOfACountryIsRefused) {
     EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
     EXPECT_FALSE(error.remedy().empty());
   }
+}
+
+// A tower of 50 m and a house of 12 m below a ceiling of 60 m.
+Site TowerAndHouse(std::vector<double> heights_m = {50, 12}) {
+  return MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 15), Rectangle(60, 0, 80, 15)},
+                  {.heights_m = std::move(heights_m)});
+}
+
+TEST(FinerAbove, IsMoreTheNearerTheRoofIsToTheCeiling) {
+  const Site site = TowerAndHouse();
+  const GridOptions options{.forward_overlap = 0.8, .side_overlap = 0.8};
+  EXPECT_EQ(FinerAbove(site, site.footprints[0], options), 4);  // 10 m below: 1.2 of a photo
+  EXPECT_EQ(FinerAbove(site, site.footprints[1], options), 1);
+  const Site middle = TowerAndHouse({36, 12});
+  EXPECT_EQ(FinerAbove(middle, middle.footprints[0], options), 2);
+  // No more overlap than was asked for.
+  EXPECT_EQ(FinerAbove(middle, middle.footprints[0], {.forward_overlap = 0.5, .side_overlap = 0.8}),
+            4);
+  EXPECT_EQ(FinerAbove(middle, middle.footprints[1], {.forward_overlap = 0, .side_overlap = 0}), 2);
+}
+
+TEST(FinerAbove, AsksNothingOfRoofsWhoseHeightIsNotKnown) {
+  const Site site = TowerAndHouse({0, 12});
+  EXPECT_EQ(FinerAbove(site, site.footprints[0], {}), 1);
+  EXPECT_TRUE(HoversAboveHighRoofs(site, FindCamera("mavic-3e"), {}).empty());
+}
+
+TEST(HoversAboveHighRoofs, StandBetweenThoseOfTheGridAndNearTheTower) {
+  const Site site = TowerAndHouse();
+  const CameraPreset camera = FindCamera("mavic-3e");
+  const std::vector<Hover> grid = GridHovers(site, camera, {});
+  const std::vector<Hover> more = HoversAboveHighRoofs(site, camera, {});
+  const GridStep step = StepOf(site, camera, {});
+  // 20 m x 15 m and 10 m around, less what is of the grid.
+  EXPECT_GT(static_cast<double>(more.size()) * step.forward_m * step.side_m / 16, 900);
+  EXPECT_LT(static_cast<double>(more.size()) * step.forward_m * step.side_m / 16, 1600);
+  for (const Hover& hover : more) {
+    EXPECT_EQ(hover.position.z(), 60);
+    EXPECT_EQ(hover.shots.size(), 5U);
+    EXPECT_LE(Distance(site.footprints[0].outline, hover.position.head<2>()), 20);
+    double nearest = 1000;
+    for (const Hover& other : grid) {
+      nearest = std::min(nearest, (other.position - hover.position).norm());
+    }
+    EXPECT_GT(nearest, 0.2 * step.forward_m);
+  }
+}
+
+TEST(HoversAboveHighRoofs, StayOutOfNoFlyPolygons) {
+  const std::vector<Ring> rings{Rectangle(0, 0, 20, 15)};
+  const Site site =
+      MadeSite(rings, {.heights_m = {50}, .no_fly = {{{Rectangle(-30, -30, 10, 40)}}}});
+  const std::vector<Hover> more = HoversAboveHighRoofs(site, FindCamera("mavic-3e"), {});
+  EXPECT_FALSE(more.empty());
+  for (const Hover& hover : more) EXPECT_GE(hover.position.x(), 10);
 }
 
 }  // namespace

@@ -127,6 +127,30 @@ TEST(PlanarViews, KeepCoverageWithFarFewerHovers) {
   EXPECT_LT(short_of, seen / 50);
 }
 
+TEST(PlanarViews, ShowRoofsJustBelowTheCeilingInManyGoodPairs) {
+  const Site site = MadeSite(std::vector<Ring>{Rectangle(0, 0, 20, 15), Rectangle(60, 0, 80, 15)},
+                             {.margin_m = 30, .heights_m = {50, 12}});
+  const CameraPreset camera = FindCamera("mavic-3e");
+  const SurfaceView view(site, camera.Field(), SampleSurface(site, {.spacing_m = 3}),
+                         kFarthestView);
+  const GridOptions grid{.forward_overlap = 0.8, .side_overlap = 0.8};
+  const double asked = 15 * GoodPair(10, kFarthestView);
+  // The planner's samples are others than these.
+  const auto short_of = [&](const std::vector<Hover>& hovers) {
+    const auto states = StatesWith(view, hovers);
+    int count = 0;
+    for (size_t s = 0; s < states.size(); ++s) {
+      count += view.samples[s].footprint == 0 && states[s].reconstructability < 0.6 * asked;
+    }
+    return count;
+  };
+  EXPECT_GT(short_of(GridHovers(site, camera, grid)), 20);
+  const std::vector<Hover> views =
+      PlanarViews(site, camera, {.grid = grid, .d_max_m = kFarthestView}, {}, SilentProgress());
+  EXPECT_EQ(short_of(views), 0);
+  EXPECT_LT(views.size(), GridHovers(site, camera, grid).size());
+}
+
 TEST(PlanarViews, AreSafeAndInTheArea) {
   const Site site = TownOfThree();
   const Obstacles obstacles(site);

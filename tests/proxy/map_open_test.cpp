@@ -102,11 +102,11 @@ TEST(OpenGround, ReachesBelowEavesToTheWallAndNotToItsBalcony) {
     for (double y = 3.85; y < 9; y += 0.1) evidence.open.emplace_back(x, y);
   }
   const auto add_step = [&](double offset, double area) {
-    Plane& step = evidence.steps.emplace_back();
-    step.role = PlaneRole::kWall;
-    step.normal = Eigen::Vector3d::UnitY();
-    step.offset = offset;
-    step.area = area;
+    RoofStep& step = evidence.steps.emplace_back();
+    step.plane.role = PlaneRole::kWall;
+    step.plane.normal = Eigen::Vector3d::UnitY();
+    step.plane.offset = offset;
+    step.plane.area = area;
   };
   add_step(4, 15);
   add_step(3, 90);
@@ -121,6 +121,36 @@ TEST(OpenGround, ReachesBelowEavesToTheWallAndNotToItsBalcony) {
   EXPECT_GT(at(5, 2.7), 0);
   evidence.steps.erase(evidence.steps.begin());
   EXPECT_EQ(DistancesToOpenGround(evidence, raster), distances);
+}
+
+// A wall at y = 3 hides the ground up to y = 5, where it is seen from x = 2 to 8.
+TEST(OpenGround, ReachesToTheWallThatHidesIt) {
+  RoofEvidence evidence;
+  for (double x = 0.05; x < 10; x += 0.1) {
+    for (double y = 0.05; y < 3; y += 0.1) evidence.samples.positions.emplace_back(x, y, 6);
+    for (double y = 5.05; y < 9; y += 0.1) evidence.open.emplace_back(x, y);
+  }
+  PlaneRaster raster;
+  raster.cell = 0.25;
+  raster.width = raster.height = 40;
+  const auto is_open = [&](double x, double y) {
+    return DistancesToOpenGround(evidence, raster)[raster.IndexAt({x, y})] == 0;
+  };
+  EXPECT_FALSE(is_open(5, 4));
+  RoofStep& wall = evidence.steps.emplace_back();
+  wall.plane.role = PlaneRole::kWall;
+  wall.plane.normal = Eigen::Vector3d::UnitY();
+  wall.plane.offset = 3;
+  wall.from = -8;
+  wall.to = -2;
+  EXPECT_TRUE(is_open(5, 4));
+  EXPECT_TRUE(is_open(5, 3.2));
+  EXPECT_FALSE(is_open(5, 2.9));
+  EXPECT_FALSE(is_open(1, 4));  // where no wall was seen
+  // A shed between them says that something stands there.
+  for (double x = 4; x < 6; x += 0.1) evidence.samples.positions.emplace_back(x, 4.5, 2.5);
+  EXPECT_FALSE(is_open(5, 4.4));
+  EXPECT_TRUE(is_open(7, 4.4));
 }
 
 }  // namespace

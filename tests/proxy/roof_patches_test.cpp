@@ -221,6 +221,22 @@ TEST_F(TidyPatchesTest, NarrowStripsAlongTheBorderAreParapets) {
   EXPECT_NEAR(AreaOf(kUpper), 9.6, 1e-9);
 }
 
+// A fringe of ten corners at the border of the footprint, 7 m², of which the cloud says next to
+// nothing; and the same where it says two fifths of what it says elsewhere.
+TEST_F(TidyPatchesTest, CornersThatExplainNextToNothingGo) {
+  Cut({5, 6, 7, 9, 10}, {8, 9});
+  Put(kUpper, Box(5, 9, 10, 10));
+  Put(kUpper, Box(6, 8, 7, 9));
+  Put(kUpper, Box(9, 8, 10, 9));
+  ASSERT_NEAR(AreaOf(kUpper), 7, 1e-9);
+  const std::vector<int> found = labels_;
+  Tidy([](const Vector2d& p) { return Box(5, 8, 10, 10).contains(p) ? 0.01 : 1; });
+  EXPECT_EQ(AreaOf(kUpper), 0);
+  labels_ = found;
+  Tidy([](const Vector2d& p) { return Box(5, 8, 10, 10).contains(p) ? 0.4 : 1; });
+  EXPECT_NEAR(AreaOf(kUpper), 7, 1e-9);
+}
+
 TEST_F(TidyPatchesTest, YardsStayAsTheyAre) {
   Cut({8, 8.5, 11}, {3, 3.5, 7});
   Put(kNone, Box(8, 3, 11, 7));

@@ -46,22 +46,32 @@ TEST(WallAmong, ManyPointsOutvoteTheOtherWalls) {
   EXPECT_NEAR(*WallAmong(hits, kDetail_m, {.distance = 0, .sigma = 0.15}, kLength_m), 0.8, 0.02);
 }
 
-// Fronts of balconies stand where the map, which traces them, has its line: dense, and on a tenth
-// of the wall. What covers several times as much behind them is the wall; a ledge that covers a
-// third of it is not passed over.
-TEST(WallAmong, IsBehindBalconies) {
-  const auto covering = [](double distance, int columns, int points, std::vector<WallHit>& hits) {
+// What a map has its line at covers `columns` of the 20 that lie `depth` behind it. Where the wall
+// is.
+double WallWithFront(int columns, double depth) {
+  const auto covering = [](double distance, int of_20, int points, std::vector<WallHit>& hits) {
     for (int k = 0; k < points; ++k)
-      hits.push_back({.distance = distance, .cell = {k % columns, k / columns % 10}, .along = 0});
-    std::ranges::sort(hits, {}, &WallHit::distance);
+      hits.push_back({.distance = distance, .cell = {k % of_20, k / of_20 % 10}, .along = 0});
   };
   std::vector<WallHit> hits;
-  covering(0, 2, 800, hits);
-  covering(-1.35, 20, 1500, hits);
+  covering(-depth, 20, 1500, hits);
+  covering(0, columns, 800, hits);
   const ExpectedWall at_the_line{.distance = 0, .sigma = 0.15};
-  EXPECT_NEAR(*WallAmong(hits, kDetail_m, at_the_line, kLength_m), -1.35, 0.02);
-  covering(0, 7, 800, hits);
-  EXPECT_NEAR(*WallAmong(hits, kDetail_m, at_the_line, kLength_m), 0, 0.02);
+  return *WallAmong(hits, kDetail_m, at_the_line, kLength_m);
+}
+
+// Fronts of balconies stand where the map, which traces them, has its line: dense, and on a tenth
+// to a quarter of the wall. What covers several times as much behind them is the wall; fronts that
+// cover a third of it are those of loggias.
+TEST(WallAmong, IsBehindBalconies) {
+  EXPECT_NEAR(WallWithFront(2, 1.35), -1.35, 0.02);
+  EXPECT_NEAR(WallWithFront(6, 1.35), -1.35, 0.02);
+  EXPECT_NEAR(WallWithFront(7, 1.35), 0, 0.02);
+}
+
+TEST(WallAmong, IsBeforeWhatOnlyPanesLieBehind) {
+  EXPECT_NEAR(WallWithFront(6, 0.45), 0, 0.02);
+  EXPECT_NEAR(WallWithFront(4, 0.45), -0.45, 0.02);
 }
 
 // Stereo runs from a wall into its windows, ten centimetres behind: a strip that holds all of a

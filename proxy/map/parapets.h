@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the Stucco authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "proxy/cloud/samples.h"
+#include "proxy/map/outlines.h"
+#include "proxy/planes/plane.h"
+
+namespace stucco {
+
+// Gutters and parapets, and how the cloud rounds them off, are no roofs of their own. `width`: how
+// near to the outline of the building that is.
+void DropRims(const Samples& samples, const MapBuilding& building, double width,
+              std::vector<Plane>& planes);
+
+// Takes out, of the planes above a footprint, what parapets make of the points at a roof's end:
+//  - level planes less than 1.2 m above a roof, half of whose samples lie along the outline: what
+//    else lies at their height, where hardly anything is seen, are strays. Planes that are as dense
+//    inside as the roof are platforms.
+//  - strips up to 2.5 m wide that rise from a level roof by no more than a parapet does, and beyond
+//    which it does not go on: stereo smears a parapet over the roof before it. Mansards fall
+//    towards the end of the roof, and round what stands on a roof it goes on.
+// Units are metres, z is up.
+void DropParapets(const Samples& samples, const MapBuilding& building, double width,
+                  std::vector<Plane>& planes);
+
+}  // namespace stucco
