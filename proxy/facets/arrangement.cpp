@@ -204,6 +204,12 @@ Ring RingOf(const Arrangement& arrangement, size_t face) {
   return PointsOf(arrangement, arrangement.faces[face]);
 }
 
+Eigen::Vector2d InnerPoint(const Arrangement& arrangement, size_t face) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const int v : arrangement.faces[face]) sum += arrangement.vertices[v];
+  return sum / static_cast<double>(arrangement.faces[face].size());
+}
+
 std::vector<IndexPolygon> UnionOfIndices(const Arrangement& arrangement,
                                          const std::vector<bool>& inside) {
   DisjointSets components(arrangement.faces.size());

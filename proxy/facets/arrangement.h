@@ -56,6 +56,8 @@ Arrangement Arrange(const Eigen::AlignedBox2d& box, std::span<const CutLine> lin
 
 // The corners of a face.
 Ring RingOf(const Arrangement& arrangement, size_t face);
+// Their mean, which lies in the face: faces of lines are convex.
+Eigen::Vector2d InnerPoint(const Arrangement& arrangement, size_t face);
 
 // A simple polygon with holes by vertex numbers: outer ring counter-clockwise, holes clockwise.
 struct IndexPolygon {

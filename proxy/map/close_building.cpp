@@ -26,6 +26,7 @@ struct BuildingEvidence {
   Samples near;               // on and around the building
   std::optional<double> top;  // where its points say that it ends; a level roof's height
   double map_top = 0;
+  double plan_to_survey_m = 0;
   bool walls_seen = true;  // false: a scan from above, without photos and walls
 };
 
@@ -131,6 +132,7 @@ bool ShowsWhatStands(const std::vector<Facet>& facets) {
 struct Attempt {
   FittedBuilding building;
   RoofCells cells;
+  double plan_to_survey_m = 0;
   bool walls_seen = true;
 };
 
@@ -146,13 +148,39 @@ void ForgetWalls(std::vector<Facet>& facets) {
   }
 }
 
+// What stands on each cell: hanging parts only where all their roofs lie above their undersides.
+Storeys StoreysOf(const Attempt& attempt) {
+  constexpr double kLowest_m = 1;  // storey
+  const Arrangement& plan = attempt.cells.arrangement;
+  Storeys storeys{.labels = attempt.cells.labels,
+                  .roofs = attempt.cells.roofs,
+                  .ground = attempt.building.ground};
+  for (const HangingPart& hanging : attempt.building.building.hanging) {
+    const Polygon& part = attempt.building.building.parts.at(hanging.part);
+    const double underside = hanging.underside_m + attempt.plan_to_survey_m;
+    std::vector<size_t> below;
+    bool fits = underside > storeys.ground + kLowest_m;
+    for (size_t f = 0; f < plan.faces.size(); ++f) {
+      const int label = storeys.labels[f];
+      if (label < 0 || !Contains(part, InnerPoint(plan, f))) continue;
+      below.push_back(f);
+      fits = fits && std::ranges::all_of(plan.faces[f], [&](int v) {
+               return storeys.roofs[label].At(plan.vertices[v]) > underside + kLowest_m;
+             });
+    }
+    if (!fits) continue;
+    storeys.floors.resize(plan.faces.size(), storeys.ground);
+    for (const size_t f : below) storeys.floors[f] = underside;
+  }
+  return storeys;
+}
+
 // The facets of a solid that stays one when its corners are written.
 Solid SolidOf(const Attempt& attempt, const Samples& near, const Tolerances& tolerances,
               const Eigen::Matrix3d& world_from_upright, double normal_angle_deg) {
   Solid solid;
   const auto faces =
-      ExtrudeCells(attempt.cells.arrangement, attempt.cells.lines, attempt.cells.labels,
-                   attempt.cells.roofs, attempt.building.ground);
+      ExtrudeCells(attempt.cells.arrangement, attempt.cells.lines, StoreysOf(attempt));
   if (faces.empty()) {
     solid.why_not = "the ground lies open all over it";
     return solid;
@@ -208,12 +236,20 @@ class SolidMaker {
       if (detail == SolidDetail::kCoarse && (large.empty() || large.size() == all.size())) continue;
       if (detail == SolidDetail::kFlatTop && !evidence.top) continue;
       finest.detail = detail;
-      finest.solid = CloseOrExplain([&] {
-        const Attempt attempt =
-            AttemptOf(detail, evidence, mapped, detail == SolidDetail::kFull ? all : large);
-        return SolidOf(attempt, evidence.near, tolerances_, world_from_upright_,
-                       options_.normal_angle_deg);
-      });
+      const auto close = [&](const BuildingEvidence& by) {
+        return CloseOrExplain([&] {
+          const Attempt attempt =
+              AttemptOf(detail, by, mapped, detail == SolidDetail::kFull ? all : large);
+          return SolidOf(attempt, by.near, tolerances_, world_from_upright_,
+                         options_.normal_angle_deg);
+        });
+      };
+      finest.solid = close(evidence);
+      if (!finest.solid.why_not.empty() && !evidence.fitted.building.hanging.empty()) {
+        BuildingEvidence down = evidence;  // to the ground
+        down.fitted.building.hanging.clear();
+        finest.solid = close(down);
+      }
       if (finest.solid.why_not.empty()) break;
       finest.not_finer += fmt::format("{}{}: {}", finest.not_finer.empty() ? "" : "; ",
                                       Name(detail), finest.solid.why_not);
@@ -224,7 +260,10 @@ class SolidMaker {
  private:
   Attempt AttemptOf(SolidDetail detail, const BuildingEvidence& evidence, const MapBuilding& mapped,
                     const std::vector<int>& planes) const {
-    Attempt attempt{.building = evidence.fitted, .cells = {}, .walls_seen = evidence.walls_seen};
+    Attempt attempt{.building = evidence.fitted,
+                    .cells = {},
+                    .plan_to_survey_m = evidence.plan_to_survey_m,
+                    .walls_seen = evidence.walls_seen};
     const double lowest = evidence.fitted.ground + kRaised_m;
     if (detail == SolidDetail::kFull || detail == SolidDetail::kCoarse) {
       attempt.cells = LabelRoof(evidence.fitted, evidence.roof, planes, tolerances_);
@@ -276,6 +315,7 @@ ClosedBuilding BuildingCloser::Close(const MapBuilding& mapped, const FittedBuil
     evidence.top = walls.Height();
   }
   evidence.map_top = mapped.z_m.to_m + plan_to_survey_m;
+  evidence.plan_to_survey_m = plan_to_survey_m;
   evidence.walls_seen = !survey_.samples.camera_centers.empty() || fitted.held > 0;
   ClosedBuilding closed;
   closed.standing = StandingOf(evidence);

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -35,13 +36,14 @@ struct Piece {
 
 class Extruder {
  public:
-  Extruder(Arrangement arrangement, std::span<const CutLine> lines, const std::vector<int>& labels,
-           std::span<const RoofPlane> roofs, double ground)
+  Extruder(Arrangement arrangement, std::span<const CutLine> lines, Storeys storeys)
       : plan_(std::move(arrangement)),
         lines_(lines),
-        labels_(labels),
-        roofs_(roofs),
-        ground_(ground) {}
+        labels_(std::move(storeys.labels)),
+        roofs_(storeys.roofs),
+        floors_(std::move(storeys.floors)) {
+    floors_.resize(labels_.size(), storeys.ground);
+  }
 
   std::vector<ExtrudedFace> Run() {
     SplitCrossings();
@@ -55,7 +57,7 @@ class Extruder {
  private:
   int LabelOf(int face) const { return face < 0 ? -1 : labels_[face]; }
   double HeightOver(int vertex, int label) const {
-    return label < 0 ? ground_ : roofs_[label].At(plan_.vertices[vertex]);
+    return roofs_[label].At(plan_.vertices[vertex]);
   }
 
   // An edge at whose ends different sides are higher gets a vertex where they are equal.
@@ -89,12 +91,15 @@ class Extruder {
     }
   }
 
-  // The heights of corners over each vertex, ascending; the ground is one of them.
+  // The heights of corners over each vertex, ascending.
   void FindHeights() {
-    heights_.assign(plan_.vertices.size(), {ground_});
+    heights_.resize(plan_.vertices.size());
     for (size_t f = 0; f < plan_.faces.size(); ++f) {
       if (labels_[f] < 0) continue;
-      for (const int v : plan_.faces[f]) heights_[v].push_back(HeightOver(v, labels_[f]));
+      for (const int v : plan_.faces[f]) {
+        heights_[v].push_back(floors_[f]);
+        heights_[v].push_back(HeightOver(v, labels_[f]));
+      }
     }
     for (std::vector<double>& list : heights_) {
       std::sort(list.begin(), list.end());
@@ -106,8 +111,8 @@ class Extruder {
     }
   }
 
-  int NumberOf(int vertex, int label) const {
-    const double z = HeightOver(vertex, label);
+  // Of the height over a vertex that is nearest to this.
+  int NumberOf(int vertex, double z) const {
     const std::vector<double>& list = heights_[vertex];
     int best = 0;
     for (size_t i = 1; i < list.size(); ++i) {
@@ -116,29 +121,27 @@ class Extruder {
     return best;
   }
 
-  void AddLevel(const std::vector<bool>& inside, int label, ExtrudedFace::Kind kind) {
+  // What lies over some cells, or under them: the parts of a plane.
+  void AddLevel(const std::vector<bool>& inside, const RoofPlane& plane, ExtrudedFace::Kind kind,
+                int roof = -1) {
+    const bool looks_up = kind == ExtrudedFace::Kind::kRoof;
     for (const IndexPolygon& polygon : UnionOfIndices(plan_, inside)) {
       RawFace raw;
       raw.face.kind = kind;
-      raw.face.roof = label;
-      const Eigen::Vector2d slope = label < 0 ? Eigen::Vector2d::Zero() : roofs_[label].slope;
-      const double height = label < 0 ? ground_ : roofs_[label].height;
-      Eigen::Vector3d up(-slope.x(), -slope.y(), 1);
-      raw.face.offset = height / up.norm();
-      raw.face.normal = up.normalized();
+      raw.face.roof = roof;
+      const Eigen::Vector3d up(-plane.slope.x(), -plane.slope.y(), 1);
+      const double side = looks_up ? 1 : -1;
+      raw.face.offset = side * plane.height / up.norm();
+      raw.face.normal = side * up.normalized();
       const auto lifted = [&](std::vector<int> ring) {
-        if (kind == ExtrudedFace::Kind::kFloor) std::reverse(ring.begin(), ring.end());
+        if (!looks_up) std::reverse(ring.begin(), ring.end());
         std::vector<Corner> corners;
         corners.reserve(ring.size());
-        for (const int v : ring) corners.emplace_back(v, NumberOf(v, label));
+        for (const int v : ring) corners.emplace_back(v, NumberOf(v, plane.At(plan_.vertices[v])));
         return corners;
       };
       raw.outer = lifted(polygon.outer);
       for (const auto& hole : polygon.holes) raw.holes.push_back(lifted(hole));
-      if (kind == ExtrudedFace::Kind::kFloor) {
-        raw.face.normal = -raw.face.normal;
-        raw.face.offset = -raw.face.offset;
-      }
       faces_.push_back(std::move(raw));
     }
   }
@@ -147,37 +150,101 @@ class Extruder {
     for (int label = 0; label < static_cast<int>(roofs_.size()); ++label) {
       std::vector<bool> inside(plan_.faces.size());
       for (size_t f = 0; f < inside.size(); ++f) inside[f] = labels_[f] == label;
-      AddLevel(inside, label, ExtrudedFace::Kind::kRoof);
+      AddLevel(inside, roofs_[label], ExtrudedFace::Kind::kRoof, label);
     }
   }
 
   void AddFloors() {
-    std::vector<bool> inside(plan_.faces.size());
-    for (size_t f = 0; f < inside.size(); ++f) inside[f] = labels_[f] >= 0;
-    AddLevel(inside, -1, ExtrudedFace::Kind::kFloor);
+    std::set<double> heights;
+    for (size_t f = 0; f < floors_.size(); ++f) {
+      if (labels_[f] >= 0) heights.insert(floors_[f]);
+    }
+    for (const double height : heights) {
+      std::vector<bool> inside(plan_.faces.size());
+      for (size_t f = 0; f < inside.size(); ++f) {
+        inside[f] = labels_[f] >= 0 && floors_[f] == height;
+      }
+      const bool hangs = height > *heights.begin();
+      AddLevel(inside, {.height = height},
+               hangs ? ExtrudedFace::Kind::kUnderside : ExtrudedFace::Kind::kFloor);
+    }
   }
 
-  // Pieces of one line and side, by the vertex they begin at.
+  // Pieces of one line, side and storey, by the vertex they begin at.
+  enum class Storey { kTop, kBottom };
   using Chain = std::map<int, Piece>;
+  using Chains = std::map<std::tuple<int, bool, Storey>, Chain>;
+
+  // Over an edge, what of a cell is solid, by numbers of heights at both of its ends.
+  struct Stack {
+    int floor_from = 0, floor_to = 0;
+    int roof_from = 0, roof_to = 0;
+  };
+  std::optional<Stack> StackOver(const Arrangement::Edge& edge, int face) const {
+    const int label = LabelOf(face);
+    if (label < 0) return std::nullopt;
+    return Stack{NumberOf(edge.from, floors_[face]), NumberOf(edge.to, floors_[face]),
+                 NumberOf(edge.from, HeightOver(edge.from, label)),
+                 NumberOf(edge.to, HeightOver(edge.to, label))};
+  }
+
+  // The piece between two heights, solid on the left of the edge or on its right.
+  void AddPiece(const Arrangement::Edge& edge, bool left, Storey storey, const Piece& piece,
+                Chains& chains) const {
+    if (piece.bottom_from == piece.top_from && piece.bottom_to == piece.top_to) return;
+    assert(edge.line >= 0);
+    const Eigen::Vector2d along = plan_.vertices[edge.to] - plan_.vertices[edge.from];
+    const bool forwards = along.dot(lines_[edge.line].direction) > 0;
+    Chain& chain = chains[{edge.line, forwards == left, storey}];
+    if (left) {
+      chain[piece.from] = piece;
+    } else {
+      chain[piece.to] = {piece.to,          piece.from,   piece.bottom_to,
+                         piece.bottom_from, piece.top_to, piece.top_from};
+    }
+  }
+
+  void AddWhole(const Arrangement::Edge& edge, bool left, const Stack& stack,
+                Chains& chains) const {
+    AddPiece(edge, left, Storey::kTop,
+             {edge.from, edge.to, stack.floor_from, stack.floor_to, stack.roof_from, stack.roof_to},
+             chains);
+  }
+
+  // Where one cell rises above the other, and where one begins below the other.
+  void AddSteps(const Arrangement::Edge& edge, const Stack& left, const Stack& right,
+                Chains& chains) const {
+    const bool left_rises = left.roof_from >= right.roof_from && left.roof_to >= right.roof_to;
+    const auto& [high, low] = left_rises ? std::pair(left, right) : std::pair(right, left);
+    AddPiece(edge, left_rises, Storey::kTop,
+             {edge.from, edge.to, low.roof_from, low.roof_to, high.roof_from, high.roof_to},
+             chains);
+    const bool left_begins = left.floor_from <= right.floor_from;
+    const auto& [deep, hanging] = left_begins ? std::pair(left, right) : std::pair(right, left);
+    AddPiece(
+        edge, left_begins, Storey::kBottom,
+        {edge.from, edge.to, deep.floor_from, deep.floor_to, hanging.floor_from, hanging.floor_to},
+        chains);
+  }
+
+  Chains FindPieces() const {
+    Chains chains;
+    for (const Arrangement::Edge& edge : plan_.edges) {
+      const auto left = StackOver(edge, edge.left), right = StackOver(edge, edge.right);
+      const bool meet = left && right && left->roof_from > right->floor_from &&
+                        right->roof_from > left->floor_from;
+      if (meet) {
+        AddSteps(edge, *left, *right, chains);
+        continue;
+      }
+      if (left) AddWhole(edge, true, *left, chains);
+      if (right) AddWhole(edge, false, *right, chains);
+    }
+    return chains;
+  }
 
   void AddWalls() {
-    std::map<std::tuple<int, bool>, Chain> chains;
-    for (const Arrangement::Edge& edge : plan_.edges) {
-      const int left = LabelOf(edge.left), right = LabelOf(edge.right);
-      if (left == right) continue;
-      const int lf = NumberOf(edge.from, left), lt = NumberOf(edge.to, left);
-      const int rf = NumberOf(edge.from, right), rt = NumberOf(edge.to, right);
-      if (lf == rf && lt == rt) continue;
-      assert(edge.line >= 0);
-      const Eigen::Vector2d along = plan_.vertices[edge.to] - plan_.vertices[edge.from];
-      const bool forwards = along.dot(lines_[edge.line].direction) > 0;
-      if (lf >= rf && lt >= rt) {
-        chains[{edge.line, forwards}][edge.from] = {edge.from, edge.to, rf, rt, lf, lt};
-      } else {
-        chains[{edge.line, !forwards}][edge.to] = {edge.to, edge.from, lt, lf, rt, rf};
-      }
-    }
-    for (auto& [key, chain] : chains) {
+    for (auto& [key, chain] : FindPieces()) {
       const Eigen::Vector2d along =
           lines_[std::get<0>(key)].direction * (std::get<1>(key) ? 1 : -1);
       std::vector<const Piece*> order;
@@ -278,9 +345,9 @@ class Extruder {
 
   Arrangement plan_;
   std::span<const CutLine> lines_;
-  const std::vector<int>& labels_;
+  std::vector<int> labels_;
   std::span<const RoofPlane> roofs_;
-  double ground_;
+  std::vector<double> floors_;
   std::vector<std::vector<double>> heights_;
   std::vector<RawFace> faces_;
 };
@@ -344,10 +411,10 @@ int SmallestToJoin(const Arrangement& arrangement, const Fan& fan, const std::ve
 }  // namespace
 
 std::vector<ExtrudedFace> ExtrudeCells(Arrangement arrangement, std::span<const CutLine> lines,
-                                       const std::vector<int>& labels,
-                                       std::span<const RoofPlane> roofs, double ground) {
-  assert(labels.size() == arrangement.faces.size());
-  return Extruder(std::move(arrangement), lines, labels, roofs, ground).Run();
+                                       Storeys storeys) {
+  assert(storeys.labels.size() == arrangement.faces.size());
+  assert(storeys.floors.empty() || storeys.floors.size() == storeys.labels.size());
+  return Extruder(std::move(arrangement), lines, std::move(storeys)).Run();
 }
 
 void JoinAtCorners(const Arrangement& arrangement, std::span<const RoofPlane> roofs,

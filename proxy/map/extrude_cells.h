@@ -21,7 +21,7 @@ struct RoofPlane {
 
 // A face of the solid over the cells, in the upright frame (z up).
 struct ExtrudedFace {
-  enum class Kind { kWall, kRoof, kFloor };
+  enum class Kind { kWall, kRoof, kFloor, kUnderside };
   Kind kind = Kind::kWall;
   int roof = -1;   // label of a roof
   Segment2d foot;  // of a wall, seen from above, the solid on its left
@@ -31,15 +31,23 @@ struct ExtrudedFace {
   std::vector<std::vector<Eigen::Vector3d>> holes;
 };
 
-// The solid between the level `ground` and the roof of each cell of the ground plan: labels are
-// numbers of roofs, -1 cells where nothing stands. Upright walls close it where the building ends
-// and where roofs of neighbouring cells differ in height. Closed, 2-manifold and oriented outwards
-// by construction, but for corners where cells touch in one point (JoinAtCorners). Faces next to
-// each other have the very same corners. `lines` are those the arrangement was made of. Requires
-// roofs above the ground over their cells.
+// What stands on each cell of a ground plan.
+struct Storeys {
+  std::vector<int> labels;  // numbers of roofs, -1 where nothing stands
+  std::span<const RoofPlane> roofs;
+  double ground = 0;
+  // Level undersides where it does not stand on the ground; empty: everywhere it does.
+  std::vector<double> floors = {};
+};
+
+// The solid between the floor and the roof of each cell. Upright walls close it where the building
+// ends and where roofs or floors of neighbouring cells differ in height. Closed, 2-manifold and
+// oriented outwards by construction, but for corners where cells touch in one point
+// (JoinAtCorners). Faces next to each other have the very same corners. `lines` are those the
+// arrangement was made of. Requires roofs above the floors of their cells; a roof that crosses the
+// floor of the cell beside it leaves the solid open.
 std::vector<ExtrudedFace> ExtrudeCells(Arrangement arrangement, std::span<const CutLine> lines,
-                                       const std::vector<int>& labels,
-                                       std::span<const RoofPlane> roofs, double ground);
+                                       Storeys storeys);
 
 // Gives cells another neighbour's label until no two parts of the solid touch in an upright edge
 // only, as high and low cells do that alternate around a corner.

@@ -17,17 +17,38 @@ Polygon InGroundPlan(const Facet& facet, const Eigen::Matrix3d& upright_from_wor
   return polygon;
 }
 
-std::vector<Polygon> FloorsOf(std::span<const Building> buildings,
-                              const Eigen::Matrix3d& upright_from_world) {
+namespace {
+
+// The facets of closed buildings that look down, of which `is_one` says so.
+template <typename IsOne>
+std::vector<Polygon> FromBelow(std::span<const Building> buildings,
+                               const Eigen::Matrix3d& upright_from_world, const IsOne& is_one) {
   std::vector<Polygon> floors;
   for (const Building& building : buildings) {
     for (const Facet& facet : building.facets) {
-      if (!building.watertight || facet.facet_class != FacetClass::kGround) continue;
+      if (!building.watertight || !is_one(facet)) continue;
       Polygon& floor = floors.emplace_back(InGroundPlan(facet, upright_from_world));
-      for (Ring& ring : floor.rings) std::ranges::reverse(ring);  // floors look down
+      for (Ring& ring : floor.rings) std::ranges::reverse(ring);
     }
   }
   return floors;
+}
+
+}  // namespace
+
+std::vector<Polygon> FloorsOf(std::span<const Building> buildings,
+                              const Eigen::Matrix3d& upright_from_world) {
+  return FromBelow(buildings, upright_from_world,
+                   [](const Facet& facet) { return facet.facet_class == FacetClass::kGround; });
+}
+
+std::vector<Polygon> FootprintsOf(std::span<const Building> buildings,
+                                  const Eigen::Matrix3d& upright_from_world) {
+  return FromBelow(buildings, upright_from_world, [&](const Facet& facet) {
+    const bool hangs =
+        facet.facet_class == FacetClass::kOuterFloor && (upright_from_world * facet.normal).z() < 0;
+    return hangs || facet.facet_class == FacetClass::kGround;
+  });
 }
 
 }  // namespace stucco

@@ -19,4 +19,8 @@ Polygon InGroundPlan(const Facet& facet, const Eigen::Matrix3d& upright_from_wor
 std::vector<Polygon> FloorsOf(std::span<const Building> buildings,
                               const Eigen::Matrix3d& upright_from_world);
 
+// The same with what hangs over the ground.
+std::vector<Polygon> FootprintsOf(std::span<const Building> buildings,
+                                  const Eigen::Matrix3d& upright_from_world);
+
 }  // namespace stucco

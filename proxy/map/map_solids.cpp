@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -238,40 +239,60 @@ bool IsAsGood(const ClosedBuilding& with_wings, const ClosedBuilding& without) {
          with_wings.detail <= std::max(without.detail, SolidDetail::kCoarse);
 }
 
-// Whether most of a wing hangs over the ground by the map: counted on a grid.
-bool IsRaised(const MapBuilding& house, const FittedBuilding& wing) {
+// Where the map has most of a wing above others of its parts, which it overlaps, its underside in
+// the plan's heights: counted on a grid.
+std::optional<double> UndersideOf(const MapBuilding& house, const FittedBuilding& wing) {
   constexpr double kStep_m = 0.5;
   const Eigen::AlignedBox2d box = BoundsOf(wing.building, 0);
   int inside = 0, raised = 0;
+  double lowest = std::numeric_limits<double>::infinity();
   for (double y = box.min().y() + kStep_m / 2; y < box.max().y(); y += kStep_m) {
     for (double x = box.min().x() + kStep_m / 2; x < box.max().x(); x += kStep_m) {
       const Eigen::Vector2d p(x, y);
       if (DistanceTo(wing.building, p) > 0) continue;
       ++inside;
-      raised += std::ranges::any_of(house.raised, [&](const auto& r) { return Contains(r, p); });
+      bool hangs = false;
+      for (const RaisedPart& part : house.raised) {
+        if (!Contains(part.outline, p)) continue;
+        hangs = true;
+        lowest = std::min(lowest, part.underside_m);
+      }
+      raised += hangs ? 1 : 0;
     }
   }
-  return 2 * raised > inside;
+  if (2 * raised <= inside) return std::nullopt;
+  return lowest;
 }
 
 // Says what was joined to a house: the wings of which `is_its` says so.
 template <typename IsIts>
 void NoteWings(const MapBuilding& house, const std::vector<ClosedBuilding>& wings,
                const IsIts& is_its, ProxyFindings& findings) {
-  double lacking = 0, raised = 0;
+  double lacking = 0;
   for (size_t w = 0; w < wings.size(); ++w) {
     if (!is_its(w)) continue;
     const FittedBuilding& wing = wings[w].fitted;
-    (IsRaised(house, wing) ? raised : lacking) += Area(wing.building);
+    if (!UndersideOf(house, wing)) lacking += Area(wing.building);
   }
   if (lacking > 0) {
     findings.of_map.push_back(
         {fmt::format("{}: wings that the map lacks lean on it, {:.0f} m2", house.id, lacking)});
   }
-  if (raised > 0) {
+}
+
+// Says from where on parts are built below which nothing stands: photos hardly ever show.
+void NoteHanging(const Houses& houses, ProxyFindings& findings) {
+  for (size_t h = 0; h < houses.closed.size(); ++h) {
+    const std::vector<Facet>& facets = houses.closed[h].facets;
+    const MapBuilding& mapped = houses.mapped[h];
+    if (mapped.hanging.empty() || facets.empty()) continue;
+    const bool hangs = std::ranges::any_of(
+        facets, [](const Facet& facet) { return facet.facet_class == FacetClass::kOuterFloor; });
+    double area = 0;
+    for (const HangingPart& part : mapped.hanging) area += Area(mapped.parts.at(part.part));
     findings.of_map.push_back({fmt::format(
-        "{}: parts that begin above the ground by the map are built down to it, {:.0f} m2",
-        house.id, raised)});
+        "{}: parts that begin above the ground by the map, {:.0f} m2, are built {}", mapped.id,
+        area, hangs ? "from where it has their undersides" : "down to the ground")});
   }
 }
 
@@ -287,13 +308,20 @@ void JoinWings(const UprightSurvey& survey, const Workshop& with, Houses& houses
     FittedBuilding joined = houses.closed[h].fitted;
     const size_t own_parts = joined.building.parts.size();
     for (size_t w = 0; w < wings.size(); ++w) {
-      if (house_of[w] == h) joined = WithWing(std::move(joined), wings[w].fitted);
+      if (house_of[w] != h) continue;
+      const size_t first = joined.building.parts.size();
+      joined = WithWing(std::move(joined), wings[w].fitted);
+      const auto underside = UndersideOf(houses.mapped[h], wings[w].fitted);
+      for (size_t part = first; underside && part < joined.building.parts.size(); ++part) {
+        joined.building.hanging.push_back({part, *underside});
+      }
     }
     if (joined.building.parts.size() == own_parts) continue;
     MapBuilding& as_mapped = mapped.emplace_back(houses.mapped[h]);
     as_mapped.parts.insert(as_mapped.parts.end(),
                            joined.building.parts.begin() + static_cast<ptrdiff_t>(own_parts),
                            joined.building.parts.end());
+    as_mapped.hanging = joined.building.hanging;
     fitted.push_back(std::move(joined));
     extended.push_back(h);
   }
@@ -387,6 +415,7 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
   houses.mapped = std::move(found.buildings);
   auto others = CloseNew(survey, BuildingsOf(houses), with, findings);
   JoinWings(survey, with, houses, others, findings);
+  NoteHanging(houses, findings);
   for (size_t b = 0; b < houses.closed.size(); ++b) {
     Report(houses.mapped[b].id, houses.closed[b], houses.mapped[b].to_capture, findings);
   }

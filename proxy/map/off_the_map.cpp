@@ -89,7 +89,7 @@ class NewFootprints {
  public:
   NewFootprints(const PlanarScene& scene, const UprightSurvey& survey,
                 std::span<const Building> closed)
-      : scene_(scene), survey_(survey), floors_(FloorsOf(closed, UprightFromWorld(scene.up))) {
+      : scene_(scene), survey_(survey), floors_(FootprintsOf(closed, UprightFromWorld(scene.up))) {
     for (const Polygon& floor : floors_) boxes_.push_back(stucco::BoundsOf(floor));
   }
 

@@ -52,10 +52,11 @@ std::vector<char> LargePatches(const cv::Mat& open, double cell) {
   return large;
 }
 
+constexpr double kSameWay = 0.9;  // cosine
+
 // Whether a place lies close in front of an upright plane above the footprint, and behind none. Of
 // planes that look the same way the largest says so: the wall, not its balconies.
 bool IsBeforeWall(const RoofEvidence& evidence, const Eigen::Vector2d& p) {
-  constexpr double kSameWay = 0.9;
   std::vector<const RoofStep*> near;
   for (const RoofStep& step : evidence.steps) {
     if (std::abs(step.Before(p)) <= kEaves_m) near.push_back(&step);
@@ -75,23 +76,36 @@ bool IsBeforeWall(const RoofEvidence& evidence, const Eigen::Vector2d& p) {
 class HiddenFoot {
  public:
   HiddenFoot(const RoofEvidence& evidence, const PlaneRaster& raster, const std::vector<char>& open)
-      : evidence_(evidence), raster_(raster), open_(open), covered_(open.size(), 0) {
+      : raster_(raster), open_(open), covered_(open.size(), 0) {
     for (const Eigen::Vector3d& p : evidence.samples.positions) {
       const int at = raster.IndexAt(p.head<2>());
       if (at >= 0) covered_[at] = 1;
     }
+    for (const RoofStep& step : evidence.steps) {
+      const bool of_other = std::ranges::any_of(
+          evidence.steps, [&](const RoofStep& other) { return IsOf(step, other); });
+      if (!of_other) walls_.push_back(&step);
+    }
   }
 
   bool Holds(const Eigen::Vector2d& p) const {
-    return std::ranges::any_of(evidence_.steps, [&](const RoofStep& step) {
-      const double before = step.Before(p);
-      return before > 0 && before < kReach_m && step.Faces(p) && IsBare(step, p, before) &&
-             LeadsToOpenGround(step, p, before);
+    return std::ranges::any_of(walls_, [&](const RoofStep* wall) {
+      const double before = wall->Before(p);
+      return before > 0 && before < kReach_m && wall->Faces(p) && IsBare(*wall, p, before) &&
+             LeadsToOpenGround(*wall, p, before);
     });
   }
 
  private:
   static constexpr double kReach_m = 3;
+
+  // Panes and balconies are of the larger plane beside them.
+  static bool IsOf(const RoofStep& step, const RoofStep& other) {
+    return other.plane.area > step.plane.area &&
+           other.plane.normal.dot(step.plane.normal) > kSameWay &&
+           std::abs(other.plane.offset - step.plane.offset) < kReach_m && other.from < step.to &&
+           step.from < other.to;
+  }
 
   // All the way to the wall, but for its eaves.
   bool IsBare(const RoofStep& step, const Eigen::Vector2d& p, double before) const {
@@ -112,9 +126,9 @@ class HiddenFoot {
     return false;
   }
 
-  const RoofEvidence& evidence_;
   const PlaneRaster& raster_;
   const std::vector<char>& open_;
+  std::vector<const RoofStep*> walls_;
   std::vector<char> covered_;
 };
 

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "site/site_of_plan.h"
 #include "survey/plan_frame.h"
@@ -15,6 +16,38 @@ namespace {
 
 // Parts whose underside is this far above the building's foot stand on others.
 constexpr double kRaisedFoot_m = 1;
+
+// Whether next to nothing of a part lies above the building's others: counted on a grid.
+bool Hangs(const Polygon& part, const MapBuilding& building) {
+  constexpr double kStep_m = 0.5;
+  constexpr double kMost = 0.05;
+  const Eigen::AlignedBox2d box = BoundsOf(part);
+  int inside = 0, above = 0;
+  for (double y = box.min().y() + kStep_m / 2; y < box.max().y(); y += kStep_m) {
+    for (double x = box.min().x() + kStep_m / 2; x < box.max().x(); x += kStep_m) {
+      const Eigen::Vector2d p(x, y);
+      if (!Contains(part, p)) continue;
+      ++inside;
+      above += std::ranges::any_of(building.parts,
+                                   [&](const Polygon& other) { return Contains(other, p); });
+    }
+  }
+  return inside > 0 && above <= kMost * inside;
+}
+
+// Raised parts below which nothing stands become parts of the building.
+void AddHangingParts(MapBuilding& building) {
+  std::vector<RaisedPart> standing;
+  for (RaisedPart& raised : building.raised) {
+    if (Hangs(raised.outline, building)) {
+      building.hanging.push_back({building.parts.size(), raised.underside_m});
+      building.parts.push_back(std::move(raised.outline));
+    } else {
+      standing.push_back(std::move(raised));
+    }
+  }
+  building.raised = std::move(standing);
+}
 
 }  // namespace
 
@@ -55,24 +88,30 @@ OutlineMap OutlinesOf(const Plan& plan, const Georef& georef, const Eigen::Vecto
     building.top_known = building.top_known && footprint.top_known;
     building.to_capture = building.to_capture || footprint.in_area;
     const bool is_raised = footprint.z_m.from_m > foot[footprint.building] + kRaisedFoot_m;
-    Polygon& part = (is_raised ? building.raised : building.parts).emplace_back();
+    Polygon part;
     for (const Ring& ring : footprint.outline.rings) {
       Ring& moved = part.rings.emplace_back();
       for (const Eigen::Vector2d& corner : ring) moved.push_back(to_survey(corner));
     }
+    if (is_raised) {
+      building.raised.push_back({std::move(part), footprint.z_m.from_m});
+    } else {
+      building.parts.push_back(std::move(part));
+    }
   }
+  for (MapBuilding& building : map.buildings) AddHangingParts(building);
   return map;
 }
 
 MapBuilding Moved(const MapBuilding& building, const Eigen::Isometry2d& motion) {
   MapBuilding moved = building;
-  for (auto* polygons : {&moved.parts, &moved.raised}) {
-    for (Polygon& part : *polygons) {
-      for (Ring& ring : part.rings) {
-        for (Eigen::Vector2d& corner : ring) corner = motion * corner;
-      }
+  const auto move = [&](Polygon& polygon) {
+    for (Ring& ring : polygon.rings) {
+      for (Eigen::Vector2d& corner : ring) corner = motion * corner;
     }
-  }
+  };
+  for (Polygon& part : moved.parts) move(part);
+  for (RaisedPart& part : moved.raised) move(part.outline);
   return moved;
 }
 

@@ -13,13 +13,25 @@
 
 namespace stucco {
 
-// A building of the plan: what of it stands on the ground, in the ground plan of the survey.
+// A part of a building that begins above the ground.
+struct RaisedPart {
+  Polygon outline;
+  double underside_m = 0;  // in the plan's heights
+};
+
+// A part of a building below which nothing stands, as above a passage.
+struct HangingPart {
+  size_t part = 0;         // of the building's parts
+  double underside_m = 0;  // in the plan's heights
+};
+
+// A building of the plan, in the ground plan of the survey.
 struct MapBuilding {
   std::string id;
-  std::vector<Polygon> parts;  // without overlaps
-  // Parts that begin above the ground: what of them stands on no other part hangs over it.
-  std::vector<Polygon> raised = {};
-  Interval z_m;  // foot and top, in the plan's heights
+  std::vector<Polygon> parts;             // without overlaps
+  std::vector<HangingPart> hanging = {};  // of them
+  std::vector<RaisedPart> raised = {};    // what stands on them, at least in part
+  Interval z_m;                           // foot and top, in the plan's heights
   bool top_known = false;
   bool to_capture = false;  // the plan has facades of it
 };

@@ -22,14 +22,20 @@ FacetClass ClassOf(ExtrudedFace::Kind kind) {
       return FacetClass::kRoof;
     case ExtrudedFace::Kind::kFloor:
       return FacetClass::kGround;
+    case ExtrudedFace::Kind::kUnderside:
+      return FacetClass::kOuterFloor;
   }
   return FacetClass::kGround;
+}
+
+bool LooksDown(ExtrudedFace::Kind kind) {
+  return kind == ExtrudedFace::Kind::kFloor || kind == ExtrudedFace::Kind::kUnderside;
 }
 
 PlaneRole RoleOf(const ExtrudedFace& face) {
   constexpr double kLevel = 0.998;  // within 4 degrees
   if (face.kind == ExtrudedFace::Kind::kWall) return PlaneRole::kWall;
-  if (face.kind == ExtrudedFace::Kind::kFloor) return PlaneRole::kCeiling;
+  if (LooksDown(face.kind)) return PlaneRole::kCeiling;
   return face.normal.z() > kLevel ? PlaneRole::kHorizontal : PlaneRole::kSlope;
 }
 
@@ -86,7 +92,7 @@ Facet MeasuredFacet(const ExtrudedFace& face, const Samples& near, const Toleran
   polygon.rings.push_back(flat(face.outer));
   for (const auto& hole : face.holes) polygon.rings.push_back(flat(hole));
   const Eigen::AlignedBox2d box = BoundsOf(polygon);
-  if (face.kind != ExtrudedFace::Kind::kFloor && !plane.points.empty()) {
+  if (!LooksDown(face.kind) && !plane.points.empty()) {
     // The grid must reach over the whole facet: what lies beside the samples is not seen.
     Eigen::AlignedBox2d seen;
     for (const int i : plane.points) seen.extend(frame.ToPlane(near.positions[i]));
@@ -128,6 +134,7 @@ std::vector<Facet> FacetsOf(const std::vector<ExtrudedFace>& faces, const Fitted
     facet.source = facet.seen > 0 ? "planes" : "extruded";
     if (face.kind == ExtrudedFace::Kind::kWall) NameWall(face, building, facet);
     if (face.kind == ExtrudedFace::Kind::kFloor) facet.source = "extruded";
+    if (face.kind == ExtrudedFace::Kind::kUnderside) facet.source = "footprint";
     facets.push_back(std::move(facet));
   }
   return facets;

@@ -128,7 +128,8 @@ TEST(LevelEaves, ASolidWhoseValleyMissesItsCornerByHairsCanBeWritten) {
     offs[5].height = off_m;
     const Survey survey = Make(offs);
     const RoofCells cells = LabelRoof(survey.building, survey.roof, survey.planes, kTolerances);
-    const auto faces = ExtrudeCells(cells.arrangement, cells.lines, cells.labels, cells.roofs, 0);
+    const auto faces = ExtrudeCells(cells.arrangement, cells.lines,
+                                    {.labels = cells.labels, .roofs = cells.roofs});
     const auto facets = FacetsOf(faces, survey.building, survey.roof.samples, kTolerances, 25);
     EXPECT_EQ(FindFaultAsWritten(facets, Eigen::Matrix3d::Identity()), std::nullopt) << off_m;
     // Six walls, six roofs and the floor, as they were built.

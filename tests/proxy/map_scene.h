@@ -16,7 +16,8 @@
 
 namespace stucco::test {
 
-// A building of a made map: rings as plans have them, the outer one counter-clockwise.
+// A building of a made map, or one of its parts, which have its id: rings as plans have them, the
+// outer one counter-clockwise.
 struct MapEntry {
   std::string id;
   std::vector<Ring> rings;
