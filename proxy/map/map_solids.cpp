@@ -296,6 +296,18 @@ void NoteHanging(const Houses& houses, ProxyFindings& findings) {
   }
 }
 
+// The house with a wing as one more part, which hangs where the map says so.
+FittedBuilding JoinedWith(FittedBuilding house, const FittedBuilding& wing,
+                          const MapBuilding& mapped) {
+  const size_t first = house.building.parts.size();
+  house = WithWing(std::move(house), wing);
+  const auto underside = UndersideOf(mapped, wing);
+  for (size_t part = first; underside && part < house.building.parts.size(); ++part) {
+    house.building.hanging.push_back({part, *underside});
+  }
+  return house;
+}
+
 // Closes houses once more with the wings that lean on them, and takes these out of `wings`, where
 // that makes as good a solid.
 void JoinWings(const UprightSurvey& survey, const Workshop& with, Houses& houses,
@@ -309,12 +321,7 @@ void JoinWings(const UprightSurvey& survey, const Workshop& with, Houses& houses
     const size_t own_parts = joined.building.parts.size();
     for (size_t w = 0; w < wings.size(); ++w) {
       if (house_of[w] != h) continue;
-      const size_t first = joined.building.parts.size();
-      joined = WithWing(std::move(joined), wings[w].fitted);
-      const auto underside = UndersideOf(houses.mapped[h], wings[w].fitted);
-      for (size_t part = first; underside && part < joined.building.parts.size(); ++part) {
-        joined.building.hanging.push_back({part, *underside});
-      }
+      joined = JoinedWith(std::move(joined), wings[w].fitted, houses.mapped[h]);
     }
     if (joined.building.parts.size() == own_parts) continue;
     MapBuilding& as_mapped = mapped.emplace_back(houses.mapped[h]);

@@ -225,6 +225,7 @@ TEST(PlanarViews, AHigherThresholdKeepsMore) {
 TEST(PlanarViews, SeeEveryWallThatTheFullGridSees) {
   // Gaps of 2 m between houses: how far one sees into them depends on the hover.
   std::vector<Ring> row;
+  row.reserve(5);
   for (int i = 0; i < 5; ++i) row.push_back(Rectangle(12 * i, 0, 12 * i + 10, 14));
   const Site site =
       MadeSite(row, {.safe_altitude_m = 28, .margin_m = 28, .heights_m = {12, 18, 9, 15, 11}});

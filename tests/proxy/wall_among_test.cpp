@@ -78,6 +78,7 @@ TEST(WallAmong, IsBeforeWhatOnlyPanesLieBehind) {
 // wall holds half of what lies between.
 TEST(WallAmong, IsWhereAWallPeaksBesideItsWindows) {
   std::vector<WallHit> hits;
+  hits.reserve(600);
   for (int k = 0; k < 600; ++k) hits.push_back({-0.10 + 0.10 * k / 600, {k % 20, k / 20 % 10}});
   Add(-0.10, 500, hits);
   for (const double at : {-0.02, -0.01, 0.0, 0.0, 0.01, 0.02}) {
