@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace stucco {
@@ -91,18 +92,21 @@ class Strip {
 
   double Width() const { return up_.high - up_.low; }
 
-  // Whether the plane has samples right below the strip, and hardly any right above it.
-  bool EndsIt(const Plane& plane) const {
+  // Samples of another plane that lie within two metres of the strip, in plan.
+  struct Neighbours {
+    double below = 0;
+    double above = 0;
+  };
+  Neighbours Beside(const Plane& plane) const {
     constexpr double kReach_m = 2;
-    constexpr double kFew = 0.15;
-    double below = 0, above = 0;
+    Neighbours beside;
     for (const int i : plane.points) {
       if (!along_.Holds(Along(i))) continue;
       const double up = Up(i);
-      if (up > up_.low - kReach_m && up < up_.low) ++below;
-      if (up > up_.high && up < up_.high + kReach_m) ++above;
+      if (up > up_.low - kReach_m && up < up_.low) ++beside.below;
+      if (up > up_.high && up < up_.high + kReach_m) ++beside.above;
     }
-    return above < kFew * below;
+    return beside;
   }
 
  private:
@@ -116,19 +120,59 @@ class Strip {
   Most up_, along_;
 };
 
-// Whether `plane` is what a parapet of the roof smears.
-bool IsSmeared(const Plane& plane, const Plane& roof, const Samples& samples) {
+constexpr double kSlack_m = 0.3;
+
+bool IsLevel(const Plane& plane) {
   constexpr double kLevel = 0.995;  // cosine: 6 degrees
+  return plane.normal.z() > kLevel;
+}
+
+// Whether `plane` is what a parapet of the roof smears: no roof goes on beyond it.
+bool IsSmearedParapet(const Plane& plane, const Plane& roof, std::span<const Plane> planes,
+                      const Samples& samples) {
   constexpr double kWidest_m = 2.5;
-  constexpr double kSlack_m = 0.3;
-  if (plane.normal.z() > kLevel || roof.normal.z() < kLevel) return false;
+  constexpr double kFew = 0.15;
+  if (IsLevel(plane) || !IsLevel(roof)) return false;
   if (roof.points.size() < 2 * plane.points.size()) return false;
   std::vector<double> heights;
   for (const int i : plane.points) heights.push_back(roof.DistanceTo(samples.positions[i]));
   const Most height = MostOf(std::move(heights));
   if (height.low < -kSlack_m || height.high > kParapetHeight_m + kSlack_m) return false;
   const Strip strip(samples, plane);
-  return strip.Width() < kWidest_m && strip.EndsIt(roof);
+  if (strip.Width() >= kWidest_m) return false;
+  const double few = kFew * strip.Beside(roof).below;
+  return std::ranges::all_of(planes, [&](const Plane& other) {
+    return !IsLevel(other) || strip.Beside(other).above < few;
+  });
+}
+
+// Whether `plane` is the smeared wall between two roofs.
+bool IsSmearedWall(const Plane& plane, const Plane& low, const Plane& high,
+                   const Samples& samples) {
+  constexpr double kSteep = 0.6;  // cosine: 53 degrees
+  constexpr double kWidest_m = 1.5;
+  constexpr double kBeside = 0.25;  // of the strip's samples, on either roof
+  if (plane.normal.z() > kSteep || !IsLevel(low) || !IsLevel(high)) return false;
+  std::vector<double> above_low, below_high;
+  for (const int i : plane.points) {
+    above_low.push_back(low.DistanceTo(samples.positions[i]));
+    below_high.push_back(-high.DistanceTo(samples.positions[i]));
+  }
+  const Most from_low = MostOf(std::move(above_low)), from_high = MostOf(std::move(below_high));
+  if (from_low.low < -kSlack_m || from_high.low < -kSlack_m) return false;
+  const Strip strip(samples, plane);
+  const double enough = kBeside * static_cast<double>(plane.points.size());
+  return strip.Width() < kWidest_m && strip.Beside(low).below > enough &&
+         strip.Beside(high).above > enough;
+}
+
+bool IsSmeared(const Plane& plane, std::span<const Plane> planes, const Samples& samples) {
+  return std::ranges::any_of(planes, [&](const Plane& roof) {
+    return IsSmearedParapet(plane, roof, planes, samples) ||
+           std::ranges::any_of(planes, [&](const Plane& high) {
+             return IsSmearedWall(plane, roof, high, samples);
+           });
+  });
 }
 
 }  // namespace
@@ -145,9 +189,7 @@ void DropParapets(const Samples& samples, const MapBuilding& building, double wi
   DropLevelParapets(samples, building, width, planes);
   std::vector<Plane> kept;
   for (const Plane& plane : planes) {
-    const bool is_smeared = std::ranges::any_of(
-        planes, [&](const Plane& roof) { return IsSmeared(plane, roof, samples); });
-    if (!is_smeared) kept.push_back(plane);
+    if (!IsSmeared(plane, planes, samples)) kept.push_back(plane);
   }
   planes = std::move(kept);
 }

@@ -15,13 +15,17 @@ namespace stucco {
 void DropRims(const Samples& samples, const MapBuilding& building, double width,
               std::vector<Plane>& planes);
 
-// Takes out, of the planes above a footprint, what parapets make of the points at a roof's end:
+// Takes out, of the planes above a footprint, what stereo makes of parapets and low walls on a
+// roof:
 //  - level planes less than 1.2 m above a roof, half of whose samples lie along the outline: what
 //    else lies at their height, where hardly anything is seen, are strays. Planes that are as dense
 //    inside as the roof are platforms.
 //  - strips up to 2.5 m wide that rise from a level roof by no more than a parapet does, and beyond
-//    which it does not go on: stereo smears a parapet over the roof before it. Mansards fall
+//    which no level roof goes on: stereo smears a parapet over the roof before it. Mansards fall
 //    towards the end of the roof, and round what stands on a roof it goes on.
+//  - strips up to 1.5 m wide, steeper than 53 degrees, that lead from a level roof up to another:
+//  the
+//    smeared walls of what stands on it. Below mansards there is no roof.
 // Units are metres, z is up.
 void DropParapets(const Samples& samples, const MapBuilding& building, double width,
                   std::vector<Plane>& planes);

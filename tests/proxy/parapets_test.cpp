@@ -19,6 +19,10 @@ class ParapetsTest : public testing::Test {
 
   // From one y to another, over all of x.
   void AddLevel(double from, double to) { Add(planes_.front(), from, to, 10, 0); }
+  // Another level roof.
+  void AddUpper(double from, double to, double height) {
+    Add(planes_.emplace_back(), from, to, height, 0);
+  }
 
   // A strip whose height at its lower edge and slope along y are these.
   void AddStrip(double from, double to, double height, double slope) {
@@ -59,6 +63,19 @@ TEST_F(ParapetsTest, WhereTheRoofGoesOnBeyondItSomethingStands) {
   AddStrip(8, 9, 10, 1);
   AddLevel(9, 10);
   EXPECT_EQ(LeftAfterDrop(), 2u);
+}
+
+TEST_F(ParapetsTest, TheWallOfWhatStandsOnARoofIsSmeared) {
+  AddStrip(8, 9, 10, 2.4);
+  EXPECT_EQ(LeftAfterDrop(), 2u);
+  AddUpper(9, 10, 12.4);
+  EXPECT_EQ(LeftAfterDrop(), 2u);  // of three
+}
+
+TEST_F(ParapetsTest, APitchedRoofBetweenTwoLevelOnesStays) {
+  AddStrip(8, 9.4, 10, 1);
+  AddUpper(9.4, 10, 11.4);
+  EXPECT_EQ(LeftAfterDrop(), 3u);
 }
 
 TEST_F(ParapetsTest, MansardsStay) {
