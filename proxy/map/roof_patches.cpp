@@ -210,13 +210,15 @@ class Tidier {
     return corners;
   }
 
-  // Whether its corners cost more than the patch explains.
+  // Whether the corners that it has more than a rectangle cost more than the patch explains.
   bool IsNotWorthIt(const Patch& patch) const {
+    const size_t corners = CornersOf(patch.cells, labels_, patch.label);
+    if (corners <= kRectangleCorners) return false;
     std::vector<int> without = labels_;
     for (const int cell : patch.cells) without[cell] = patch.around;
-    const auto corners = static_cast<double>(CornersOf(patch.cells, labels_, patch.label));
-    return CostOf(patch.cells, without) <
-           CostOf(patch.cells, labels_) + kCorner * std::pow(input_.level_of_detail, 2) * corners;
+    const double cost = kCorner * std::pow(input_.level_of_detail, 2) *
+                        static_cast<double>(corners - kRectangleCorners);
+    return CostOf(patch.cells, without) < CostOf(patch.cells, labels_) + cost;
   }
 
   // What the labels cost on these cells and where they meet others.
