@@ -31,15 +31,17 @@ struct Frame {
   Eigen::Vector2d low, size;  // of the area in them
 };
 
-// The places of the grid: column i of line j is at `first` + i `along` + j `across`.
+// The places of the grid, from (x0, y0) in the frame on.
 struct Lattice {
   Frame frame;
-  Eigen::Vector2d first, along, across;
+  double x0 = 0;
+  double y0 = 0;
+  GridStep step;
   int columns = 0;
   int lines = 0;
 
   Eigen::Vector2d At(double column, double line) const {
-    return first + column * along + line * across;
+    return (x0 + column * step.forward_m) * frame.u + (y0 + line * step.side_m) * frame.v;
   }
 };
 
@@ -73,15 +75,12 @@ Lattice LatticeOf(const Site& site, const CameraPreset& camera, const GridOption
   CheckSize((frame.size.x() / step.forward_m + 1) * (frame.size.y() / step.side_m + 1), frame.size,
             step);
   Lattice out{.frame = frame,
-              .first = {},
-              .along = step.forward_m * frame.u,
-              .across = step.side_m * frame.v,
+              .step = step,
               .columns = static_cast<int>(frame.size.x() / step.forward_m) + 1,
               .lines = static_cast<int>(frame.size.y() / step.side_m) + 1};
   // What the area is wider than the grid is left at both sides alike.
-  const double x0 = frame.low.x() + 0.5 * (frame.size.x() - (out.columns - 1) * step.forward_m);
-  const double y0 = frame.low.y() + 0.5 * (frame.size.y() - (out.lines - 1) * step.side_m);
-  out.first = x0 * frame.u + y0 * frame.v;
+  out.x0 = frame.low.x() + 0.5 * (frame.size.x() - (out.columns - 1) * step.forward_m);
+  out.y0 = frame.low.y() + 0.5 * (frame.size.y() - (out.lines - 1) * step.side_m);
   return out;
 }
 
@@ -101,15 +100,14 @@ using Places = std::set<std::pair<int, int>>;
 void AddPlacesAbove(const Site& site, const Footprint& footprint, const Lattice& lattice, int finer,
                     Places& places) {
   const double reach = DepthOf(site, footprint);
+  const Eigen::Array2d step(lattice.step.forward_m, lattice.step.side_m);
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& corner : footprint.outline.rings.front()) {
-    const Eigen::Vector2d off = corner - lattice.first;
-    box.extend(Eigen::Vector2d(off.dot(lattice.along), off.dot(lattice.across)));
+    box.extend(Eigen::Vector2d(corner.dot(lattice.frame.u) - lattice.x0,
+                               corner.dot(lattice.frame.v) - lattice.y0));
   }
-  const Eigen::Vector2d squares(lattice.along.squaredNorm(), lattice.across.squaredNorm());
-  const Eigen::Array2d margin = reach / squares.array().sqrt();
-  const Eigen::Array2d low = finer * (box.min().array() / squares.array() - margin);
-  const Eigen::Array2d high = finer * (box.max().array() / squares.array() + margin);
+  const Eigen::Array2d low = finer * (box.min().array() - reach) / step;
+  const Eigen::Array2d high = finer * (box.max().array() + reach) / step;
   const int eighths = kMostFiner / finer;
   for (int line = static_cast<int>(std::ceil(low.y())); line <= high.y(); ++line) {
     for (int column = static_cast<int>(std::ceil(low.x())); column <= high.x(); ++column) {
