@@ -187,7 +187,7 @@ std::vector<Hover> HoversAboveHighRoofs(const Site& site, const CameraPreset& ca
     const int finer = FinerAbove(site, footprint, options);
     if (finer > 1) AddPlacesAbove(site, footprint, lattice, finer, places);
   }
-  CheckSize(static_cast<double>(places.size()), lattice.frame.size, StepOf(site, camera, options));
+  CheckSize(static_cast<double>(places.size()), lattice.frame.size, lattice.step);
   const Obstacles obstacles(site);
   const std::vector<Shot> shots = FiveShots(std::atan2(lattice.frame.u.x(), lattice.frame.u.y()));
   for (const std::pair<int, int>& place : places) {

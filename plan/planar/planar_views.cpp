@@ -29,8 +29,8 @@ constexpr double kSpacingOfGrid = 0.75;
 constexpr double kFinest_m = 3.5;
 constexpr double kCoarsest_m = 8;
 // Those of six hovers, on roofs so close that each photo shows a few metres of them: other surfaces
-// have these by the hovers that others need. Of roofs with seven or more such pairs dense matching
-// finds nineteen twentieths, of those with fewer next to nothing (docs/benchmarks.md).
+// have these by the hovers that others need. What few pairs cost dense matching is in
+// docs/benchmarks.md, "Roofs just below the flight".
 constexpr double kGoodPairsNear = 15;
 // Ground counts up to this many d_min from the buildings.
 constexpr double kGroundReach = 2;
@@ -63,10 +63,10 @@ double TauOf(const Site& site, const PlanarOptions& options) {
 }
 
 // What thinning out must leave, more where roofs are close below.
-std::vector<Requirement> RequirementsOf(const ViewGraph& graph, const Site& site,
+std::vector<Requirement> RequirementsOn(const Site& site, const ViewGraph& graph,
                                         const PlanarOptions& options) {
   const std::vector<SurfaceSample>& samples = graph.view().samples;
-  std::vector<Requirement> out = stucco::plan::RequirementsOf(graph, samples, TauOf(site, options));
+  std::vector<Requirement> out = RequirementsOf(graph, samples, TauOf(site, options));
   if (options.tau_r > 0) return out;
   for (size_t s = 0; s < samples.size(); ++s) {
     if (samples[s].footprint < 0) continue;
@@ -137,7 +137,7 @@ std::vector<Hover> PlanarViews(const Site& site, const CameraPreset& camera,
 
   const double tau = TauOf(site, options);
   const Obstacles obstacles(site);
-  const std::vector<Requirement> requirements = RequirementsOf(graph, site, options);
+  const std::vector<Requirement> requirements = RequirementsOn(site, graph, options);
   ThinOut(graph,
           {.obstacles = obstacles,
            .requirements = requirements,

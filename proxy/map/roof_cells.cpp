@@ -33,12 +33,6 @@ RoofPlane RoofOf(const Plane& plane) {
   return {.slope = -plane.normal.head<2>() / z, .height = plane.offset / z};
 }
 
-Eigen::Vector2d MiddleOf(const Arrangement& arrangement, const std::vector<int>& face) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const int v : face) sum += arrangement.vertices[v];
-  return sum / static_cast<double>(face.size());
-}
-
 // The face of the arrangement at each cell of the raster that lies inside the footprint.
 std::vector<int> FaceOfCells(const PlaneRaster& raster, const Arrangement& arrangement,
                              const std::vector<int>& labels) {
@@ -146,8 +140,8 @@ CellProblem ProblemOf(const RoofCells& roof, const std::vector<int>& cell_of_fac
 // Inside: 0, outside: -1.
 std::vector<int> InsideOf(const Arrangement& arrangement, const MapBuilding& building) {
   std::vector<int> labels;
-  for (const auto& face : arrangement.faces) {
-    const Eigen::Vector2d middle = MiddleOf(arrangement, face);
+  for (size_t f = 0; f < arrangement.faces.size(); ++f) {
+    const Eigen::Vector2d middle = InnerPoint(arrangement, f);
     const bool inside = std::ranges::any_of(
         building.parts, [&](const Polygon& part) { return Contains(part, middle); });
     labels.push_back(inside ? 0 : -1);
@@ -188,9 +182,8 @@ std::vector<std::vector<double>> DataOf(const RoofCells& roof, const CellNumbers
     if (face_at[at] >= 0) add(numbers.cell_of_face[face_at[at]], at);
   }
   for (size_t c = 0; c < data.size(); ++c) {
-    const auto& face = roof.arrangement.faces[numbers.face_of_cell[c]];
     if (counts[c] == 0) {
-      const int at = raster.IndexAt(MiddleOf(roof.arrangement, face));
+      const int at = raster.IndexAt(InnerPoint(roof.arrangement, numbers.face_of_cell[c]));
       if (at >= 0) add(c, at);
     }
     const double area = SignedArea(RingOf(roof.arrangement, numbers.face_of_cell[c]));

@@ -89,10 +89,7 @@ class Tidier {
   int CellOf(int face) const { return face < 0 ? -1 : input_.cell_of_face[face]; }
 
   Eigen::Vector2d MiddleOf(int cell) const {
-    const auto& face = input_.arrangement.faces[input_.face_of_cell[cell]];
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    for (const int v : face) sum += input_.arrangement.vertices[v];
-    return sum / static_cast<double>(face.size());
+    return InnerPoint(input_.arrangement, input_.face_of_cell[cell]);
   }
 
   int Other(size_t link, int cell) const {

@@ -116,6 +116,18 @@ TEST(MapScan, WhatTheMapHasOverAPassageBeginsAboveTheGroundAndIsNamed) {
   EXPECT_FALSE(Says(made, "lacks"));
 }
 
+// The same where the map draws the upper storeys as one part over all of it.
+TEST(MapScan, AStoreyThatReachesOverAPassageLeavesItOpen) {
+  const FromScan made = MakeFromScan(Scanned({test::FlatHouse(Rectangle(-10, -5, 10, 5), 9)}, 0.25),
+                                     {{"B0001", {Rectangle(-10, -5, -4, 5)}, 5},
+                                      {"B0001", {Rectangle(4, -5, 10, 5)}, 5},
+                                      {"B0001", {Rectangle(-10, -5, 10, 5)}, 9, 5}});
+  const Building* gate = test::Find(made.proxy, "B0001");
+  ASSERT_NE(gate, nullptr);
+  EXPECT_NEAR(test::VolumeOf(*gate), 20 * 10 * 9 - 8 * 10 * 5, 60);
+  EXPECT_TRUE(Says(made, "begin above the ground"));
+}
+
 TEST(MapScan, NormalsWithoutPhotosPointUp) {
   const Captured captured = Scanned({test::GableHouse()}, 0.3);
   Samples samples = ThinCloud(StreamOf(captured.cloud), {}, 100000, 0);
