@@ -69,6 +69,10 @@ void AddCompletion(CLI::App& app, Program& program);
 
 // Runs the pipeline and prints what a run prints; `run` and every stage verb end here.
 int RunAndPrint(const Program& program, RunOptions options);
+// Runs the pipeline before something else that prints; what a run prints only where it failed.
+int RunBefore(const Program& program, RunOptions options, const Platform& platform);
+// Runs the pipeline and makes an epoch of the survey again.
+int RunAndRetexture(const Program& program, RunOptions options, const std::string& epoch);
 
 // An error as people see it, on stderr, and with --json as an object on stdout.
 void PrintError(const Error& error, bool json);

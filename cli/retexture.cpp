@@ -59,10 +59,30 @@ void PrintReport(const RetextureReport& report, const CommonOptions& common) {
   std::cout << fmt::format("{} of {} photos placed; {} of {} facets keep their pictures.\n", placed,
                            epoch.photos.size(), kept, epoch.facets.size());
   for (const EpochFacet& facet : epoch.facets) PrintFacet(facet);
+  if (report.moved) {
+    std::cout << fmt::format("What was there is now {}.\n", report.moved->string());
+  }
   std::cout << fmt::format("Epoch: {0}\nReport: {0}/report.html\n", report.folder.string());
 }
 
+int RetextureAndPrint(const Program& program, RetextureRequest request, const Platform& platform) {
+  request.threads = program.common.threads;
+  request.memory_limit_gb = program.common.memory_limit_gb;
+  request.command = program.command_line;
+  Console console = Console::ForStderr(program.common.verbosity());
+  PrintReport(RetextureSurvey(program.common.survey, request, program.table, console, platform),
+              program.common);
+  return 0;
+}
+
 }  // namespace
+
+int RunAndRetexture(const Program& program, RunOptions options, const std::string& epoch) {
+  const RetextureRequest request = SameAgain(program.common.survey, epoch);
+  const Platform platform = CatchInterrupts();
+  if (const int failed = RunBefore(program, std::move(options), platform)) return failed;
+  return RetextureAndPrint(program, request, platform);
+}
 
 void AddRetexture(CLI::App& app, Program& program) {
   CLI::App& verb =
@@ -90,16 +110,8 @@ void AddRetexture(CLI::App& app, Program& program) {
       ->capture_default_str();
   verb.callback([&program, request, mode] {
     program.action = [&program, request, mode] {
-      const Platform platform = CatchInterrupts();
       request->replace = ReplaceModeFromName(*mode).value_or(ReplaceMode::kAuto);
-      request->threads = program.common.threads;
-      request->memory_limit_gb = program.common.memory_limit_gb;
-      request->command = program.command_line;
-      Console console = Console::ForStderr(program.common.verbosity());
-      PrintReport(
-          RetextureSurvey(program.common.survey, *request, program.table, console, platform),
-          program.common);
-      return 0;
+      return RetextureAndPrint(program, *request, CatchInterrupts());
     };
   });
 }

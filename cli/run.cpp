@@ -83,6 +83,8 @@ void AddSet(CLI::App& verb, std::vector<std::string>& set) {
       ->take_all();
 }
 
+constexpr char kTextureStage[] = "texture";  // the one with epochs
+
 constexpr char kForceHelp[] =
     "Forget what is up to date and all checkpoints, and run everything again";
 
@@ -119,24 +121,42 @@ void AddStageVerb(CLI::App& app, Program& program, const Stage& stage) {
       "--force", options->force,
       fmt::format("Forget the results and checkpoints of {} and run it again", stage.name));
   AddSet(verb, options->set);
+  auto epoch = std::make_shared<std::string>();
+  if (stage.name == kTextureStage) {
+    verb.add_option("--epoch", *epoch,
+                    "Then make this epoch of stucco retexture again, from its photos, on the "
+                    "model and the pictures as they are now")
+        ->type_name("NAME");
+  }
   AddStageOptions(verb, stage, set);
-  verb.callback([&program, options, set] {
+  verb.callback([&program, options, set, epoch] {
     options->set.insert(options->set.end(), set->begin(), set->end());
-    program.action = [&program, options] { return RunAndPrint(program, *options); };
+    program.action = [&program, options, epoch] {
+      return epoch->empty() ? RunAndPrint(program, *options)
+                            : RunAndRetexture(program, *options, *epoch);
+    };
   });
+}
+
+RunResult Run(const Program& program, RunOptions options, const Platform& platform) {
+  options.threads = program.common.threads;
+  options.memory_limit_gb = program.common.memory_limit_gb;
+  options.command = program.command_line;
+  Console console = Console::ForStderr(program.common.verbosity());
+  return RunSurvey(program.common.survey, program.table, options, console, platform);
 }
 
 }  // namespace
 
 int RunAndPrint(const Program& program, RunOptions options) {
-  const Platform platform = CatchInterrupts();
-  options.threads = program.common.threads;
-  options.memory_limit_gb = program.common.memory_limit_gb;
-  options.command = program.command_line;
-  Console console = Console::ForStderr(program.common.verbosity());
-  const RunResult result =
-      RunSurvey(program.common.survey, program.table, options, console, platform);
+  const RunResult result = Run(program, std::move(options), CatchInterrupts());
   PrintEnd(result, program);
+  return result.exit_code;
+}
+
+int RunBefore(const Program& program, RunOptions options, const Platform& platform) {
+  const RunResult result = Run(program, std::move(options), platform);
+  if (result.exit_code != 0) PrintEnd(result, program);
   return result.exit_code;
 }
 

@@ -115,4 +115,19 @@ void WriteEpoch(const Epoch& epoch, const std::filesystem::path& path) {
   internal::SaveJson(json, path);
 }
 
+Epoch ReadEpochRequest(const std::filesystem::path& path) {
+  const Json json = internal::LoadJson(path);
+  const std::string file = path.string();
+  const internal::JsonReader reader(json, file, "");
+  Epoch epoch;
+  std::string mode;
+  reader.Required("name", epoch.name);
+  reader.Required("replace", mode);
+  const auto replace = ReplaceModeFromName(mode);
+  if (!replace) reader.Fail("replace", R"(must be "auto", "always" or "never")");
+  epoch.replace = *replace;
+  reader.Required("photo_folder", epoch.photo_folder);
+  return epoch;
+}
+
 }  // namespace stucco

@@ -89,4 +89,8 @@ struct Epoch {
 // epochs/NAME/retexture.json; the names in it are fixed (docs/formats.md). Throws Error.
 void WriteEpoch(const Epoch& epoch, const std::filesystem::path& path);
 
+// What that file says of how the epoch was asked for: without photos and facets. Throws Error
+// (kBadInput).
+Epoch ReadEpochRequest(const std::filesystem::path& path);
+
 }  // namespace stucco

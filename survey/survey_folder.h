@@ -21,6 +21,7 @@ inline constexpr char kElevationsFolder[] = "proxy/elevations";
 inline constexpr char kTexturesFile[] = "texture/textures.json";
 inline constexpr char kReportFile[] = "report/report.html";
 inline constexpr char kEpochsFolder[] = "epochs";
+inline constexpr char kEpochFile[] = "retexture.json";  // of each of its folders
 inline constexpr char kWorkFolder[] = ".stucco";
 
 }  // namespace stucco

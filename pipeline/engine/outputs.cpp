@@ -67,6 +67,17 @@ fs::path FreeNameBeside(const fs::path& target) {
   }
 }
 
+// Puts outputs of <folder> that are old, and have no successor in <targets>, back there.
+void RestoreOld(const fs::path& folder, const fs::path& targets) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.ends_with(kOldSuffix)) continue;
+    const fs::path target = targets / name.substr(0, name.find_last_of('-'));
+    if (!fs::exists(target)) Rename(entry.path(), target);
+  }
+}
+
 }  // namespace
 
 void MarkAsOurs(const fs::path& survey, const std::string& stage) {
@@ -130,19 +141,11 @@ std::optional<fs::path> ScratchFolder::Publish(const Platform& platform) {
 
 void CleanScratch(const fs::path& survey) {
   const fs::path scratch = WorkFolder(survey).Scratch();
+  // Of stages, and of epochs in a folder of theirs.
+  RestoreOld(scratch / kEpochsFolder, survey / kEpochsFolder);
+  RestoreOld(scratch, survey);
   std::error_code error;
-  if (!fs::exists(scratch, error)) {
-    return;
-  }
   for (const fs::directory_entry& entry : fs::directory_iterator(scratch, error)) {
-    const std::string name = entry.path().filename().string();
-    if (name.ends_with(kOldSuffix)) {
-      const fs::path target = survey / name.substr(0, name.find_last_of('-'));
-      if (!fs::exists(target, error)) {
-        fs::rename(entry.path(), target, error);
-        continue;
-      }
-    }
     fs::remove_all(entry.path(), error);
   }
 }

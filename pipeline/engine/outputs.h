@@ -40,7 +40,8 @@ class ScratchFolder {
 void MarkAsOurs(const std::filesystem::path& survey, const std::string& stage);
 
 // Removes what killed runs left behind, and restores outputs that a kill caught half way of being
-// replaced on a file system that cannot exchange two folders. Call it with the lock held.
+// replaced on a file system that cannot exchange two folders. Call it with the lock held. Throws
+// Error where these cannot be put back.
 void CleanScratch(const std::filesystem::path& survey);
 
 }  // namespace stucco

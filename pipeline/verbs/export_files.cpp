@@ -25,9 +25,9 @@ void RequireFree(const fs::path& out, bool overwrite) {
 std::vector<std::string> NotesOf(const SurveyLooks& looks) {
   if (looks.outdated.empty()) return {};
   return {
-      fmt::format("epochs of an earlier model left out: {}; their photos make new ones: stucco "
-                  "retexture",
-                  fmt::join(looks.outdated, ", "))};
+      fmt::format("epochs of an earlier model left out: {}; made again from their photos: stucco "
+                  "texture SURVEY --epoch {}",
+                  fmt::join(looks.outdated, ", "), looks.outdated.front())};
 }
 
 void CopyFile(const fs::path& from, const fs::path& to) {

@@ -59,13 +59,17 @@ std::string EpochName(const RetextureRequest& request) {
                   kOwnLook));
 }
 
-void RequirePhotoFolder(const fs::path& photos) {
+void RequirePhotoFolder(const RetextureRequest& request) {
+  const fs::path& photos = request.photos;
   std::error_code error;
   if (fs::is_directory(photos, error)) return;
   throw Error(ErrorKind::kBadInput,
               fmt::format("{}: {}", photos.string(),
                           fs::exists(photos, error) ? "is a file, not a folder" : "is not there"),
-              "name the folder of the new photos with --photos");
+              request.again ? fmt::format("epoch {} is of its photos: put them back, or make "
+                                          "another: stucco retexture --photos FOLDER",
+                                          request.epoch)
+                            : "name the folder of the new photos with --photos");
 }
 
 void RequireFinished(const fs::path& survey) {
@@ -79,11 +83,14 @@ void RequireFinished(const fs::path& survey) {
   }
 }
 
-void RequireNew(const fs::path& folder) {
+void RequireNew(const fs::path& survey, const std::string& name) {
+  const fs::path folder = survey / kEpochsFolder / name;
   std::error_code error;
   if (!fs::exists(fs::symlink_status(folder, error))) return;
   throw Error(ErrorKind::kBadInput, fmt::format("{}: this epoch is there already", folder.string()),
-              "choose another name with --epoch, or remove that folder; epochs are never replaced");
+              fmt::format("choose another name with --epoch; to make it again from its photos: "
+                          "stucco texture {} --epoch {}",
+                          ShellWord(survey.string()), ShellWord(name)));
 }
 
 // Checkpoints of this verb; what calibration found in the survey's photos is read too.
@@ -197,7 +204,7 @@ Epoch MakeEpoch(const RetextureRequest& request, const std::string& name, const 
       painting,
       {name, PosedPhotos(epoch.photos, captures, painting.guided, context), request.replace},
       context);
-  WriteEpoch(epoch, context.out / "retexture.json");
+  WriteEpoch(epoch, context.out / kEpochFile);
   WriteEpochReport(epoch, context);
   return epoch;
 }
@@ -210,19 +217,19 @@ RetextureReport RetextureSurvey(const fs::path& survey, const RetextureRequest& 
   std::vector<std::string> as_made = OptionsAsMade(survey, table, "calib");
   std::ranges::copy(OptionsAsMade(survey, table, "texture"), std::back_inserter(as_made));
   const Settings settings = LoadSettings(survey, table, as_made);
-  RequirePhotoFolder(request.photos);
+  RequirePhotoFolder(request);
   const std::string name = EpochName(request);
   const fs::path folder = survey / kEpochsFolder / name;
-  RequireNew(folder);
+  if (!request.again) RequireNew(survey, name);
   RequireFinished(survey);
   RequireApart(survey, request.photos, table);
   const SurveyLock lock(survey, request.command, platform);
-  RequireNew(folder);
+  if (!request.again) RequireNew(survey, name);
   CleanScratch(survey);
   ScratchFolder scratch(survey, fmt::format("{}/{}", kEpochsFolder, name));
   EventLog events(WorkFolder(survey).Events());
   EpochUnits units(survey);
-  RetextureReport report{folder, {}};
+  RetextureReport report{folder, {}, {}};
   {
     StageProgress progress(kVerb, console, events, platform.interrupted);
     const double memory_gb =
@@ -241,9 +248,19 @@ RetextureReport RetextureSurvey(const fs::path& survey, const RetextureRequest& 
   std::error_code error;
   fs::create_directories(folder.parent_path(), error);
   if (error) throw WriteError(folder.parent_path(), "cannot be created", error.value());
-  scratch.Publish(platform);
+  report.moved = scratch.Publish(platform);
   units.DeleteUntouched();
   return report;
+}
+
+RetextureRequest SameAgain(const fs::path& survey, const std::string& epoch) {
+  const Epoch before = ReadEpochRequest(LookFolder(survey, epoch) / kEpochFile);
+  RetextureRequest request;
+  request.photos = before.photo_folder;
+  request.epoch = epoch;
+  request.replace = before.replace;
+  request.again = true;
+  return request;
 }
 
 }  // namespace stucco

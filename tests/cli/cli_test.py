@@ -197,6 +197,17 @@ class RunAndStatus(stucco.TestCase):
         self.refused(stucco.run("ingest", survey, "--min-side-px", "many"), 2, "min_side_px")
         self.refused(stucco.run("run", survey, "--set", "ingest.min_sid_px=3"), 2, "did you mean")
 
+    def test_an_epoch_to_be_made_again_has_to_be_there(self):
+        survey = self.init(self.photo_folder(3))
+        self.refused(stucco.run("texture", survey, "--epoch", "may"), 3, "stucco retexture")
+        epoch = survey / "epochs/may"
+        epoch.mkdir(parents=True)
+        (epoch / "textures.json").write_text("{}")
+        (epoch / "retexture.json").write_text('{"version": 1, "name": "may", "replace": "often"}')
+        self.refused(stucco.run("texture", survey, "--epoch", "may"), 3, '"replace" must be')
+        self.refused(stucco.run("proxy", survey, "--epoch", "may"), 2, "--epoch")
+        self.assertNotIn("done", self.states(survey).values())
+
     def test_progress_is_on_stderr_and_quiet_is_quiet(self):
         survey = self.init(self.photo_folder(3))
         process = self.check(stucco.run("ingest", survey))

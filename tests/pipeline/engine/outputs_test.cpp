@@ -39,6 +39,20 @@ TEST(Outputs, AreRestoredAfterAKillInTheMiddleOfAReplacement) {
   EXPECT_TRUE(FilesBelow(scratch).empty());
 }
 
+TEST(Outputs, OfAnEpochAreRestoredLikewise) {
+  FakeSurvey fake;
+  fake.Run();
+  const fs::path scratch = WorkFolder(fake.survey).Scratch();
+  fs::create_directories(scratch / "epochs/may-77.old");
+  WriteFile(scratch / "epochs/may-77.old/retexture.json", "{}");
+  fs::create_directories(fake.survey / "epochs");
+  fs::create_directories(scratch / "epochs/june-78");
+  fake.Run();
+  EXPECT_EQ(ReadFile(fake.survey / "epochs/may/retexture.json"), "{}");
+  EXPECT_FALSE(fs::exists(fake.survey / "epochs/june"));
+  EXPECT_TRUE(FilesBelow(scratch).empty());
+}
+
 TEST(Outputs, NeverReplaceAFolderOfTheUser) {
   for (const Platform& platform : {RealPlatform(), WithoutExchange()}) {
     FakeSurvey fake;

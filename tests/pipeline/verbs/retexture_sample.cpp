@@ -68,6 +68,14 @@ void WriteTrueProxy(const fs::path& survey) {
   WriteProxy(proxy, survey / kFacetsFile);
 }
 
+RetextureRequest RequestOf(const fs::path& photos, const std::string& epoch, ReplaceMode replace) {
+  RetextureRequest request;
+  request.photos = photos;
+  request.epoch = epoch;
+  request.replace = replace;
+  return request;
+}
+
 }  // namespace
 
 test::TemporaryFolder* RetextureSample::folder_ = nullptr;
@@ -116,13 +124,8 @@ void RetextureSample::TearDownTestSuite() {
   std::fclose(log_);
 }
 
-RetextureReport RetextureSample::RunIn(const fs::path& survey, const std::string& set,
-                                       const std::string& epoch, ReplaceMode replace) {
+RetextureReport RetextureSample::RunIn(const fs::path& survey, RetextureRequest request) {
   Console console(log_, false, Verbosity::kQuiet);
-  RetextureRequest request;
-  request.photos = Photos(set);
-  request.epoch = epoch;
-  request.replace = replace;
   request.command = "retexture";
   Platform platform = RealPlatform();
   platform.interrupted = [] { return interrupted_; };
@@ -131,21 +134,33 @@ RetextureReport RetextureSample::RunIn(const fs::path& survey, const std::string
 
 RetextureReport RetextureSample::Run(const std::string& set, const std::string& epoch,
                                      ReplaceMode replace) {
-  return RunIn(Survey(), set, epoch, replace);
+  return Run(RequestOf(Photos(set), epoch, replace));
 }
 
-Error RetextureSample::RefusalOf(const fs::path& survey, const std::string& set,
-                                 const std::string& epoch) {
+RetextureReport RetextureSample::Run(const RetextureRequest& request) {
+  return RunIn(Survey(), request);
+}
+
+Error RetextureSample::RefusalIn(const fs::path& survey, const RetextureRequest& request) {
   try {
-    RunIn(survey, set, epoch, ReplaceMode::kAuto);
+    RunIn(survey, request);
   } catch (const Error& e) {
     return e;
   }
   return Error(ErrorKind::kUsage, "was not refused");
 }
 
+Error RetextureSample::RefusalOf(const fs::path& survey, const std::string& set,
+                                 const std::string& epoch) {
+  return RefusalIn(survey, RequestOf(Photos(set), epoch, ReplaceMode::kAuto));
+}
+
 Error RetextureSample::Refusal(const std::string& set, const std::string& epoch) {
   return RefusalOf(Survey(), set, epoch);
+}
+
+Error RetextureSample::Refusal(const RetextureRequest& request) {
+  return RefusalIn(Survey(), request);
 }
 
 std::vector<std::string> RetextureSample::OtherPictures(const fs::path& epoch) {

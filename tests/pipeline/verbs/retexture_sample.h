@@ -32,8 +32,10 @@ class RetextureSample : public testing::Test {
 
   static RetextureReport Run(const std::string& set, const std::string& epoch,
                              ReplaceMode replace = ReplaceMode::kAuto);
+  static RetextureReport Run(const RetextureRequest& request);
   // The error that the same ends with; the second, in another folder than the survey's.
   static Error Refusal(const std::string& set, const std::string& epoch);
+  static Error Refusal(const RetextureRequest& request);
   static Error RefusalOf(const std::filesystem::path& survey, const std::string& set,
                          const std::string& epoch);
 
@@ -43,8 +45,8 @@ class RetextureSample : public testing::Test {
   static bool interrupted_;  // as by Ctrl-C
 
  private:
-  static RetextureReport RunIn(const std::filesystem::path& survey, const std::string& set,
-                               const std::string& epoch, ReplaceMode replace);
+  static RetextureReport RunIn(const std::filesystem::path& survey, RetextureRequest request);
+  static Error RefusalIn(const std::filesystem::path& survey, const RetextureRequest& request);
 
   static test::TemporaryFolder* folder_;
   static std::FILE* log_;

@@ -182,6 +182,24 @@ TEST_F(RetextureSample, NamesAndReplacesTheRepaintedFacadeAndNothingElse) {
   }
   EXPECT_TRUE(fs::exists(filled.folder / "retexture.json"));
 
+  // 6. An epoch is made again in its place, from the photos and by the choice of before.
+  const RetextureRequest as_stopped = SameAgain(Survey(), "stopped");
+  EXPECT_EQ(as_stopped.replace, ReplaceMode::kNever);
+  EXPECT_EQ(as_stopped.photos, Photos("same"));
+  const auto blue_before = Contents(painted.folder);
+  WriteFile(painted.folder / "textures" / (file + ".png"), "torn");
+  const RetextureReport again = Run(SameAgain(Survey(), "blue"));
+  EXPECT_EQ(again.folder, painted.folder);
+  EXPECT_EQ(again.moved, std::nullopt);
+  EXPECT_EQ(Contents(again.folder), blue_before);
+  fs::rename(Photos("painted"), Photos("lost"));
+  const Error lost = Refusal(SameAgain(Survey(), "blue"));
+  fs::rename(Photos("lost"), Photos("painted"));
+  EXPECT_EQ(lost.kind(), ErrorKind::kBadInput);
+  EXPECT_THAT(lost.remedy(), HasSubstr("epoch blue is of its photos"));
+  EXPECT_EQ(Contents(again.folder), blue_before);
+  EXPECT_THROW(SameAgain(Survey(), "never-made"), Error);
+
   EXPECT_EQ(Contents(Survey()), survey_before);
   EXPECT_EQ(Contents(Photos("same")), photos_before);
 }
