@@ -28,6 +28,16 @@ std::string Reason(const Error& error, const std::filesystem::path& path) {
                      remedy.empty() ? "copy the photo from the camera again" : remedy);
 }
 
+// Nothing where one of the three is missing or no exposure: not all lenses state their aperture,
+// and one without is not known to have the same as another.
+std::optional<double> Exposure_s(const Tags& tags) {
+  const double time_s = Number(tags, "Exif.Photo.ExposureTime").value_or(0);
+  const double iso = Number(tags, "Exif.Photo.ISOSpeedRatings").value_or(0);
+  const double f_number = Number(tags, "Exif.Photo.FNumber").value_or(0);
+  if (!(time_s > 0 && iso > 0 && f_number > 0)) return std::nullopt;
+  return time_s * (iso / 100) / (f_number * f_number);
+}
+
 void TakeMetadata(const std::string& bytes, PhotoRecord& record) {
   PhotoTags tags = ReadTags(bytes);
   if (!tags.problem.empty()) record.doubts.push_back("metadata: " + tags.problem);
@@ -41,6 +51,7 @@ void TakeMetadata(const std::string& bytes, PhotoRecord& record) {
   record.doubts.insert(record.doubts.end(), gimbal.doubts.begin(), gimbal.doubts.end());
   const std::string time = Text(record.tags, "Exif.Photo.DateTimeOriginal");
   if (IsPrintableUtf8(time)) record.photo.capture_time = time;
+  record.photo.exposure_s = Exposure_s(record.tags);
 }
 
 PhotoHealth KnownHealth(const std::filesystem::path& path, const std::string& hash,

@@ -16,7 +16,7 @@ namespace {
 Stage IngestStage() {
   Stage stage;
   stage.name = "ingest";
-  stage.version = 2;
+  stage.version = 3;
   stage.title = "the list of photos with metadata and health";
   stage.inputs = {kPlanFile};
   stage.photos_are_input = true;
@@ -87,7 +87,7 @@ Stage TextureStage() {
   Stage stage;
   stage.name = "texture";
   stage.title = "facade textures and the textured model";
-  stage.version = 15;
+  stage.version = 16;
   stage.needs = {"ingest", "calib", "dense", "proxy"};
   stage.inputs = {kFacetsFile, kSparseFolder, kGeorefFile, kCloudFile, kCapturesFile, kPlanFile};
   stage.opens_photos = true;

@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <ctime>
+#include <iomanip>
+#include <sstream>
 
 #include "survey/error.h"
 #include "survey/internal/json.h"
@@ -66,6 +69,7 @@ static void Fields(Archive& archive, T& photo) {
   archive.Optional("height_px", photo.height_px);
   archive.Optional("camera", photo.camera);
   archive.Optional("capture_time", photo.capture_time);
+  archive.Optional("exposure_s", photo.exposure_s);
   archive.Optional("position", photo.position);
   archive.Optional("height_above_takeoff_m", photo.height_above_takeoff_m);
   archive.Optional("gimbal", photo.gimbal);
@@ -96,6 +100,14 @@ static const CapturedPhoto* FindCameraless(const Captures& captures) {
     if (!has_camera && (photo.camera != -1 || photo.usable)) return &photo;
   }
   return nullptr;
+}
+
+std::optional<double> CaptureTime_s(const CapturedPhoto& photo) {
+  std::tm time = {};
+  std::istringstream text(photo.capture_time);
+  text >> std::get_time(&time, "%Y:%m:%d %H:%M:%S");
+  if (text.fail()) return std::nullopt;
+  return static_cast<double>(timegm(&time));
 }
 
 Captures ReadCaptures(const std::filesystem::path& path) {

@@ -41,6 +41,9 @@ struct CapturedPhoto {
   int height_px = 0;
   int camera = -1;           // index into Captures::cameras; -1 when not usable
   std::string capture_time;  // EXIF DateTimeOriginal, "2025:03:01 12:00:00"; may be empty
+  // Of the light of the scene what the sensor counted: seconds at ISO 100 and f/1 that count the
+  // same, by EXIF.
+  std::optional<double> exposure_s;
   std::optional<GeoPosition> position;
   std::optional<double> height_above_takeoff_m;  // by the barometer
   std::optional<GimbalAngles> gimbal;
@@ -48,6 +51,9 @@ struct CapturedPhoto {
   double sharpness = 0;      // variance of the Laplacian at 1 megapixel
   std::string duplicate_of;  // path of an identical file; such a photo is not usable
 };
+
+// Seconds since 1970 by the camera's clock, as if that were UTC; nothing where it does not say.
+std::optional<double> CaptureTime_s(const CapturedPhoto& photo);
 
 // Where a camera's first focal length comes from, best first.
 //   "option", "dewarp" (calibrated pixels), "exif_35mm", "exif_sensor" (focal plane resolution),

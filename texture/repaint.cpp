@@ -18,6 +18,7 @@
 #include "survey/texture_set.h"
 #include "texture/epoch/epoch_facet.h"
 #include "texture/light/colour.h"
+#include "texture/light/facet_light.h"
 #include "texture/output/file_names.h"
 #include "texture/painting/paint.h"
 #include "texture/steps.h"
@@ -88,7 +89,8 @@ void LookAtFacets(Work& work) {
 FacetFiles PaintNew(const Work& work, size_t i) {
   const Facet& facet = *work.facets[i];
   const FacetLook& look = work.looks[i];
-  std::vector<std::string> key = {FilesKey(facet, look, work.input, work.light, work.options)};
+  const PhotosLight light = LightOnFacet(work.light, look.ratios);
+  std::vector<std::string> key = {FilesKey(facet, look, work.input, light, work.options)};
   if (look.grid) {
     const Eigen::Vector3d& origin = look.grid->origin;
     key.push_back(fmt::format("{} {} {} {} {} {}", origin.x(), origin.y(), origin.z(),
@@ -96,12 +98,12 @@ FacetFiles PaintNew(const Work& work, size_t i) {
     if (look.grid->relief) key.push_back(EncodeRelief(*look.grid->relief).png);
   }
   return UnpackFiles(ComputeUnit(work.context, "facet", HashParts(key), [&] {
-    PaintedFacet painted = PaintFacet({facet, look, work.light.gains, work.scene, work.options});
+    PaintedFacet painted = PaintFacet({facet, look, light.gains, work.scene, work.options});
     // What stands before the facet is not the facet, neither to be compared nor to be taken.
     for (size_t texel = 0; texel < painted.in_front.size(); ++texel) {
       if (painted.in_front[texel]) painted.labels[texel] = 255;
     }
-    return PackFiles(MakeFacetFiles(facet, painted, work.input.photos, work.light.gains, false));
+    return PackFiles(MakeFacetFiles(facet, painted, work.input.photos, light.gains, false));
   }));
 }
 

@@ -88,6 +88,8 @@ class FacetQueue {
   uint64_t taken_ = 0;
 };
 
+constexpr double kGamma = 2.2;  // of codes, about: light is their power
+
 // A facet of a queue as long as somebody works on it.
 class Taken {
  public:
@@ -152,18 +154,20 @@ PhotosLight LightFrom(const std::vector<FacetLook>& looks, std::span<const Surve
   }
   // Photos of an epoch have cameras of their own that are the same.
   std::map<std::tuple<CameraModel, int, int, std::vector<double>>, int> lenses;
-  std::vector<int> lens_of_photo;
+  std::vector<TakenPhoto> taken;
   for (const SurveyPhoto& photo : photos) {
     const Camera& camera = photo.camera;
     const auto next = static_cast<int>(lenses.size());
     const auto [lens, added] =
         lenses.try_emplace({camera.model, camera.width_px, camera.height_px, camera.params}, next);
-    lens_of_photo.push_back(lens->second);
+    taken.push_back({lens->second, {}, {}});
+    const auto& exposure_s = photo.captured.exposure_s;
+    if (exposure_s) taken.back().log_exposure = std::log(*exposure_s) / kGamma;
+    if (const auto time_s = CaptureTime_s(photo.captured)) taken.back().time_h = *time_s / 3600;
   }
-  constexpr double kGamma = 2.2;  // light of codes, about
-  PhotosLight light = SolveLight(ratios, lens_of_photo);
+  PhotosLight light = SolveLight(ratios, taken);
   for (const auto& [camera, lens] : lenses) {
-    const auto photo = std::ranges::find(lens_of_photo, lens) - lens_of_photo.begin();
+    const auto photo = std::ranges::find(taken, lens, &TakenPhoto::lens) - taken.begin();
     const Falloff& falloff = light.falloffs[photo];
     if (falloff.IsNone()) continue;
     progress.Note(

@@ -10,6 +10,7 @@
 #include "survey/error.h"
 #include "survey/survey_folder.h"
 #include "survey/texture_set.h"
+#include "texture/light/facet_light.h"
 #include "texture/output/explain.h"
 #include "texture/output/file_names.h"
 #include "texture/painting/facet_unit.h"
@@ -52,15 +53,15 @@ std::vector<TexturedFacet> PaintAll(const Painting& painting, const TextureInput
   context.progress->Begin("painting facets", facets.size());
   ForEachFacet(BytesOf(painting, scene, options), context, [&](size_t i) {
     context.ThrowIfCancelled();
-    const std::string key = FilesKey(*facets[i], painting.looks[i], input, painting.light, options);
+    const PhotosLight light = LightOnFacet(painting.light, painting.looks[i].ratios);
+    const std::string key = FilesKey(*facets[i], painting.looks[i], input, light, options);
     const auto paint = [&](PaintRecord* record) {
-      return PaintFacet({*facets[i], painting.looks[i], painting.light.gains, scene, options},
-                        record);
+      return PaintFacet({*facets[i], painting.looks[i], light.gains, scene, options}, record);
     };
     FacetFiles files = UnpackFiles(ComputeUnit(context, "texture_facet", key, [&] {
       const PaintedFacet painted = paint(nullptr);
-      return PackFiles(MakeFacetFiles(*facets[i], painted, input.photos, painting.light.gains,
-                                      options.orthophotos));
+      return PackFiles(
+          MakeFacetFiles(*facets[i], painted, input.photos, light.gains, options.orthophotos));
     }));
     if (options.debug) {
       PaintRecord record;

@@ -3,24 +3,13 @@
 #include "calib/records/flights.h"
 
 #include <algorithm>
-#include <ctime>
-#include <iomanip>
 #include <map>
-#include <sstream>
 #include <string>
 
 namespace stucco {
 namespace {
 
 constexpr double kPause_s = 300;
-
-std::optional<double> SecondsOf(const std::string& capture_time) {
-  std::tm time = {};
-  std::istringstream text(capture_time);
-  text >> std::get_time(&time, "%Y:%m:%d %H:%M:%S");
-  if (text.fail()) return std::nullopt;
-  return static_cast<double>(timegm(&time));
-}
 
 // Photos in the order they were taken, those without a time by their order in the captures.
 std::vector<int> InTime(const std::vector<const CapturedPhoto*>& captures,
@@ -45,7 +34,7 @@ std::vector<TakenIn> ReadFlights(const std::vector<const CapturedPhoto*>& captur
   }
   std::vector<TakenIn> taken(captures.size());
   for (size_t i = 0; i < captures.size(); ++i) {
-    taken[i].time_s = SecondsOf(captures[i]->capture_time);
+    taken[i].time_s = CaptureTime_s(*captures[i]);
   }
   // A flight is a planned one on a day without a long pause, by one camera.
   int flight = 0;

@@ -123,6 +123,22 @@ TEST_F(Ingest, ReadsADjiFlight) {
   EXPECT_THAT(progress_.warnings, IsEmpty());
 }
 
+TEST_F(Ingest, ReadsExposures) {
+  std::map<std::string, std::string> exif = {{"Exif.Photo.ExposureTime", "1/800"},
+                                             {"Exif.Photo.ISOSpeedRatings", "400"},
+                                             {"Exif.Photo.FNumber", "4/1"}};
+  photos_.Write("a.jpg", WithMetadata(MakeJpeg(1), exif));
+  exif["Exif.Photo.ExposureTime"] = "1/0";
+  photos_.Write("b.jpg", WithMetadata(MakeJpeg(2), exif));
+  exif.erase("Exif.Photo.ExposureTime");
+  photos_.Write("c.jpg", WithMetadata(MakeJpeg(3), exif));
+  const Captures captures = Run();
+  ASSERT_EQ(captures.photos.size(), 3U);
+  EXPECT_DOUBLE_EQ(captures.photos[0].exposure_s.value_or(0), 4.0 / 800 / 16);
+  EXPECT_EQ(captures.photos[1].exposure_s, std::nullopt);
+  EXPECT_EQ(captures.photos[2].exposure_s, std::nullopt);
+}
+
 TEST_F(Ingest, ListsEveryBadFileWithReasonAndRemedy) {
   const std::string jpeg = MakeJpeg(1);
   photos_.Write("a.jpg", jpeg);

@@ -34,6 +34,7 @@ Captures MakeCaptures() {
   photo.height_px = 1300;
   photo.camera = 0;
   photo.capture_time = "2025:03:01 12:00:00";
+  photo.exposure_s = 0.00125;
   photo.position = GeoPosition{47.1, 8.2, 430.3, true, 0.014, 0.025, true};
   photo.gimbal = GimbalAngles{-170.5, -45.25, 0.5};
   photo.view = "f012v03";
@@ -45,6 +46,17 @@ Captures MakeCaptures() {
   broken.duplicate_of = "a.JPG";
   captures.photos.push_back(broken);
   return captures;
+}
+
+TEST(CaptureTime, CountsSeconds) {
+  CapturedPhoto photo;
+  EXPECT_EQ(CaptureTime_s(photo), std::nullopt);
+  photo.capture_time = "2025:03:01 12:00:00";
+  const double noon_s = CaptureTime_s(photo).value_or(0);
+  photo.capture_time = "2025:03:02 12:01:30";
+  EXPECT_EQ(CaptureTime_s(photo), noon_s + 86400 + 90);
+  photo.capture_time = "yesterday";
+  EXPECT_EQ(CaptureTime_s(photo), std::nullopt);
 }
 
 TEST(Captures, ReadBackAsWritten) {
@@ -70,6 +82,8 @@ TEST(Captures, ReadBackAsWritten) {
   EXPECT_EQ(photo.height_px, 1300);
   EXPECT_EQ(photo.camera, 0);
   EXPECT_EQ(photo.capture_time, "2025:03:01 12:00:00");
+  EXPECT_EQ(photo.exposure_s, 0.00125);
+  EXPECT_EQ(read.photos[1].exposure_s, std::nullopt);
   ASSERT_TRUE(photo.position);
   EXPECT_EQ(photo.position->latitude_deg, 47.1);
   EXPECT_EQ(photo.position->longitude_deg, 8.2);

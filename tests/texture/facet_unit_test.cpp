@@ -64,7 +64,7 @@ TEST(FilesKey, ChangesWithWhatTheFacetDependsOnOnly) {
   FacetLook look;
   look.candidates = {{0, 1, 1}, {1, 1, 1}};
   PhotosLight light{std::vector<Eigen::Vector3d>(3, Eigen::Vector3d::Ones()),
-                    std::vector<Falloff>(3)};
+                    std::vector<Falloff>(3), std::vector<TakenPhoto>(3)};
   TextureOptions options;
   const auto key = [&] { return FilesKey(wall, look, input, light, options); };
   const std::string original = key();
@@ -110,7 +110,7 @@ TEST(FilesKey, OfWallsWithReliefChangesWithAllPhotosThatMaySeeThem) {
   FacetLook look;
   look.candidates = {{0, 1, 1}};
   PhotosLight light{std::vector<Eigen::Vector3d>(3, Eigen::Vector3d::Ones()),
-                    std::vector<Falloff>(3)};
+                    std::vector<Falloff>(3), std::vector<TakenPhoto>(3)};
   TextureOptions options;
   const auto key = [&] { return FilesKey(wall, look, input, light, options); };
   const std::string original = key();
@@ -131,7 +131,7 @@ TEST(FilesKey, ChangesWithThePlannedPhotosOfTheFacade) {
   input.photos = {test::LookFrom("a", {2, -5, 1}, {2, 0, 1}, {100, 100, 100})};
   FacetLook look;
   look.candidates = {{0, 1, 1}};
-  const PhotosLight light{{Eigen::Vector3d::Ones()}, {Falloff()}};
+  const PhotosLight light{{Eigen::Vector3d::Ones()}, {Falloff()}, {TakenPhoto()}};
   const std::string files = FilesKey(wall, look, input, light, {});
   const std::string first_look = LookKey(wall, input, {});
   input.photos[0].planned_facades = {"B0009/F02"};

@@ -16,7 +16,7 @@ ColourRatio Ratio(int a, int b, double ratio) {
 
 // Of photos of one lens.
 std::vector<Eigen::Vector3d> Gains(const std::vector<ColourRatio>& ratios, size_t photos) {
-  return SolveLight(ratios, std::vector<int>(photos, 0)).gains;
+  return SolveLight(ratios, std::vector<TakenPhoto>(photos)).gains;
 }
 
 TEST(SolveLight, EvensOutExposures) {
@@ -73,6 +73,50 @@ TEST(SolveLight, AnotherWhiteBalanceOfHalfThePhotosIsEvenedOut) {
   }
 }
 
+// A row of photos that each share a wall with the next two, whose ratios all lean the same way.
+std::vector<ColourRatio> LeaningRow(int photos, double lean) {
+  std::vector<ColourRatio> ratios;
+  for (int a = 0; a < photos; ++a) {
+    for (int b = a + 1; b < std::min(photos, a + 3); ++b) {
+      ratios.push_back(Ratio(a, b, std::exp(lean * (b - a))));
+    }
+  }
+  return ratios;
+}
+
+TEST(SolveLight, KnownExposuresHoldTheEndsOfALongRow) {
+  constexpr int kPhotos = 80;
+  const std::vector<ColourRatio> ratios = LeaningRow(kPhotos, 0.005);
+  std::vector<TakenPhoto> photos(kPhotos);
+  const auto lean = [&] {
+    const auto gains = SolveLight(ratios, photos).gains;
+    return std::abs(std::log(gains.back()[1] / gains.front()[1]));
+  };
+  EXPECT_GT(lean(), 0.3);
+  for (TakenPhoto& photo : photos) photo.log_exposure = -3.5;
+  EXPECT_LT(lean(), 0.12);
+}
+
+TEST(SolveLight, AnotherExposureIsEvenedOutWithoutARatio) {
+  std::vector<ColourRatio> ratios = {Ratio(0, 1, 1), Ratio(2, 3, 1)};
+  const double brighter = std::log(1.3);
+  const std::vector<TakenPhoto> photos = {
+      {0, 0.0, {}}, {0, 0.0, {}}, {0, brighter, {}}, {0, brighter, {}}};
+  const auto gains = SolveLight(ratios, photos).gains;
+  EXPECT_NEAR(std::log(gains[0][0] / gains[2][0]), brighter, 0.03);
+}
+
+TEST(SolveLight, WhatChangedInHoursIsNoExposure) {
+  const std::vector<ColourRatio> ratios = {Ratio(0, 1, 1.6)};
+  const auto differ = [&](double hours) {
+    const std::vector<TakenPhoto> photos = {{0, 0.0, 9.0}, {0, 0.0, 9.0 + hours}};
+    const auto gains = SolveLight(ratios, photos).gains;
+    return std::log(gains[1][0] / gains[0][0]);
+  };
+  EXPECT_GT(differ(0.01), 0.8 * std::log(1.6));
+  EXPECT_LT(differ(3), 0.15 * std::log(1.6));
+}
+
 TEST(SolveLight, OfNothingIsOne) {
   for (const auto& gain : Gains({}, 3)) EXPECT_EQ(gain, Eigen::Vector3d::Ones());
 }
@@ -101,12 +145,12 @@ std::vector<ColourRatio> RatiosWith(const std::vector<Falloff>& lenses,
 TEST(SolveLight, FindsTheFalloffOfEachLensAndTheExposures) {
   const std::vector<Falloff> lenses = {{{-0.10, -0.05}}, {{-0.02, -0.2}}};
   std::vector<double> exposures;
-  std::vector<int> lens_of_photo;
+  std::vector<TakenPhoto> photos;
   for (int i = 0; i < 30; ++i) {
     exposures.push_back(1 + 0.02 * (i % 7));
-    lens_of_photo.push_back(i % 2);
+    photos.push_back({i % 2, {}, {}});
   }
-  const PhotosLight light = SolveLight(RatiosWith(lenses, exposures, 0.01), lens_of_photo);
+  const PhotosLight light = SolveLight(RatiosWith(lenses, exposures, 0.01), photos);
   for (int i = 0; i < 30; ++i) {
     for (const double share : {0.3, 0.6, 1.0}) {
       EXPECT_NEAR(light.falloffs[i].LogAt(share), lenses[i % 2].LogAt(share), 0.015) << i;
@@ -118,8 +162,9 @@ TEST(SolveLight, FindsTheFalloffOfEachLensAndTheExposures) {
 TEST(SolveLight, NoiseIsNoFalloff) {
   const std::vector<Falloff> lenses(2);
   const std::vector<double> exposures(8, 1.0);
-  std::vector<int> lens_of_photo = {0, 1, 0, 1, 0, 1, 0, 1};
-  const PhotosLight light = SolveLight(RatiosWith(lenses, exposures, 0.02), lens_of_photo);
+  std::vector<TakenPhoto> photos;
+  for (int i = 0; i < 8; ++i) photos.push_back({i % 2, {}, {}});
+  const PhotosLight light = SolveLight(RatiosWith(lenses, exposures, 0.02), photos);
   for (const Falloff& falloff : light.falloffs) EXPECT_TRUE(falloff.IsNone());
 }
 

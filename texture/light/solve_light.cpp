@@ -2,15 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "texture/light/solve_light.h"
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <utility>
 
 #include "survey/median.h"
+#include "texture/light/robust_sums.h"
 
 namespace stucco {
 namespace {
@@ -20,9 +18,12 @@ namespace {
 constexpr double kRatioSigma = 0.02;
 constexpr double kGainSigma = 0.5;
 constexpr double kFalloffSigma = 0.25;
-constexpr double kManyTexels = 200;
-constexpr double kHuberWidth = 0.06;
-constexpr int kSolveRounds = 8;
+// Of a photo's light from what its exposure makes it: what a camera's curve departs from a power,
+// what its metadata are rounded to, and clouds.
+constexpr double kExposureSigma = 0.1;
+// Of a wall's light an hour apart, and at most.
+constexpr double kSunSigmaPerHour = 0.15;
+constexpr double kLargestSunSigma = 0.5;
 constexpr double kSignificant = 3;  // of its own standard deviation
 
 // Hues of gains farther from the middle of all than both: logarithms, and times the median
@@ -53,99 +54,76 @@ void LimitHues(const std::vector<size_t>& compared, std::vector<Eigen::Vector3d>
   }
 }
 
-// What one ratio says: log a + falloff a - log b - falloff b = measured.
-struct Equation {
-  int a = -1;
-  int b = -1;
-  double measured = 0;
-  double weight = 0;  // texels
-  // Of the falloffs: unknown and factor, those of a, then those of b.
-  std::array<std::pair<int, double>, 4> falloff = {};
-};
-
-// Unknowns are the logarithms of the photos' light, then two terms for each lens.
+// Unknowns are the logarithms of the photos' light, of what each lens makes of an exposure, and two
+// terms of each lens's falloff.
 struct Unknowns {
-  Eigen::Index photos = 0;
-  Eigen::Index lenses = 0;  // 0: falloffs are no part
+  explicit Unknowns(std::span<const TakenPhoto> taken)
+      : photos(static_cast<int>(taken.size())), lenses(0) {
+    for (const TakenPhoto& photo : taken) lenses = std::max(lenses, photo.lens + 1);
+  }
 
-  Eigen::Index size() const { return photos + 2 * lenses; }
+  int Lens(int lens) const { return photos + lens; }
+  int Falloff(int lens) const { return photos + lenses + 2 * lens; }
+  int size() const { return photos + 3 * lenses; }
+  Eigen::VectorXd PriorSigmas() const {
+    Eigen::VectorXd sigmas = Eigen::VectorXd::Constant(size(), kGainSigma);
+    sigmas.tail(2 * lenses).setConstant(kFalloffSigma);
+    return sigmas;
+  }
+
+  int photos;
+  int lenses;
 };
 
-struct Solution {
-  Eigen::VectorXd values;
-  // Variances of each lens's loss in the corner, by lens.
-  std::vector<double> corner_variance;
-};
-
-using Factors = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
-
-double Residual(const Equation& equation, const Unknowns& unknowns, const Eigen::VectorXd& values) {
-  double sum = values[equation.a] - values[equation.b] - equation.measured;
-  if (unknowns.lenses == 0) return sum;
-  for (const auto& [unknown, factor] : equation.falloff) sum += factor * values[unknown];
-  return sum;
+// Of a ratio with many texels between two photos.
+double RatioSigma(const TakenPhoto& a, const TakenPhoto& b) {
+  return std::hypot(kRatioSigma, SunSigma(a.time_h, b.time_h));
 }
 
-Solution Solve(std::span<const Equation> equations, const Unknowns& unknowns) {
-  Solution solution{Eigen::VectorXd::Zero(unknowns.size()), {}};
-  Factors factors;
-  for (int round = 0; round < kSolveRounds; ++round) {
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns.size());
-    for (Eigen::Index i = 0; i < unknowns.size(); ++i) {
-      const double sigma = i < unknowns.photos ? kGainSigma : kFalloffSigma;
-      entries.emplace_back(i, i, 1 / (sigma * sigma));
-    }
-    for (const Equation& equation : equations) {
-      const double residual = Residual(equation, unknowns, solution.values);
-      const double huber = std::min(1.0, kHuberWidth / std::max(1e-12, std::abs(residual)));
-      const double weight =
-          huber * std::min(1.0, equation.weight / kManyTexels) / (kRatioSigma * kRatioSigma);
-      std::vector<std::pair<int, double>> row = {{equation.a, 1.0}, {equation.b, -1.0}};
-      if (unknowns.lenses > 0) {
-        row.insert(row.end(), equation.falloff.begin(), equation.falloff.end());
-      }
-      for (const auto& [i, factor] : row) {
-        for (const auto& [j, other] : row) entries.emplace_back(i, j, weight * factor * other);
-        right[i] += weight * factor * equation.measured;
-      }
-    }
-    Eigen::SparseMatrix<double> normal(unknowns.size(), unknowns.size());
-    normal.setFromTriplets(entries.begin(), entries.end());
-    factors.compute(normal);
-    solution.values = factors.solve(right);
+// What metadata say of the photos' light, up to a factor for each lens.
+std::vector<SumEquation> OfExposures(std::span<const TakenPhoto> photos, const Unknowns& unknowns) {
+  std::vector<double> sums(unknowns.lenses, 0);
+  std::vector<int> counts(unknowns.lenses, 0);
+  for (const TakenPhoto& photo : photos) {
+    sums[photo.lens] += photo.log_exposure.value_or(0);
+    counts[photo.lens] += photo.log_exposure.has_value();
   }
-  for (Eigen::Index lens = 0; lens < unknowns.lenses; ++lens) {
-    Eigen::VectorXd corner = Eigen::VectorXd::Zero(unknowns.size());
-    corner.segment<2>(unknowns.photos + 2 * lens).setOnes();
-    solution.corner_variance.push_back(corner.dot(factors.solve(corner)));
+  std::vector<SumEquation> equations;
+  equations.reserve(photos.size());
+  for (int i = 0; i < unknowns.photos; ++i) {
+    const auto& [lens, log_exposure, time_h] = photos[i];
+    if (!log_exposure) continue;
+    equations.push_back({{{{i, 1.0}, {unknowns.Lens(lens), -1.0}}},
+                         *log_exposure - sums[lens] / counts[lens],
+                         kExposureSigma});
   }
-  return solution;
+  return equations;
 }
 
 std::vector<Falloff> FalloffsOfLenses(std::span<const ColourRatio> ratios,
-                                      std::span<const int> camera_of_photo) {
-  const auto photos = static_cast<int>(camera_of_photo.size());
-  const int lenses = 1 + std::ranges::max(camera_of_photo);
-  std::vector<Equation> equations;
-  equations.reserve(ratios.size());
+                                      std::span<const TakenPhoto> photos) {
+  const Unknowns unknowns(photos);
+  std::vector<SumEquation> equations = OfExposures(photos, unknowns);
+  equations.reserve(equations.size() + ratios.size());
   for (const ColourRatio& ratio : ratios) {
-    const int of_a = photos + 2 * camera_of_photo[ratio.a];
-    const int of_b = photos + 2 * camera_of_photo[ratio.b];
-    equations.push_back({ratio.a,
-                         ratio.b,
-                         ratio.log_ratio.mean(),
-                         ratio.weight,
-                         {{{of_a, ratio.corner_a[0]},
-                           {of_a + 1, ratio.corner_a[1]},
-                           {of_b, -ratio.corner_b[0]},
-                           {of_b + 1, -ratio.corner_b[1]}}}});
+    SumEquation equation = OfRatio(ratio, ratio.a, ratio.b, ratio.log_ratio.mean(),
+                                   RatioSigma(photos[ratio.a], photos[ratio.b]));
+    const int of_a = unknowns.Falloff(photos[ratio.a].lens);
+    const int of_b = unknowns.Falloff(photos[ratio.b].lens);
+    equation.terms[2] = {of_a, ratio.corner_a[0]};
+    equation.terms[3] = {of_a + 1, ratio.corner_a[1]};
+    equation.terms[4] = {of_b, -ratio.corner_b[0]};
+    equation.terms[5] = {of_b + 1, -ratio.corner_b[1]};
+    equations.push_back(equation);
   }
-  const Solution solution = Solve(equations, {photos, lenses});
-  std::vector<Falloff> falloffs(lenses);
-  for (int lens = 0; lens < lenses; ++lens) {
-    const Falloff found{solution.values.segment<2>(photos + 2 * lens)};
-    const double sigma = std::sqrt(solution.corner_variance[lens]);
+  NormalFactors factors;
+  const Eigen::VectorXd values = SolveSums(equations, unknowns.PriorSigmas(), factors);
+  std::vector<Falloff> falloffs(unknowns.lenses);
+  for (int lens = 0; lens < unknowns.lenses; ++lens) {
+    const Falloff found{values.segment<2>(unknowns.Falloff(lens))};
+    Eigen::VectorXd corner = Eigen::VectorXd::Zero(unknowns.size());
+    corner.segment<2>(unknowns.Falloff(lens)).setOnes();
+    const double sigma = std::sqrt(corner.dot(factors.solve(corner)));
     if (std::abs(found.LogAt(1)) > kSignificant * sigma) falloffs[lens] = found;
   }
   return falloffs;
@@ -153,19 +131,23 @@ std::vector<Falloff> FalloffsOfLenses(std::span<const ColourRatio> ratios,
 
 // Logarithms of the photos' gains, with their lenses' falloffs taken off.
 std::vector<Eigen::Vector3d> LogGains(std::span<const ColourRatio> ratios,
+                                      std::span<const TakenPhoto> photos,
                                       std::span<const Falloff> falloffs) {
+  const Unknowns unknowns(photos);
   std::vector<Eigen::Vector3d> logs(falloffs.size(), Eigen::Vector3d::Zero());
   for (int channel = 0; channel < 3; ++channel) {
-    std::vector<Equation> equations;
-    equations.reserve(ratios.size());
+    std::vector<SumEquation> equations = OfExposures(photos, unknowns);
+    equations.reserve(equations.size() + ratios.size());
     for (const ColourRatio& ratio : ratios) {
       const double lost =
           falloffs[ratio.a].terms.dot(ratio.corner_a) - falloffs[ratio.b].terms.dot(ratio.corner_b);
-      equations.push_back({ratio.a, ratio.b, ratio.log_ratio[channel] - lost, ratio.weight});
+      equations.push_back(OfRatio(ratio, ratio.a, ratio.b, ratio.log_ratio[channel] - lost,
+                                  RatioSigma(photos[ratio.a], photos[ratio.b])));
     }
-    const Solution solution = Solve(equations, {static_cast<Eigen::Index>(logs.size()), 0});
+    NormalFactors factors;
+    const Eigen::VectorXd values = SolveSums(equations, unknowns.PriorSigmas(), factors);
     for (size_t i = 0; i < logs.size(); ++i) {
-      logs[i][channel] = -solution.values[static_cast<Eigen::Index>(i)];
+      logs[i][channel] = -values[static_cast<Eigen::Index>(i)];
     }
   }
   return logs;
@@ -173,21 +155,26 @@ std::vector<Eigen::Vector3d> LogGains(std::span<const ColourRatio> ratios,
 
 }  // namespace
 
-PhotosLight SolveLight(std::span<const ColourRatio> ratios, std::span<const int> camera_of_photo) {
-  const size_t photos = camera_of_photo.size();
+double SunSigma(const std::optional<double>& a_h, const std::optional<double>& b_h) {
+  const double apart_h = a_h && b_h ? std::abs(*a_h - *b_h) : 0;
+  return std::min(kLargestSunSigma, kSunSigmaPerHour * apart_h);
+}
+
+PhotosLight SolveLight(std::span<const ColourRatio> ratios, std::span<const TakenPhoto> photos) {
   assert(std::ranges::all_of(ratios, [&](const ColourRatio& ratio) {
-    return static_cast<size_t>(std::max(ratio.a, ratio.b)) < photos;
+    return static_cast<size_t>(std::max(ratio.a, ratio.b)) < photos.size();
   }));
-  PhotosLight light{std::vector<Eigen::Vector3d>(photos, Eigen::Vector3d::Ones()),
-                    std::vector<Falloff>(photos)};
+  PhotosLight light{std::vector<Eigen::Vector3d>(photos.size(), Eigen::Vector3d::Ones()),
+                    std::vector<Falloff>(photos.size()),
+                    {photos.begin(), photos.end()}};
   if (ratios.empty()) return light;
-  const std::vector<Falloff> lenses = FalloffsOfLenses(ratios, camera_of_photo);
-  for (size_t i = 0; i < photos; ++i) light.falloffs[i] = lenses[camera_of_photo[i]];
-  std::vector<Eigen::Vector3d> logs = LogGains(ratios, light.falloffs);
-  std::vector<uint8_t> is_compared(photos, 0);
+  const std::vector<Falloff> lenses = FalloffsOfLenses(ratios, photos);
+  for (size_t i = 0; i < photos.size(); ++i) light.falloffs[i] = lenses[photos[i].lens];
+  std::vector<Eigen::Vector3d> logs = LogGains(ratios, photos, light.falloffs);
+  std::vector<uint8_t> is_compared(photos.size(), 0);
   for (const ColourRatio& ratio : ratios) is_compared[ratio.a] = is_compared[ratio.b] = 1;
   std::vector<size_t> compared;
-  for (size_t i = 0; i < photos; ++i) {
+  for (size_t i = 0; i < photos.size(); ++i) {
     if (is_compared[i]) compared.push_back(i);
   }
   LimitHues(compared, logs);

@@ -13,16 +13,16 @@ namespace {
 constexpr int kLeastGap = 3;
 constexpr double kSilent = 0.1;  // of the mean
 
-struct Run {
+struct Speaking {
   int begin = 0;
   int end = 0;
   double sum = 0;
 };
 
-std::vector<Run> RunsOf(std::span<const double> speaks) {
+std::vector<Speaking> SpeakingRunsOf(std::span<const double> speaks) {
   const double total = std::accumulate(speaks.begin(), speaks.end(), 0.0);
   const double silent = kSilent * total / static_cast<double>(speaks.size());
-  std::vector<Run> runs;
+  std::vector<Speaking> runs;
   for (int i = 0; i < std::ssize(speaks); ++i) {
     if (speaks[i] <= silent) continue;
     if (runs.empty() || i - runs.back().end >= kLeastGap) runs.push_back({i, i, 0});
@@ -36,9 +36,9 @@ std::vector<Run> RunsOf(std::span<const double> speaks) {
 
 Stretch LargestStretch(std::span<const double> speaks) {
   const int count = static_cast<int>(speaks.size());
-  const std::vector<Run> runs = RunsOf(speaks);
+  const std::vector<Speaking> runs = SpeakingRunsOf(speaks);
   if (runs.empty()) return {0, count, 0, count};
-  const auto largest = std::ranges::max_element(runs, {}, &Run::sum);
+  const auto largest = std::ranges::max_element(runs, {}, &Speaking::sum);
   return {.begin = largest->begin,
           .end = largest->end,
           .low = largest == runs.begin() ? 0 : std::prev(largest)->end,
