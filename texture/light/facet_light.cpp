@@ -14,9 +14,9 @@
 namespace stucco {
 namespace {
 
-// Deviations, of logarithms of colours: of a measured ratio with many texels, and of a photo's light
-// on one facet from its light on all while the sun is where it is. What else makes it another, as
-// gloss does on slates, changes within the facet and is left to seams.
+// Deviations, of logarithms of colours: of a measured ratio with many texels, and of a photo's
+// light on one facet from its light on all while the sun is where it is. What else makes it
+// another, as gloss does on slates, changes within the facet and is left to seams.
 constexpr double kOnFacetSigma = 0.02;
 constexpr double kLevelSigma = 0.003;
 

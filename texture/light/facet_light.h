@@ -10,10 +10,10 @@
 namespace stucco {
 
 // The photos' light on one facet. Their gains make them agree where light stays as it is; while the
-// sun moves, and in the shade of clouds, it does not, and each facet has its own. So that patches of
-// photos of different hours do not differ on it, they are brought to what the photos of its middle hour
-// show of it, by least squares on what its ratios leave after the photos' gains. Photos without a
-// ratio, and those of one hour, keep their gains.
+// sun moves, and in the shade of clouds, it does not, and each facet has its own. So that patches
+// of photos of different hours do not differ on it, they are brought to what the photos of its
+// middle hour show of it, by least squares on what its ratios leave after the photos' gains. Photos
+// without a ratio, and those of one hour, keep their gains.
 PhotosLight LightOnFacet(const PhotosLight& light, std::span<const ColourRatio> of_facet);
 
 }  // namespace stucco
