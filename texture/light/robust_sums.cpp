@@ -19,6 +19,24 @@ double Residual(const SumEquation& equation, const Eigen::VectorXd& values) {
   return sum;
 }
 
+// The normal equations of all.
+struct Normal {
+  explicit Normal(Eigen::Index unknowns) : right(Eigen::VectorXd::Zero(unknowns)) {}
+
+  void Add(const SumEquation& equation, double weight) {
+    for (const auto& [i, factor] : equation.terms) {
+      if (factor == 0) continue;
+      right[i] += weight * factor * equation.measured;
+      for (const auto& [j, other] : equation.terms) {
+        if (other != 0) entries.emplace_back(i, j, weight * factor * other);
+      }
+    }
+  }
+
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd right;
+};
+
 }  // namespace
 
 SumEquation OfRatio(const ColourRatio& ratio, int a, int b, double measured, double sigma) {
@@ -31,27 +49,19 @@ Eigen::VectorXd SolveSums(std::span<const SumEquation> equations,
   const Eigen::Index unknowns = prior_sigmas.size();
   Eigen::VectorXd values = Eigen::VectorXd::Zero(unknowns);
   for (int round = 0; round < kSumRounds; ++round) {
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
+    Normal normal(unknowns);
     for (int i = 0; i < unknowns; ++i) {
-      entries.emplace_back(i, i, 1 / (prior_sigmas[i] * prior_sigmas[i]));
+      normal.Add({.terms = {{{i, 1.0}}}}, 1 / (prior_sigmas[i] * prior_sigmas[i]));
     }
     for (const SumEquation& equation : equations) {
       const double deviations = std::abs(Residual(equation, values)) / equation.sigma;
-      const double weight = std::min(1.0, kSumHuberWidth / std::max(1e-12, deviations)) /
-                            (equation.sigma * equation.sigma);
-      for (const auto& [i, factor] : equation.terms) {
-        if (factor == 0) continue;
-        for (const auto& [j, other] : equation.terms) {
-          if (other != 0) entries.emplace_back(i, j, weight * factor * other);
-        }
-        right[i] += weight * factor * equation.measured;
-      }
+      const double huber = std::min(1.0, kSumHuberWidth / std::max(1e-12, deviations));
+      normal.Add(equation, huber / (equation.sigma * equation.sigma));
     }
-    Eigen::SparseMatrix<double> normal(unknowns, unknowns);
-    normal.setFromTriplets(entries.begin(), entries.end());
-    factors.compute(normal);
-    values = factors.solve(right);
+    Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
+    matrix.setFromTriplets(normal.entries.begin(), normal.entries.end());
+    factors.compute(matrix);
+    values = factors.solve(normal.right);
   }
   return values;
 }
