@@ -35,8 +35,7 @@ struct PatchInput {
 //  - So do parapets of level roofs: strips along the footprint's border that rise to it, or lie a
 //    little higher (1.2 m), as points of a parapet smear over the roof behind it.
 //  - So do patches of more than four corners, where these are worth more than what the patch
-//  explains
-//    better than the roof around: fringes, a hand higher, where hardly anything was seen.
+//    explains better than the roof around: fringes, a hand higher, where hardly anything was seen.
 //  - What stands on a roof, such as the head of a staircase, is a rectangle nearly always, and a
 //    graph cut leaves it with jogs where few of its points were seen: a border costs its length,
 //    not its corners. So patches away from the border of the footprint that have more than four

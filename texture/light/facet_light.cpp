@@ -14,10 +14,9 @@
 namespace stucco {
 namespace {
 
-// Deviations, of logarithms of colours: of a measured ratio with many texels, and of a photo's
-// light on one facet from its light on all while the sun is where it is. What else makes it
-// another, as gloss does on slates, changes within the facet and is left to seams.
-constexpr double kOnFacetSigma = 0.02;
+// Deviation, of logarithms of colours, of a photo's light on one facet from its light on all while
+// the sun is where it is. What else makes it another, as gloss does on slates, changes within the
+// facet and is left to seams.
 constexpr double kLevelSigma = 0.003;
 
 // When most of them were taken; nothing where no time is known.
@@ -51,11 +50,10 @@ PhotosLight LightOnFacet(const PhotosLight& light, std::span<const ColourRatio> 
     std::vector<SumEquation> equations;
     equations.reserve(of_facet.size());
     for (const ColourRatio& ratio : of_facet) {
-      const double lost = light.falloffs[ratio.a].terms.dot(ratio.corner_a) -
-                          light.falloffs[ratio.b].terms.dot(ratio.corner_b);
+      const double lost = LostToCorners(ratio, light.falloffs);
       const double gain = std::log(light.gains[ratio.a][channel] / light.gains[ratio.b][channel]);
       equations.push_back(OfRatio(ratio, unknown_of.at(ratio.a), unknown_of.at(ratio.b),
-                                  ratio.log_ratio[channel] - lost + gain, kOnFacetSigma));
+                                  ratio.log_ratio[channel] - lost + gain, kRatioSigma));
     }
     NormalFactors factors;
     const Eigen::VectorXd values = SolveSums(equations, sigmas, factors);

@@ -39,6 +39,11 @@ struct Normal {
 
 }  // namespace
 
+double LostToCorners(const ColourRatio& ratio, std::span<const Falloff> falloff_of_photo) {
+  return falloff_of_photo[ratio.a].terms.dot(ratio.corner_a) -
+         falloff_of_photo[ratio.b].terms.dot(ratio.corner_b);
+}
+
 SumEquation OfRatio(const ColourRatio& ratio, int a, int b, double measured, double sigma) {
   const double share = std::min(1.0, ratio.weight / kManyTexels);
   return {{{{a, 1.0}, {b, -1.0}}}, measured, sigma / std::sqrt(share)};

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "texture/light/colour.h"
+#include "texture/light/falloff.h"
 
 namespace stucco {
 
@@ -19,6 +20,12 @@ struct SumEquation {
   double measured = 0;
   double sigma = 1;  // one standard deviation of it
 };
+
+// Deviation of a measured ratio with many texels, of its logarithm.
+inline constexpr double kRatioSigma = 0.02;
+
+// The part of a ratio's logarithm that the falloffs of its photos' lenses make.
+double LostToCorners(const ColourRatio& ratio, std::span<const Falloff> falloff_of_photo);
 
 // What a ratio says of the logarithms of its photos' light, unknowns `a` and `b`; `sigma` with as
 // many texels as can help.

@@ -13,9 +13,7 @@
 namespace stucco {
 namespace {
 
-// Deviations, of logarithms of colours: of a measured ratio with many texels, of a photo's gain and
-// of a falloff's terms from nothing.
-constexpr double kRatioSigma = 0.02;
+// Deviations, of logarithms of colours: of a photo's gain and of a falloff's terms from nothing.
 constexpr double kGainSigma = 0.5;
 constexpr double kFalloffSigma = 0.25;
 // Of a photo's light from what its exposure makes it: what a camera's curve departs from a power,
@@ -139,8 +137,7 @@ std::vector<Eigen::Vector3d> LogGains(std::span<const ColourRatio> ratios,
     std::vector<SumEquation> equations = OfExposures(photos, unknowns);
     equations.reserve(equations.size() + ratios.size());
     for (const ColourRatio& ratio : ratios) {
-      const double lost =
-          falloffs[ratio.a].terms.dot(ratio.corner_a) - falloffs[ratio.b].terms.dot(ratio.corner_b);
+      const double lost = LostToCorners(ratio, falloffs);
       equations.push_back(OfRatio(ratio, ratio.a, ratio.b, ratio.log_ratio[channel] - lost,
                                   RatioSigma(photos[ratio.a], photos[ratio.b])));
     }
