@@ -7,6 +7,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "proxy/map/sight_lines.h"
+
 namespace stucco {
 namespace {
 
@@ -17,8 +19,9 @@ cv::Mat Disc(double width_m, double cell) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {size, size});
 }
 
-// Cells in which the ground shows and nothing lies above it.
-cv::Mat ShownGround(const RoofEvidence& evidence, const PlaneRaster& raster) {
+// Cells in which the ground shows and nothing lies above it, or `through` which photos look.
+cv::Mat ShownGround(const RoofEvidence& evidence, const PlaneRaster& raster,
+                    const std::vector<char>& through) {
   constexpr double kGap_m = 0.6;
   constexpr double kNarrowest_m = 1.2;
   cv::Mat open = cv::Mat::zeros(raster.height, raster.width, CV_8U);
@@ -27,8 +30,14 @@ cv::Mat ShownGround(const RoofEvidence& evidence, const PlaneRaster& raster) {
     if (at >= 0) open.at<uint8_t>(at / raster.width, at % raster.width) = value;
   };
   for (const Eigen::Vector2d& p : evidence.open) mark(p, 255);
+  for (size_t at = 0; at < through.size(); ++at) {
+    if (through[at] != 0) open.data[at] = 255;
+  }
   cv::morphologyEx(open, open, cv::MORPH_CLOSE, Disc(kGap_m, raster.cell));
-  for (const auto& p : evidence.samples.positions) mark(p.head<2>(), 0);
+  for (const auto& p : evidence.samples.positions) {
+    const int at = raster.IndexAt(p.head<2>());
+    if (at >= 0 && through[at] == 0) open.data[at] = 0;
+  }
   cv::morphologyEx(open, open, cv::MORPH_OPEN, Disc(kNarrowest_m, raster.cell));
   return open;
 }
@@ -79,7 +88,7 @@ class HiddenFoot {
       : raster_(raster), open_(open), covered_(open.size(), 0) {
     for (const Eigen::Vector3d& p : evidence.samples.positions) {
       const int at = raster.IndexAt(p.head<2>());
-      if (at >= 0) covered_[at] = 1;
+      if (at >= 0 && open[at] == 0) covered_[at] = 1;
     }
     for (const RoofStep& step : evidence.steps) {
       const bool of_other = std::ranges::any_of(
@@ -134,8 +143,10 @@ class HiddenFoot {
 
 }  // namespace
 
-std::vector<float> DistancesToOpenGround(const RoofEvidence& evidence, const PlaneRaster& raster) {
-  std::vector<char> open = LargePatches(ShownGround(evidence, raster), raster.cell);
+std::vector<float> DistancesToOpenGround(const RoofEvidence& evidence, const PlaneRaster& raster,
+                                         const Tolerances& tolerances) {
+  const std::vector<char> through = SeenThrough(evidence, raster, tolerances);
+  std::vector<char> open = LargePatches(ShownGround(evidence, raster, through), raster.cell);
   if (open.empty()) return {};
   const std::vector<float> to_patches = DistancesTo(raster, open);
   const std::vector<char> patches = open;

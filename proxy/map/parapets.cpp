@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "proxy/planes/consolidate.h"
+
 namespace stucco {
 namespace {
 
@@ -166,6 +168,26 @@ bool IsSmearedWall(const Plane& plane, const Plane& low, const Plane& high,
          strip.Beside(high).above > enough;
 }
 
+double RmsOf(const Plane& plane, const Samples& samples) {
+  double sum = 0;
+  for (const int i : plane.points) sum += std::pow(plane.DistanceTo(samples.positions[i]), 2);
+  return std::sqrt(sum / static_cast<double>(plane.points.size()));
+}
+
+// Whether `plane` is rougher than roofs are, and than a roof of twice its size at least. Normals
+// alone do not tell: those of a small smooth plane are off near its edges, where the cloud is thin.
+bool IsRough(const Plane& plane, std::span<const Plane> planes, const Samples& samples,
+             double level_of_detail) {
+  constexpr double kMore_deg = 6;
+  constexpr double kRough_deg = 10;
+  constexpr double kThick = 0.125;  // of the level of detail
+  const double scatter = NormalScatterDeg(samples, plane);
+  if (scatter < kRough_deg || RmsOf(plane, samples) < kThick * level_of_detail) return false;
+  return std::ranges::any_of(planes, [&](const Plane& roof) {
+    return roof.area > 2 * plane.area && scatter > NormalScatterDeg(samples, roof) + kMore_deg;
+  });
+}
+
 bool IsSmeared(const Plane& plane, std::span<const Plane> planes, const Samples& samples) {
   return std::ranges::any_of(planes, [&](const Plane& roof) {
     return IsSmearedParapet(plane, roof, planes, samples) ||
@@ -184,12 +206,14 @@ void DropRims(const Samples& samples, const MapBuilding& building, double width,
                 [&](const Plane& plane) { return OnRim(plane, samples, building, width) > kMost; });
 }
 
-void DropParapets(const Samples& samples, const MapBuilding& building, double width,
+void DropParapets(const Samples& samples, const MapBuilding& building, double level_of_detail,
                   std::vector<Plane>& planes) {
-  DropLevelParapets(samples, building, width, planes);
+  DropLevelParapets(samples, building, 2 * level_of_detail, planes);
   std::vector<Plane> kept;
   for (const Plane& plane : planes) {
-    if (!IsSmeared(plane, planes, samples)) kept.push_back(plane);
+    const bool smeared =
+        IsRough(plane, planes, samples, level_of_detail) || IsSmeared(plane, planes, samples);
+    if (!smeared) kept.push_back(plane);
   }
   planes = std::move(kept);
 }

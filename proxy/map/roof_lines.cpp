@@ -180,7 +180,7 @@ CoverOfRoofs CoverOf(const RoofTask& task) {
     }
     cover.to_hit.push_back(DistancesTo(cover.raster, hit));
   }
-  cover.to_open = DistancesToOpenGround(evidence, cover.raster);
+  cover.to_open = DistancesToOpenGround(evidence, cover.raster, tolerances);
   return cover;
 }
 

@@ -94,17 +94,30 @@ RoofStep StepOf(Plane plane, const Samples& samples) {
   return step;
 }
 
-// Upright planes among the samples by their indices, along the walls where they nearly are.
-std::vector<RoofStep> StepsAmong(const UprightSurvey& survey, const std::vector<int>& indices,
-                                 std::span<const Plane> walls, const ProxyOptions& options) {
+// Whether what looks this way has so much of the footprint before it that it lies in no loggia.
+bool HasFootprintBefore(const MapBuilding& footprint, const Eigen::Vector3d& p,
+                        const Eigen::Vector3d& normal) {
+  constexpr double kDeepestLoggia_m = 2;
+  return DistanceTo(footprint, (p + kDeepestLoggia_m * normal).head<2>()) == 0;
+}
+
+// Adds the upright planes among the samples by their indices, along the walls where they nearly
+// are, and which photos saw them from where.
+void AddSteps(const UprightSurvey& survey, const std::vector<int>& indices,
+              const MapBuilding& footprint, std::span<const Plane> walls,
+              const ProxyOptions& options, RoofEvidence& evidence) {
   const Samples samples = SubsetOf(survey.samples, indices);
-  std::vector<RoofStep> steps;
   for (Plane& plane : Detect(samples, survey.tolerances, options)) {
     if (!LooksLikeWall(plane.normal) || plane.points.empty()) continue;
+    for (const int i : plane.points) {
+      const Eigen::Vector3d* eye = survey.samples.EyeOf(indices[i]);
+      const Eigen::Vector3d& p = samples.positions[i];
+      if (eye && HasFootprintBefore(footprint, p, plane.normal))
+        evidence.sights.push_back({p, *eye});
+    }
     TurnAlong(walls, samples, plane);
-    steps.push_back(StepOf(std::move(plane), samples));
+    evidence.steps.push_back(StepOf(std::move(plane), samples));
   }
-  return steps;
 }
 
 }  // namespace
@@ -138,10 +151,10 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
       if (upright.normals[i].z() > kGroundNormal) evidence.open.emplace_back(p.head<2>());
       continue;
     }
-    if (walls.IsBelow(p)) continue;
-    if (upright_thing) {
+    const bool below = walls.IsBelow(p);
+    if (upright_thing && (!below || HasFootprintBefore(building.building, p, upright.normals[i]))) {
       steps.push_back(i);
-    } else if (upright.normals[i].z() > kRoofNormal) {
+    } else if (!upright_thing && !below && upright.normals[i].z() > kRoofNormal) {
       above.push_back(i);
     }
   }
@@ -159,11 +172,11 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
     return plane.points.empty() || plane.normal.z() < kRoofNormal;
   });
   for (Plane& plane : planes) RefitToDensest(evidence.samples, kFlat_m, plane);
-  DropParapets(evidence.samples, building.building, 2 * tolerances.level_of_detail, planes);
+  DropParapets(evidence.samples, building.building, tolerances.level_of_detail, planes);
   std::stable_sort(planes.begin(), planes.end(),
                    [](const Plane& a, const Plane& b) { return a.area > b.area; });
   evidence.planes = std::move(planes);
-  evidence.steps = StepsAmong(survey, steps, directions, options);
+  AddSteps(survey, steps, building.building, directions, options, evidence);
   return evidence;
 }
 

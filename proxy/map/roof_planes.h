@@ -30,11 +30,18 @@ struct RoofStep {
   }
 };
 
+// A photo's look at a point of an upright plane.
+struct SightLine {
+  Eigen::Vector3d wall;
+  Eigen::Vector3d eye;
+};
+
 // What the cloud shows above a footprint, in the upright frame.
 struct RoofEvidence {
   Samples samples;            // above the ground and not far below the tops of its walls
   std::vector<Plane> planes;  // roofs, by falling area; `points` are indices into `samples`
   std::vector<RoofStep> steps;
+  std::vector<SightLine> sights;      // of the steps
   std::vector<Eigen::Vector2d> open;  // inside of the outline, where the ground shows
   double seen_m2 = 0;  // of the footprint but for its rim, where the cloud has anything
   double bare_m2 = 0;  // of it, where the cloud shows the ground itself

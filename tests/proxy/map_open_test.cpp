@@ -14,6 +14,8 @@
 namespace stucco {
 namespace {
 
+constexpr Tolerances kTolerances{.spacing = 0.1};
+
 using test::AreaOf;
 using test::ClosedIn;
 using test::FlatHouse;
@@ -40,6 +42,23 @@ TEST(MapOpenGround, ACornerThatTheMapLeavesOutIsNotBuilt) {
     unknown_to_the_map += wall->planned_facades.empty() ? 1 : 0;
   }
   EXPECT_EQ(unknown_to_the_map, 2);
+}
+
+// Towers and narrow yards hide their ground; photos that see the walls of the corner look through
+// it.
+TEST(MapOpenGround, ACornerWhoseGroundNobodySawIsNotBuilt) {
+  std::vector<test::TruePolygon> ground;
+  for (const Ring& ring : {Rectangle(-25, -25, 25, -6), Rectangle(-25, 6, 25, 25),
+                           Rectangle(-25, -6, -7, 6), Rectangle(7, -6, 25, 6)}) {
+    test::TruePolygon& piece = ground.emplace_back(test::TruePolygon{.name = "ground", .ring = {}});
+    for (const Eigen::Vector2d& corner : ring) piece.ring.emplace_back(corner.x(), corner.y(), 0);
+  }
+  const auto captured = test::Capture({test::LShapedHouse(14, 12, 7)}, ground, kDenseCapture);
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-7, -6, 7, 6)}, 7}});
+  const Building& house = ClosedIn(made, "B0001");
+  EXPECT_EQ(house.detail, "full");
+  EXPECT_NEAR(VolumeOf(house), (14 * 12 - 7 * 6) * 7, 12);
+  EXPECT_EQ(OfClass(house, FacetClass::kWall).size(), 6u);
 }
 
 // The valley of a hip roof ends where the walls meet that the map leaves out, to the millimetre,
@@ -113,14 +132,14 @@ TEST(OpenGround, ReachesBelowEavesToTheWallAndNotToItsBalcony) {
   PlaneRaster raster;
   raster.cell = 0.25;
   raster.width = raster.height = 40;
-  const auto distances = DistancesToOpenGround(evidence, raster);
+  const auto distances = DistancesToOpenGround(evidence, raster, kTolerances);
   ASSERT_EQ(distances.size(), 1600u);
   const auto at = [&](double x, double y) { return distances[raster.IndexAt({x, y})]; };
   EXPECT_EQ(at(5, 6), 0);
   EXPECT_EQ(at(5, 3.4), 0);
   EXPECT_GT(at(5, 2.7), 0);
   evidence.steps.erase(evidence.steps.begin());
-  EXPECT_EQ(DistancesToOpenGround(evidence, raster), distances);
+  EXPECT_EQ(DistancesToOpenGround(evidence, raster, kTolerances), distances);
 }
 
 // A wall at y = 3 hides the ground up to y = 5, where it is seen from x = 2 to 8.
@@ -134,7 +153,7 @@ TEST(OpenGround, ReachesToTheWallThatHidesIt) {
   raster.cell = 0.25;
   raster.width = raster.height = 40;
   const auto is_open = [&](double x, double y) {
-    return DistancesToOpenGround(evidence, raster)[raster.IndexAt({x, y})] == 0;
+    return DistancesToOpenGround(evidence, raster, kTolerances)[raster.IndexAt({x, y})] == 0;
   };
   EXPECT_FALSE(is_open(5, 4));
   RoofStep& wall = evidence.steps.emplace_back();

@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace stucco {
 namespace {
 
-constexpr double kRim_m = 0.6;
+constexpr double kLevelOfDetail_m = 0.3;
 
 // A level roof of 20 by 10 m at 10 m, and what is found besides.
 class ParapetsTest : public testing::Test {
@@ -15,6 +18,7 @@ class ParapetsTest : public testing::Test {
   ParapetsTest() {
     building_.parts = {Polygon{{{{0, 0}, {20, 0}, {20, 10}, {0, 10}}}}};
     AddLevel(0, 8);
+    planes_.front().area = 160;
   }
 
   // From one y to another, over all of x.
@@ -29,9 +33,21 @@ class ParapetsTest : public testing::Test {
     Add(planes_.emplace_back(), from, to, height, slope);
   }
 
+  // Another level roof, whose normals are off by this, and its samples up or down by that.
+  void AddRough(double from, double to, double off_deg, double off_m) {
+    constexpr double kHeight_m = 12.5;
+    AddUpper(from, to, kHeight_m);
+    planes_.back().area = 20 * (to - from);
+    const double off = off_deg * std::numbers::pi / 180;
+    for (const int i : planes_.back().points) {
+      samples_.normals[i] = {std::sin(off), 0, std::cos(off)};
+      samples_.positions[i].z() += i % 2 == 0 ? off_m : -off_m;
+    }
+  }
+
   size_t LeftAfterDrop() const {
     std::vector<Plane> planes = planes_;
-    DropParapets(samples_, building_, kRim_m, planes);
+    DropParapets(samples_, building_, kLevelOfDetail_m, planes);
     return planes.size();
   }
 
@@ -44,6 +60,7 @@ class ParapetsTest : public testing::Test {
       for (double y = from + 0.1; y < to; y += kSpacing_m) {
         plane.points.push_back(static_cast<int>(samples_.positions.size()));
         samples_.positions.emplace_back(x, y, height + slope * (y - from));
+        samples_.normals.push_back(plane.normal);
         samples_.weights.push_back(1);
       }
     }
@@ -90,6 +107,26 @@ TEST_F(ParapetsTest, WhatRisesHigherThanParapetsStays) {
 
 TEST_F(ParapetsTest, WideRoofsStay) {
   AddStrip(5, 10, 10, 0.2);
+  EXPECT_EQ(LeftAfterDrop(), 2u);
+}
+
+// Heads of staircases are as smooth as roofs are, what stereo smears around them is not.
+TEST_F(ParapetsTest, WhatIsRougherThanTheRoofIsSmeared) {
+  AddRough(4, 6, 9, 0.06);
+  EXPECT_EQ(LeftAfterDrop(), 2u);
+  AddRough(6, 8, 13, 0.06);
+  EXPECT_EQ(LeftAfterDrop(), 2u);
+}
+
+// Where a cloud is thin, normals are off near edges.
+TEST_F(ParapetsTest, WhatIsFlatIsNotRough) {
+  AddRough(6, 8, 13, 0.02);
+  EXPECT_EQ(LeftAfterDrop(), 2u);
+}
+
+// Nothing larger says that roofs are smoother there.
+TEST_F(ParapetsTest, ARoughRoofStays) {
+  AddRough(2, 8, 13, 0.06);
   EXPECT_EQ(LeftAfterDrop(), 2u);
 }
 
