@@ -175,14 +175,17 @@ double RmsOf(const Plane& plane, const Samples& samples) {
 }
 
 // Whether `plane` is rougher than roofs are, and than a roof of twice its size at least. Normals
-// alone do not tell: those of a small smooth plane are off near its edges, where the cloud is thin.
+// alone do not tell: those of a small smooth plane are off near its edges, and all of them in
+// clouds thinner than details ask for.
 bool IsRough(const Plane& plane, std::span<const Plane> planes, const Samples& samples,
-             double level_of_detail) {
+             const Tolerances& tolerances) {
   constexpr double kMore_deg = 6;
   constexpr double kRough_deg = 10;
   constexpr double kThick = 0.125;  // of the level of detail
+  if (tolerances.coarseness > 1) return false;
   const double scatter = NormalScatterDeg(samples, plane);
-  if (scatter < kRough_deg || RmsOf(plane, samples) < kThick * level_of_detail) return false;
+  if (scatter < kRough_deg) return false;
+  if (RmsOf(plane, samples) < kThick * tolerances.level_of_detail) return false;
   return std::ranges::any_of(planes, [&](const Plane& roof) {
     return roof.area > 2 * plane.area && scatter > NormalScatterDeg(samples, roof) + kMore_deg;
   });
@@ -206,13 +209,13 @@ void DropRims(const Samples& samples, const MapBuilding& building, double width,
                 [&](const Plane& plane) { return OnRim(plane, samples, building, width) > kMost; });
 }
 
-void DropParapets(const Samples& samples, const MapBuilding& building, double level_of_detail,
+void DropParapets(const Samples& samples, const MapBuilding& building, const Tolerances& tolerances,
                   std::vector<Plane>& planes) {
-  DropLevelParapets(samples, building, 2 * level_of_detail, planes);
+  DropLevelParapets(samples, building, 2 * tolerances.level_of_detail, planes);
   std::vector<Plane> kept;
   for (const Plane& plane : planes) {
     const bool smeared =
-        IsRough(plane, planes, samples, level_of_detail) || IsSmeared(plane, planes, samples);
+        IsRough(plane, planes, samples, tolerances) || IsSmeared(plane, planes, samples);
     if (!smeared) kept.push_back(plane);
   }
   planes = std::move(kept);

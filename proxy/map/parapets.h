@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "proxy/cloud/samples.h"
+#include "proxy/cloud/scale.h"
 #include "proxy/map/outlines.h"
 #include "proxy/planes/plane.h"
 
@@ -27,11 +28,12 @@ void DropRims(const Samples& samples, const MapBuilding& building, double width,
 //  - strips up to 1.5 m wide, steeper than 53 degrees, that lead from a level roof up to another:
 //    the smeared walls of what stands on it. Below mansards there is no roof.
 //  - what is rougher than roofs are: thicker than an eighth of the level of detail (rms), while its
-//    normals scatter by more than 10 degrees, and by 6 more than those of a roof twice its size.
+//    normals scatter by more than 10 degrees, and by 6 more than those of a roof twice its size, in
+//    clouds as dense as details ask for.
 //    Those of heads of staircases scatter by 2 to 9 degrees, in clouds of made towns from their
 //    photos, those of what is smeared around them by 9 to 20.
 // Units are metres, z is up.
-void DropParapets(const Samples& samples, const MapBuilding& building, double level_of_detail,
+void DropParapets(const Samples& samples, const MapBuilding& building, const Tolerances& tolerances,
                   std::vector<Plane>& planes);
 
 }  // namespace stucco

@@ -172,7 +172,7 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
     return plane.points.empty() || plane.normal.z() < kRoofNormal;
   });
   for (Plane& plane : planes) RefitToDensest(evidence.samples, kFlat_m, plane);
-  DropParapets(evidence.samples, building.building, tolerances.level_of_detail, planes);
+  DropParapets(evidence.samples, building.building, tolerances, planes);
   std::stable_sort(planes.begin(), planes.end(),
                    [](const Plane& a, const Plane& b) { return a.area > b.area; });
   evidence.planes = std::move(planes);

@@ -45,9 +45,10 @@ class ParapetsTest : public testing::Test {
     }
   }
 
-  size_t LeftAfterDrop() const {
+  size_t LeftAfterDrop(double coarseness = 1) const {
     std::vector<Plane> planes = planes_;
-    DropParapets(samples_, building_, kLevelOfDetail_m, planes);
+    DropParapets(samples_, building_,
+                 {.level_of_detail = kLevelOfDetail_m, .coarseness = coarseness}, planes);
     return planes.size();
   }
 
@@ -116,6 +117,8 @@ TEST_F(ParapetsTest, WhatIsRougherThanTheRoofIsSmeared) {
   EXPECT_EQ(LeftAfterDrop(), 2u);
   AddRough(6, 8, 13, 0.06);
   EXPECT_EQ(LeftAfterDrop(), 2u);
+  constexpr double kThin = 1.2;
+  EXPECT_EQ(LeftAfterDrop(kThin), 3u);
 }
 
 // Where a cloud is thin, normals are off near edges.
