@@ -14,9 +14,9 @@
 #include "survey/files.h"
 #include "texture/epoch/decide.h"
 #include "texture/epoch/merge.h"
+#include "texture/epoch/new_plants.h"
 #include "texture/grid/grid.h"
 #include "texture/painting/align.h"
-#include "texture/selection/foliage.h"
 
 namespace stucco {
 namespace {
@@ -253,15 +253,6 @@ Compared Compare(const EpochFacetInput& input, const FacetPicture& after, const 
   return compared;
 }
 
-// Plants that stand before the facet now, and did not then, are not the facet.
-void LeaveOutNewLeaves(const FacetPicture& before, FacetPicture& after) {
-  const std::vector<uint8_t> now = LeafTexels(after.picture, PaintedTexels(after));
-  const std::vector<uint8_t> then = LeafTexels(before.picture, PaintedTexels(before));
-  for (size_t i = 0; i < now.size(); ++i) {
-    if (now[i] && !then[i] && IsPainted(after.labels[i])) after.labels[i] = 255;
-  }
-}
-
 // What of a replaced picture no new photo shows although it is no longer as it was.
 std::vector<uint8_t> OutdatedTexels(const FacetChanges& changes, const FacetPicture& before,
                                     std::span<const uint8_t> take, const Canvas& canvas) {
@@ -322,13 +313,13 @@ EpochPicture MakeEpochPicture(EpochFacetInput input, const EpochStyle& style) {
     return result;
   }
   ApplyLevel(input.level, after->picture);
-  if (input.before) LeaveOutNewLeaves(*input.before, *after);
+  const bool hidden = input.before && LeaveOutNewPlants(*input.before, *after);
   Canvas canvas{GridOf(input.painted.facet, input.facet), {}};
   canvas.mask = RasterizeFacet(input.facet, canvas.grid);
   const Compared compared = Compare(input, *after, canvas, style, result);
   const FacetDecision decision = Decide(style.replace, compared.evidence);
   result.found.choice = decision.choice;
-  result.found.why = decision.why;
+  result.found.why = hidden ? "what new photos show of it are plants before it" : decision.why;
   if (decision.choice == FacetChoice::kKept) return result;
   const std::vector<uint8_t> all = PaintedTexels(*after);
   if (!input.before) {

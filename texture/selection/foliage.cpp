@@ -300,13 +300,7 @@ std::vector<uint8_t> LeafTexels(const Image& picture, const std::vector<uint8_t>
   }
   const std::vector<uint8_t> leafy = LeafMask(cells, raster);
   std::vector<uint8_t> out(painted.size(), 0);
-  size_t leaves = 0, all = 0;
-  for (size_t i = 0; i < out.size(); ++i) {
-    out[i] = painted[i] && leafy[cell_of(i)];
-    leaves += out[i];
-    all += painted[i] != 0;
-  }
-  if (2 * leaves > all) std::ranges::fill(out, uint8_t{0});
+  for (size_t i = 0; i < out.size(); ++i) out[i] = painted[i] && leafy[cell_of(i)];
   return out;
 }
 

@@ -23,8 +23,8 @@ namespace stucco {
 // changes.
 void DropFoliage(const FacetRaster& raster, double before, std::vector<RasterPicture>& pictures);
 
-// The texels of a picture that show leaves, where `painted` is not zero; told in cells of 8 texels.
-// None where they would be more than half of what is painted: then green is the facade's own.
+// The texels of a picture that show leaves, or are as green and restless as they are, where
+// `painted` is not zero; told in cells of 8 texels.
 std::vector<uint8_t> LeafTexels(const Image& picture, const std::vector<uint8_t>& painted);
 
 }  // namespace stucco
