@@ -101,23 +101,33 @@ bool HasFootprintBefore(const MapBuilding& footprint, const Eigen::Vector3d& p,
   return DistanceTo(footprint, (p + kDeepestLoggia_m * normal).head<2>()) == 0;
 }
 
-// Adds the upright planes among the samples by their indices, along the walls where they nearly
-// are, and which photos saw them from where.
-void AddSteps(const UprightSurvey& survey, const std::vector<int>& indices,
-              const MapBuilding& footprint, std::span<const Plane> walls,
-              const ProxyOptions& options, RoofEvidence& evidence) {
+// Upright planes among the samples by their indices, along the walls where they nearly are; their
+// points are places in `indices`.
+std::vector<RoofStep> StepsAmong(const UprightSurvey& survey, const std::vector<int>& indices,
+                                 std::span<const Plane> walls, const ProxyOptions& options) {
   const Samples samples = SubsetOf(survey.samples, indices);
+  std::vector<RoofStep> steps;
   for (Plane& plane : Detect(samples, survey.tolerances, options)) {
     if (!LooksLikeWall(plane.normal) || plane.points.empty()) continue;
-    for (const int i : plane.points) {
-      const Eigen::Vector3d* eye = survey.samples.EyeOf(indices[i]);
-      const Eigen::Vector3d& p = samples.positions[i];
-      if (eye && HasFootprintBefore(footprint, p, plane.normal))
-        evidence.sights.push_back({p, *eye});
-    }
     TurnAlong(walls, samples, plane);
-    evidence.steps.push_back(StepOf(std::move(plane), samples));
+    steps.push_back(StepOf(std::move(plane), samples));
   }
+  return steps;
+}
+
+// From where photos saw what of these steps lies in no loggia.
+std::vector<SightLine> SightsOf(std::span<const RoofStep> steps, const std::vector<int>& indices,
+                                const Samples& samples, const MapBuilding& footprint) {
+  std::vector<SightLine> sights;
+  for (const RoofStep& step : steps) {
+    for (const int point : step.plane.points) {
+      const int i = indices[point];
+      const Eigen::Vector3d& p = samples.positions[i];
+      const Eigen::Vector3d* eye = samples.EyeOf(i);
+      if (eye && HasFootprintBefore(footprint, p, step.plane.normal)) sights.push_back({p, *eye});
+    }
+  }
+  return sights;
 }
 
 }  // namespace
@@ -176,7 +186,8 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
   std::stable_sort(planes.begin(), planes.end(),
                    [](const Plane& a, const Plane& b) { return a.area > b.area; });
   evidence.planes = std::move(planes);
-  AddSteps(survey, steps, building.building, directions, options, evidence);
+  evidence.steps = StepsAmong(survey, steps, directions, options);
+  evidence.sights = SightsOf(evidence.steps, steps, upright, building.building);
   return evidence;
 }
 
