@@ -85,15 +85,13 @@ bool IsBeforeWall(const RoofEvidence& evidence, const Eigen::Vector2d& p) {
 class HiddenFoot {
  public:
   HiddenFoot(const RoofEvidence& evidence, const PlaneRaster& raster, const std::vector<char>& open)
-      : raster_(raster), open_(open), covered_(open.size(), 0) {
+      : raster_(raster),
+        open_(open),
+        walls_(MainWalls(evidence.steps, kReach_m)),
+        covered_(open.size(), 0) {
     for (const Eigen::Vector3d& p : evidence.samples.positions) {
       const int at = raster.IndexAt(p.head<2>());
       if (at >= 0 && open[at] == 0) covered_[at] = 1;
-    }
-    for (const RoofStep& step : evidence.steps) {
-      const bool of_other = std::ranges::any_of(
-          evidence.steps, [&](const RoofStep& other) { return IsOf(step, other); });
-      if (!of_other) walls_.push_back(&step);
     }
   }
 
@@ -107,14 +105,6 @@ class HiddenFoot {
 
  private:
   static constexpr double kReach_m = 3;
-
-  // Panes and balconies are of the larger plane beside them.
-  static bool IsOf(const RoofStep& step, const RoofStep& other) {
-    return other.plane.area > step.plane.area &&
-           other.plane.normal.dot(step.plane.normal) > kSameWay &&
-           std::abs(other.plane.offset - step.plane.offset) < kReach_m && other.from < step.to &&
-           step.from < other.to;
-  }
 
   // All the way to the wall, but for its eaves.
   bool IsBare(const RoofStep& step, const Eigen::Vector2d& p, double before) const {

@@ -116,21 +116,39 @@ std::vector<RoofStep> StepsAmong(const UprightSurvey& survey, const std::vector<
 }
 
 // From where photos saw what of these steps lies in no loggia.
-std::vector<SightLine> SightsOf(std::span<const RoofStep> steps, const std::vector<int>& indices,
+std::vector<SightLine> SightsOf(const std::vector<RoofStep>& steps, const std::vector<int>& indices,
                                 const Samples& samples, const MapBuilding& footprint) {
+  constexpr double kBeside_m = 3;
   std::vector<SightLine> sights;
-  for (const RoofStep& step : steps) {
-    for (const int point : step.plane.points) {
+  for (const RoofStep* wall : MainWalls(steps, kBeside_m)) {
+    for (const int point : wall->plane.points) {
       const int i = indices[point];
       const Eigen::Vector3d& p = samples.positions[i];
       const Eigen::Vector3d* eye = samples.EyeOf(i);
-      if (eye && HasFootprintBefore(footprint, p, step.plane.normal)) sights.push_back({p, *eye});
+      if (eye && HasFootprintBefore(footprint, p, wall->plane.normal)) sights.push_back({p, *eye});
     }
   }
   return sights;
 }
 
 }  // namespace
+
+std::vector<const RoofStep*> MainWalls(const std::vector<RoofStep>& steps, double beside) {
+  constexpr double kSameWay = 0.9;  // cosine
+  const auto is_of = [&](const RoofStep& step, const RoofStep& wall) {
+    return wall.plane.area > step.plane.area &&
+           wall.plane.normal.dot(step.plane.normal) > kSameWay &&
+           std::abs(wall.plane.offset - step.plane.offset) < beside && wall.from < step.to &&
+           step.from < wall.to;
+  };
+  std::vector<const RoofStep*> walls;
+  for (const RoofStep& step : steps) {
+    const bool of_other =
+        std::ranges::any_of(steps, [&](const RoofStep& other) { return is_of(step, other); });
+    if (!of_other) walls.push_back(&step);
+  }
+  return walls;
+}
 
 Samples SubsetOf(const Samples& samples, const std::vector<int>& indices) {
   Samples subset;

@@ -30,6 +30,10 @@ struct RoofStep {
   }
 };
 
+// The steps that are not panes, loggias or balconies of a larger one: parallel to it, within
+// `beside` metres of it and along it.
+std::vector<const RoofStep*> MainWalls(const std::vector<RoofStep>& steps, double beside);
+
 // A photo's look at a point of an upright plane.
 struct SightLine {
   Eigen::Vector3d wall;
@@ -41,7 +45,7 @@ struct RoofEvidence {
   Samples samples;            // above the ground and not far below the tops of its walls
   std::vector<Plane> planes;  // roofs, by falling area; `points` are indices into `samples`
   std::vector<RoofStep> steps;
-  std::vector<SightLine> sights;      // of steps two metres or more inside of the outline
+  std::vector<SightLine> sights;      // to main walls two metres or more inside of the outline
   std::vector<Eigen::Vector2d> open;  // inside of the outline, where the ground shows
   double seen_m2 = 0;  // of the footprint but for its rim, where the cloud has anything
   double bare_m2 = 0;  // of it, where the cloud shows the ground itself

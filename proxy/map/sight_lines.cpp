@@ -81,8 +81,9 @@ std::vector<char> SeenThrough(const RoofEvidence& evidence, const PlaneRaster& r
       const Eigen::Vector3d p = sight.wall + way / far * ray;
       const int at = raster.IndexAt(p.head<2>());
       if (at < 0 || p.z() > roof.At(p.head<2>()) - kBelow_m) break;
-      blocked = overhead.roofed[at] != 0 && way > kEaves_m;
-      if (p.z() < overhead.lowest[at] - kThin_m) below.push_back(at);
+      const bool roofed = overhead.roofed[at] != 0;
+      blocked = roofed && way > kEaves_m;
+      if (!roofed && p.z() < overhead.lowest[at] - kThin_m) below.push_back(at);
     }
     if (blocked) continue;
     for (const int at : below) ++counts[at];

@@ -52,7 +52,8 @@ TEST_F(SightLines, ShowThatNothingStandsBeforeAWall) {
 TEST_F(SightLines, PassStraysAndEaves) {
   AddRoof(4, 4.7, 10);
   evidence_.samples.positions.emplace_back(5, 7, 10);
-  EXPECT_TRUE(IsThrough(5, 4.5));
+  EXPECT_FALSE(IsThrough(5, 4.4));
+  EXPECT_TRUE(IsThrough(5, 5.1));
   EXPECT_TRUE(IsThrough(5, 7));
 }
 
