@@ -85,10 +85,7 @@ bool IsBeforeWall(const RoofEvidence& evidence, const Eigen::Vector2d& p) {
 class HiddenFoot {
  public:
   HiddenFoot(const RoofEvidence& evidence, const PlaneRaster& raster, const std::vector<char>& open)
-      : raster_(raster),
-        open_(open),
-        walls_(MainWalls(evidence.steps, kReach_m)),
-        covered_(open.size(), 0) {
+      : raster_(raster), open_(open), walls_(MainWalls(evidence.steps)), covered_(open.size(), 0) {
     for (const Eigen::Vector3d& p : evidence.samples.positions) {
       const int at = raster.IndexAt(p.head<2>());
       if (at >= 0 && open[at] == 0) covered_[at] = 1;

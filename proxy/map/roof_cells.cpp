@@ -78,7 +78,7 @@ Costs CostsOf(const RoofEvidence& evidence, std::span<const int> planes, const C
   }
   Costs costs(cells, std::vector<double>(roofs.size(), 0));
   std::vector<double> weights(cells, 0), most(cells, 0), counts(cells, 0);
-  const double enough = 0.5 * std::pow(cover.raster.cell / tolerances.spacing, 2);
+  const double enough = EnoughSamples(cover.raster.cell, tolerances.spacing);
   const double farthest = 2 * tolerances.level_of_detail;
   for (size_t i = 0; i < evidence.samples.size(); ++i) {
     const Eigen::Vector3d& p = evidence.samples.positions[i];

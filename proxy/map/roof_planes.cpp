@@ -118,9 +118,8 @@ std::vector<RoofStep> StepsAmong(const UprightSurvey& survey, const std::vector<
 // From where photos saw what of these steps lies in no loggia.
 std::vector<SightLine> SightsOf(const std::vector<RoofStep>& steps, const std::vector<int>& indices,
                                 const Samples& samples, const MapBuilding& footprint) {
-  constexpr double kBeside_m = 3;
   std::vector<SightLine> sights;
-  for (const RoofStep* wall : MainWalls(steps, kBeside_m)) {
+  for (const RoofStep* wall : MainWalls(steps)) {
     for (const int point : wall->plane.points) {
       const int i = indices[point];
       const Eigen::Vector3d& p = samples.positions[i];
@@ -133,12 +132,13 @@ std::vector<SightLine> SightsOf(const std::vector<RoofStep>& steps, const std::v
 
 }  // namespace
 
-std::vector<const RoofStep*> MainWalls(const std::vector<RoofStep>& steps, double beside) {
+std::vector<const RoofStep*> MainWalls(const std::vector<RoofStep>& steps) {
   constexpr double kSameWay = 0.9;  // cosine
+  constexpr double kBesideWall_m = 3;
   const auto is_of = [&](const RoofStep& step, const RoofStep& wall) {
     return wall.plane.area > step.plane.area &&
            wall.plane.normal.dot(step.plane.normal) > kSameWay &&
-           std::abs(wall.plane.offset - step.plane.offset) < beside && wall.from < step.to &&
+           std::abs(wall.plane.offset - step.plane.offset) < kBesideWall_m && wall.from < step.to &&
            step.from < wall.to;
   };
   std::vector<const RoofStep*> walls;
@@ -148,6 +148,10 @@ std::vector<const RoofStep*> MainWalls(const std::vector<RoofStep>& steps, doubl
     if (!of_other) walls.push_back(&step);
   }
   return walls;
+}
+
+double EnoughSamples(double side, double spacing) {
+  return 0.5 * std::pow(side / spacing, 2);
 }
 
 Samples SubsetOf(const Samples& samples, const std::vector<int>& indices) {

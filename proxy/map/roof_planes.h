@@ -31,8 +31,12 @@ struct RoofStep {
 };
 
 // The steps that are not panes, loggias or balconies of a larger one: parallel to it, within
-// `beside` metres of it and along it.
-std::vector<const RoofStep*> MainWalls(const std::vector<RoofStep>& steps, double beside);
+// three metres of it and along it.
+std::vector<const RoofStep*> MainWalls(const std::vector<RoofStep>& steps);
+
+// Samples of a roof in a square of this side, by half of what the cloud's spacing promises: with
+// fewer, what grazing views leave there is as likely wrong as right.
+double EnoughSamples(double side, double spacing);
 
 // A photo's look at a point of an upright plane.
 struct SightLine {

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace stucco {
@@ -56,7 +55,7 @@ Overhead OverheadOf(const RoofEvidence& evidence, const LowestRoof& roof, const 
     overhead.lowest[at] = std::min(overhead.lowest[at], static_cast<float>(p.z()));
     if (p.z() > roof.At(p.head<2>()) - kBelow_m) ++counts[at];
   }
-  const double enough = 0.5 * std::pow(raster.cell / spacing, 2);
+  const double enough = EnoughSamples(raster.cell, spacing);
   for (size_t at = 0; at < cells; ++at) overhead.roofed[at] = counts[at] >= enough ? 1 : 0;
   return overhead;
 }

@@ -325,6 +325,13 @@ class Comparison {
 
 }  // namespace
 
+std::vector<uint8_t> PaintedTexels(const FacetPicture& facet) {
+  std::vector<uint8_t> painted;
+  painted.reserve(facet.labels.size());
+  for (const uint8_t label : facet.labels) painted.push_back(IsPainted(label));
+  return painted;
+}
+
 bool FacetChanges::IsOutdated(int x, int y, const uint8_t* before) const {
   const Eigen::Vector3f& colour =
       outdated[static_cast<size_t>(y / kChangeBlock) * block_columns + x / kChangeBlock];

@@ -23,6 +23,9 @@ inline bool IsPainted(uint8_t label) {
   return label != 0 && label != 255;
 }
 
+// By texel, whether a photo painted it.
+std::vector<uint8_t> PaintedTexels(const FacetPicture& facet);
+
 // Side of the blocks that are compared, texels.
 inline constexpr int kChangeBlock = 16;
 

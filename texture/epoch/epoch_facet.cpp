@@ -66,13 +66,6 @@ double ShiftBetween(const FacetPicture& before, const FacetPicture& after, doubl
   return alignment.before_px < 0 ? -1 : alignment.before_px * step;
 }
 
-std::vector<uint8_t> PaintedTexels(const FacetPicture& picture) {
-  std::vector<uint8_t> painted;
-  painted.reserve(picture.labels.size());
-  for (const uint8_t label : picture.labels) painted.push_back(IsPainted(label));
-  return painted;
-}
-
 // Of the texels inside the facet, those that are set in both.
 double ShareOf(std::span<const uint8_t> a, std::span<const uint8_t> b,
                std::span<const uint8_t> mask) {

@@ -10,21 +10,10 @@
 #include "texture/selection/foliage.h"
 
 namespace stucco {
-namespace {
-
-std::vector<uint8_t> LeavesOf(const FacetPicture& picture) {
-  std::vector<uint8_t> painted;
-  painted.reserve(picture.labels.size());
-  for (const uint8_t label : picture.labels) painted.push_back(IsPainted(label));
-  return LeafTexels(picture.picture, painted);
-}
-
-}  // namespace
-
 bool LeaveOutNewPlants(const FacetPicture& before, FacetPicture& after) {
   assert(before.labels.size() == after.labels.size());
-  const std::vector<uint8_t> now = LeavesOf(after);
-  const std::vector<uint8_t> then = LeavesOf(before);
+  const std::vector<uint8_t> now = LeafTexels(after.picture, PaintedTexels(after));
+  const std::vector<uint8_t> then = LeafTexels(before.picture, PaintedTexels(before));
   size_t shown = 0, plants = 0;
   for (size_t i = 0; i < now.size(); ++i) {
     shown += IsPainted(after.labels[i]);
