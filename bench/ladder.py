@@ -30,7 +30,8 @@ import steps
 import surveys
 
 BENCH = pathlib.Path(__file__).parent
-HEAD = ["scene", "rung", "posed", "model error (m)", "its walls (m)", "walls complete",
+HEAD = ["scene", "rung", "posed", "model error (m)", "its walls (m)", "walls seen (m)",
+        "walls complete",
         "roofs (m)", "roofs complete", "buildings complete", "closed",
         "facets / truth", "of them on roofs", "ids", "CPU s"]
 PICTURES = ["painted", "SSIM on planes", "one ideal photo", "shift (m)"]
@@ -227,6 +228,7 @@ class Ladder:
                 loop.of_all(poses["posed"], poses["total"]) if rung == "own" else "truth",
                 surveys.number(proxy["building_error95_m"], 3),
                 surveys.number(proxy["wall_error95_m"], 3),
+                surveys.number(proxy["wall_seen95_m"], 3),
                 loop.percent(proxy["wall_completeness"]),
                 surveys.number(proxy["roof_error95_m"], 3),
                 loop.percent(proxy["roof_completeness"]),

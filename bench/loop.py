@@ -33,7 +33,7 @@ FLIGHT = ["scene", "method", "photos", "hovers", "length (m)", "time (min)", "ba
           "Q_s", "Q_d", "Q_u", "Q_c"]
 GEOMETRY = ["scene", "method", "posed", "position (mm)", "rotation (deg)", "georeferenced (m)",
             "cloud error (m)", "complete: seen", "all", "its walls: seen", "model error (m)",
-            "complete: seen", "all", "its walls (m)", "complete: seen", "watertight",
+            "complete: seen", "all", "its walls (m)", "of seen (m)", "complete: seen", "watertight",
             "facets / truth", "of them on roofs", "ids"]
 PICTURES = ["scene", "method", "painted", "SSIM", "one ideal photo", "on planes", "one ideal photo",
             "MS-SSIM", "PSNR", "GMSD", "FLIP", "LPIPS", "misregistration (px)", "(m)",
@@ -70,7 +70,8 @@ def geometry_cells(figures):
             percent(dense["wall_completeness"]),
             surveys.number(proxy["building_error95_m"], 3),
             percent(proxy["building_completeness"]), percent(proxy["building_completeness_all"]),
-            surveys.number(proxy["wall_error95_m"], 3), percent(proxy["wall_completeness"]),
+            surveys.number(proxy["wall_error95_m"], 3),
+            surveys.number(proxy["wall_seen95_m"], 3), percent(proxy["wall_completeness"]),
             of_all(proxy["watertight"], proxy["truth_buildings"]),
             of_all(proxy["facets"], proxy["truth_facets"]),
             str(proxy["superstructure_facets"]), percent(proxy["facade_id_rate"])]

@@ -38,9 +38,9 @@ std::string PosesText(const evaluate::PoseFigures& poses) {
 }
 
 std::string SurfaceText(const char* name, const SurfaceFigures& figures) {
-  return fmt::format("{:<11} {:>12} {:>14} {:>14} {:>14}\n", name, Metres(figures.error95_m),
-                     Percent(figures.completeness), Percent(figures.completeness_of_three),
-                     Percent(figures.completeness_all));
+  return fmt::format("{:<11} {:>12} {:>14} {:>14} {:>14} {:>14}\n", name, Metres(figures.error95_m),
+                     Metres(figures.seen95_m), Percent(figures.completeness),
+                     Percent(figures.completeness_of_three), Percent(figures.completeness_all));
 }
 
 std::string ProxyText(const evaluate::ProxyFigures& proxy) {
@@ -79,9 +79,13 @@ std::string SurfacesText(const Evaluation& evaluation) {
   rows += PartsText("cloud", evaluation.dense) + PartsText("mesh", evaluation.mesh) +
           PartsText("model", evaluation.proxy.surface);
   if (rows.empty()) return "";
-  return fmt::format("\n{:<11} {:>12} {:>14} {:>14} {:>14}\n", "", "95 % below", "complete: seen",
-                     "three photos", "of everything") +
-         rows + fmt::format("(complete: within {:g} m)\n", evaluation.tolerance_m) +
+  return fmt::format("\n{:<11} {:>12} {:>14} {:>14} {:>14} {:>14}\n", "", "95 % below",
+                     "95 % of seen", "complete: seen", "three photos", "of everything") +
+         rows +
+         fmt::format(
+             "(95 % of the result, and of what photos show, lie nearer to the other; "
+             "complete: within {:g} m)\n",
+             evaluation.tolerance_m) +
          (evaluation.proxy.truth_buildings > 0 ? "\n" + ProxyText(evaluation.proxy) : "");
 }
 

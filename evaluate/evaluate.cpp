@@ -25,6 +25,7 @@
 #include "simulate/scene/scene_folder.h"
 #include "survey/colmap_io.h"
 #include "survey/error.h"
+#include "survey/plan_io.h"
 #include "survey/survey_folder.h"
 
 namespace stucco::evaluate {
@@ -152,9 +153,15 @@ class Evaluator {
   void MeasureProxy(const SceneShape& shape) {
     const Proxy proxy = ReadProxy(request_.survey / kFacetsFile);
     const auto photos = DeliveredPhotos(truth_.flight);
-    evaluation_.proxy =
-        CompareProxy(proxy, *truth_from_world_, {truth_.facets, shape.relief, shape.index, photos},
-                     tolerance(), threads());
+    std::vector<std::string> planned;
+    if (fs::exists(request_.survey / kPlanFile)) {
+      for (const PlannedFacade& facade : ReadPlan(request_.survey / kPlanFile).facades) {
+        planned.push_back(facade.id);
+      }
+    }
+    evaluation_.proxy = CompareProxy(proxy, *truth_from_world_,
+                                     {truth_.facets, shape.relief, shape.index, photos, planned},
+                                     tolerance(), threads());
   }
 
   double tolerance() const { return request_.tolerance_m; }

@@ -45,6 +45,7 @@ Json PictureJson(const PictureFigures& figures) {
 
 void AddSurface(const SurfaceFigures& figures, const std::string& prefix, Json& json) {
   json[prefix + "error95_m"] = Number(figures.error95_m);
+  json[prefix + "seen95_m"] = Number(figures.seen95_m);
   json[prefix + "completeness"] = Number(figures.completeness);
   json[prefix + "completeness_of_three"] = Number(figures.completeness_of_three);
   json[prefix + "completeness_all"] = Number(figures.completeness_all);

@@ -28,6 +28,7 @@ struct PoseFigures {
 
 struct SurfaceFigures {
   double error95_m = kNotMeasured;  // 95 % of the result lies nearer to the truth
+  double seen95_m = kNotMeasured;   // 95 % of what photos show lies nearer to a surface
   // Share of the truth's area with the result nearby: of what the photos show, of what at least
   // three do, and of everything.
   double completeness = kNotMeasured;
@@ -53,7 +54,9 @@ struct ProxyFigures {
   int superstructure_facets = 0;  // of them, of what stands on roofs and the truth has not
   int truth_facets = 0;
   PartFigures surface;
-  double facade_id_rate = kNotMeasured;  // share of the truth's wall area whose facet has its id
+  // Share of the truth's wall area whose facet has its id, or none where the plan has no such
+  // facade.
+  double facade_id_rate = kNotMeasured;
 };
 
 struct PictureFigures {

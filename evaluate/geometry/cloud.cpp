@@ -96,15 +96,6 @@ ResultPoints MeasurePoints(std::span<const Vector3d> points, const SceneIndex& s
 
 }  // namespace
 
-std::vector<char> FoundOn(const SurfaceIndex& result, const TruthPoints& truth, double tolerance_m,
-                          int threads) {
-  std::vector<char> found;
-  for (const double distance : Distances(Positions(truth.points), result, threads)) {
-    found.push_back(distance <= tolerance_m ? 1 : 0);
-  }
-  return found;
-}
-
 PartFigures CompareCloud(const std::filesystem::path& ply, const Similarity& truth_from_world,
                          const SceneIndex& scene, const TruthPoints& truth,
                          const CompareOptions& options) {
@@ -124,7 +115,8 @@ PartFigures CompareSurface(const SurfaceIndex& result, const SceneIndex& scene,
                            const TruthPoints& truth, const CompareOptions& options) {
   const auto points = Positions(SamplePoints(result.surface(), kSurfaceSamples, kCloudSeed));
   return FiguresOf(MeasurePoints(points, scene, options.threads), truth,
-                   FoundOn(result, truth, options.tolerance_m, options.threads));
+                   Distances(Positions(truth.points), result, options.threads),
+                   options.tolerance_m);
 }
 
 }  // namespace stucco::evaluate

@@ -21,10 +21,6 @@ struct SceneIndex {
 // Ground farther than this from every building of the truth is none of the survey's.
 inline constexpr double kGroundReachM = 15;
 
-// Which points of the truth have a surface within the tolerance: 1 or 0 by point.
-std::vector<char> FoundOn(const SurfaceIndex& result, const TruthPoints& truth, double tolerance_m,
-                          int threads);
-
 struct CompareOptions {
   double tolerance_m = 0.1;  // of completeness
   int threads = 1;

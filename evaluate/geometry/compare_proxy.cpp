@@ -55,14 +55,14 @@ PartFigures MeasureSurfaces(const Proxy& result, const ProxyTruth& truth, double
   wanted.showing = PhotosThatShow(wanted.points, truth.photos, truth.scene.everything,
                                   kPhotosToConfirm, threads);
   const SurfaceIndex of_result(VisibleSurface(result));
-  const std::vector<char> found = FoundOn(of_result, wanted, tolerance_m, threads);
+  const std::vector<double> off = Distances(Positions(wanted.points), of_result, threads);
   Append(truth.relief, planes);
   const SurfaceIndex of_truth(std::move(planes));
   const auto made = SamplePoints(Surveyed(of_result.surface(), buildings), kSamples, kSampleSeed);
   ResultPoints measured;
   measured.distances = Distances(Positions(made), of_truth, threads);
   for (const SurfacePoint& point : made) measured.groups.push_back(point.group);
-  return FiguresOf(measured, wanted, found);
+  return FiguresOf(measured, wanted, off, tolerance_m);
 }
 
 void CountBuildings(const Proxy& result, ProxyFigures& figures) {
@@ -83,13 +83,21 @@ bool IsPartOf(const std::string& facade, const Facet& facet) {
          std::find(planned.begin(), planned.end(), facade) != planned.end();
 }
 
-double FacadeIdRate(const std::vector<TruthFacet>& matched) {
+// Whether the facet has the id that the plan gives the facade: what no plan knows has none.
+bool IsNamedAs(const std::string& facade, const Facet& facet,
+               std::span<const std::string> planned) {
+  const bool in_plan = planned.empty() || std::ranges::find(planned, facade) != planned.end();
+  return in_plan ? IsPartOf(facade, facet) : facet.planned_facades.empty();
+}
+
+double FacadeIdRate(const std::vector<TruthFacet>& matched, std::span<const std::string> planned) {
   double named = 0, all = 0;
   for (const TruthFacet& wall : matched) {
     if (!IsFacade(*wall.truth)) continue;
     double with_id = 0;
     for (const FacetMatch& match : wall.matches) {
-      if (IsPartOf(FacadeName(*wall.truth), *match.result)) with_id += match.overlap_m2;
+      const bool is_named = IsNamedAs(FacadeName(*wall.truth), *match.result, planned);
+      if (is_named) with_id += match.overlap_m2;
     }
     // What is below the ground need not be there. Overlaps are sums of many pieces: what is all of
     // it but for rounding is all of it.
@@ -131,7 +139,8 @@ ProxyFigures CompareProxy(const Proxy& result, const Similarity& truth_from_resu
   figures.superstructure_facets =
       CountSuperstructures(moved, VisibleSurface(truth.facets), SurfaceIndex(truth.relief));
   figures.surface = MeasureSurfaces(moved, truth, tolerance_m, threads);
-  figures.facade_id_rate = FacadeIdRate(MatchFacets(result, truth.facets, truth_from_result));
+  figures.facade_id_rate =
+      FacadeIdRate(MatchFacets(result, truth.facets, truth_from_result), truth.planned_facades);
   return figures;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "evaluate/geometry/cloud.h"
 #include "simulate/flight/flight_folder.h"
@@ -17,6 +18,7 @@ struct ProxyTruth {
   const Surface& relief;  // the same buildings and ground with all they have standing out
   const SceneIndex& scene;
   std::span<const simulate::FlownPhoto* const> photos;
+  std::span<const std::string> planned_facades = {};  // ids of the plan's; empty: all are known
 };
 
 // The undersides of buildings, which nothing sees, count for validity alone. Validity is that of

@@ -13,6 +13,17 @@ namespace {
 
 using IsPart = std::function<bool(int group)>;
 
+PartFigures OfParts(const std::function<SurfaceFigures(const IsPart&)>& of) {
+  const auto of_class = [&](FacetClass facet_class) {
+    return of([=](int group) { return group == static_cast<int>(facet_class); });
+  };
+  return {.all = of([](int) { return true; }),
+          .building = of(IsOfBuilding),
+          .wall = of_class(FacetClass::kWall),
+          .roof = of_class(FacetClass::kRoof),
+          .ground = of_class(FacetClass::kGround)};
+}
+
 SurfaceFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
                          std::span<const char> found, const IsPart& is_part) {
   SurfaceFigures figures;
@@ -42,15 +53,24 @@ SurfaceFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
 PartFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
                       std::span<const char> found) {
   assert(truth.showing.size() == truth.points.size() && found.size() == truth.points.size());
-  const auto of = [&](const IsPart& is_part) { return FiguresOf(result, truth, found, is_part); };
-  const auto of_class = [&](FacetClass facet_class) {
-    return of([=](int group) { return group == static_cast<int>(facet_class); });
-  };
-  return {.all = of([](int) { return true; }),
-          .building = of(IsOfBuilding),
-          .wall = of_class(FacetClass::kWall),
-          .roof = of_class(FacetClass::kRoof),
-          .ground = of_class(FacetClass::kGround)};
+  return OfParts([&](const IsPart& is_part) { return FiguresOf(result, truth, found, is_part); });
+}
+
+PartFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
+                      std::span<const double> distances, double tolerance_m) {
+  assert(truth.showing.size() == truth.points.size() && distances.size() == truth.points.size());
+  std::vector<char> found;
+  found.reserve(distances.size());
+  for (const double distance : distances) found.push_back(distance <= tolerance_m ? 1 : 0);
+  return OfParts([&](const IsPart& is_part) {
+    SurfaceFigures figures = FiguresOf(result, truth, found, is_part);
+    std::vector<double> of_seen;
+    for (size_t i = 0; i < distances.size(); ++i) {
+      if (is_part(truth.points[i].group) && truth.showing[i] > 0) of_seen.push_back(distances[i]);
+    }
+    figures.seen95_m = Quantile(std::move(of_seen), 0.95).value_or(kNotMeasured);
+    return figures;
+  });
 }
 
 }  // namespace stucco::evaluate

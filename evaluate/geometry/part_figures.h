@@ -32,4 +32,8 @@ struct ResultPoints {
 PartFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
                       std::span<const char> found);
 
+// The same where it is known how far the result is from each of the truth's points.
+PartFigures FiguresOf(const ResultPoints& result, const TruthPoints& truth,
+                      std::span<const double> distances, double tolerance_m);
+
 }  // namespace stucco::evaluate

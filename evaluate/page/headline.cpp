@@ -44,10 +44,10 @@ std::string SurfaceRow(RowOf row, const std::string& name, const SurfaceFigures&
   if (!figures.IsMeasured()) return "";
   return fmt::format(
       "<tr{}><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td>"
-      "<td class=\"num\">{}</td><td class=\"num\">{}</td></tr>",
+      "<td class=\"num\">{}</td><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>",
       row == RowOf::kPart ? " class=\"part\"" : "", name, Metres(figures.error95_m),
-      Percent(figures.completeness), Percent(figures.completeness_of_three),
-      Percent(figures.completeness_all));
+      Metres(figures.seen95_m), Percent(figures.completeness),
+      Percent(figures.completeness_of_three), Percent(figures.completeness_all));
 }
 
 // The buildings first: most of what there is near them is ground.
@@ -68,7 +68,9 @@ std::string Surfaces(const Evaluation& evaluation) {
   return fmt::format(
       "<h3>Surfaces</h3><div class=\"scroll\"><table class=\"plain surfaces\"><thead><tr><td></td>"
       "<th scope=\"col\" class=\"num\">error<br><span class=\"quiet\">95 % lie nearer</span></th>"
-      "<th scope=\"col\" class=\"num\">complete within {0}<br><span class=\"quiet\">of what "
+      "<th scope=\"col\" class=\"num\">photos show<br><span class=\"quiet\">95 % lie nearer to "
+      "the model</span></th><th scope=\"col\" class=\"num\">complete within {0}<br><span "
+      "class=\"quiet\">of what "
       "photos show</span></th><th scope=\"col\" class=\"num\">complete within {0}<br>"
       "<span class=\"quiet\">of what three show</span></th>"
       "<th scope=\"col\" class=\"num\">complete within {0}<br>"

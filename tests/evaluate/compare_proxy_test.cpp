@@ -6,7 +6,9 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "evaluate/geometry/moved.h"
 #include "evaluate/geometry/seen.h"
@@ -17,13 +19,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-ProxyFigures Compare(const Proxy& result, const Proxy& truth, double tolerance_m, int threads = 2) {
+ProxyFigures Compare(const Proxy& result, const Proxy& truth, double tolerance_m, int threads = 2,
+                     std::span<const std::string> planned = {}) {
   const simulate::Scene scene = MadeScene(truth);
   const simulate::Flight flight = MadeFlight();
   const Surface relief = ReliefOf(scene);
   const SceneIndex index{SurfaceIndex(SurfaceOf(scene)), SurfaceIndex(BuildingSurface(truth))};
   const auto photos = DeliveredPhotos(flight);
-  return CompareProxy(result, {}, {truth, relief, index, photos}, tolerance_m, threads);
+  return CompareProxy(result, {}, {truth, relief, index, photos, planned}, tolerance_m, threads);
 }
 
 Similarity Shift(const Vector3d& by) {
@@ -116,6 +119,30 @@ TEST(CompareProxy, WrongIdsAreWrong) {
   EXPECT_EQ(Compare(result, MadeTruth(), 0.05).facade_id_rate, 0);
 }
 
+// The map of the plan lacks the second house: of 216 and 288 m2 of walls.
+TEST(CompareProxy, WhatThePlanLacksHasNoId) {
+  const auto name_walls = [](Building& building) {
+    for (Facet& facet : building.facets) {
+      if (facet.facet_class == FacetClass::kWall) facet.planned_facades = {facet.id};
+    }
+  };
+  const auto rate = [&](const Proxy& result, std::span<const std::string> planned) {
+    return Compare(result, MadeTruth(), 0.05, 2, planned).facade_id_rate;
+  };
+  Proxy result = MadeTruth();
+  std::vector<std::string> planned;
+  for (const Facet& facet : result.buildings[0].facets) planned.push_back(facet.id);
+  name_walls(result.buildings[0]);
+  for (Facet& facet : result.buildings[1].facets) {
+    facet.id = "C0001/" + facet.id;
+    facet.planned_facades.clear();
+  }
+  EXPECT_NEAR(rate(result, {}), 216.0 / 504, 1e-9);
+  EXPECT_NEAR(rate(result, planned), 1, 1e-9);
+  for (Facet& facet : result.buildings[1].facets) facet.planned_facades = {planned.front()};
+  EXPECT_NEAR(rate(result, planned), 216.0 / 504, 1e-9);
+}
+
 TEST(CompareProxy, WallsToANeighbourNeedNoId) {
   Proxy result = MadeTruth();
   Proxy truth = MadeTruth();
@@ -201,6 +228,18 @@ TEST(CompareProxy, WhatNoPhotoShowsIsNotAskedFor) {
   const ProxyFigures figures = Compare(truth, all, 0.05);
   EXPECT_LT(figures.surface.roof.completeness, 0.5);
   EXPECT_EQ(figures.surface.ground.completeness, 1);
+}
+
+TEST(CompareProxy, HowFarOffIsWhatPhotosShow) {
+  Proxy moved = MadeTruth();  // 120 of 504 m2 of walls 0.3 m out, which is more than 5 %
+  moved = Moved(moved, Shift({0.3, 0, 0}));
+  EXPECT_NEAR(Compare(moved, MadeTruth(), 0.05).surface.wall.seen95_m, 0.3, 1e-9);
+  // What is too much is the error's business: a wall more between the houses.
+  Proxy more = MadeTruth();
+  more.buildings.push_back(MadeBox("B0003", {15, 0, 0}, {17, 8, 6}));
+  const SurfaceFigures& walls = Compare(more, MadeTruth(), 0.05).surface.wall;
+  EXPECT_NEAR(walls.seen95_m, 0, 1e-9);
+  EXPECT_GT(walls.error95_m, 2);
 }
 
 TEST(CompareProxy, NothingHasNoErrorAndIsNotComplete) {
