@@ -332,17 +332,27 @@ class NewFootprints {
                                    .epsilon = tolerances.epsilon,
                                    .reach = kOverhang_m / 2,
                                    .free_length = 5 * tolerances.level_of_detail});
+    const auto is_on = [](const Segment2d& edge, const CutLine& line) {
+      constexpr double kOnIt_m = 0.01;
+      return std::abs(Cross(line.direction, edge.a - line.point)) < kOnIt_m &&
+             std::abs(Cross(line.direction, edge.b - line.point)) < kOnIt_m;
+    };
     const auto is_held = [&](const Segment2d& edge) {
-      return std::ranges::any_of(creases, [&](const CutLine& line) {
-        constexpr double kOnIt_m = 0.01;
-        return std::abs(Cross(line.direction, edge.a - line.point)) < kOnIt_m &&
-               std::abs(Cross(line.direction, edge.b - line.point)) < kOnIt_m;
-      });
+      return std::ranges::any_of(creases, [&](const CutLine& line) { return is_on(edge, line); });
+    };
+    // What holds an outline may be the front of a balcony; a wall that is large, and behind which
+    // none shows, or a neighbour's is the house's own.
+    const auto is_surely_held = [&](const Segment2d& edge) {
+      for (size_t i = 0; i < creases.size(); ++i) {
+        if ((i >= walls.size() || walls[i].sure) && is_on(edge, creases[i])) return true;
+      }
+      return false;
     };
     for (const Polygon& outline : outlines) {
       Polygon squared = outline;
       for (Ring& ring : squared.rings) {
         ring = WithCorners(std::move(ring), is_held, 2 * kUnseen_m);
+        ring = WithoutSteps(std::move(ring), is_surely_held, 2 * kUnseen_m, kOverhang_m);
       }
       // Where it touches itself it is for the solid to show whether it closes.
       found.push_back(FootprintOf(IsSimple(squared) ? squared : outline, walls));

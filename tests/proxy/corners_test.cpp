@@ -59,5 +59,51 @@ TEST(WithCorners, LeavesWhatIsHeldOrTooLong) {
   EXPECT_EQ(WithCorners(nothing_held, IsAlongAnAxis, kReach_m), nothing_held);
 }
 
+TEST(WithoutSteps, TakesOffWhatNoWallHoldsAtACorner) {
+  // Eaves stand 0.5 m out over the last two metres before the corner.
+  constexpr double kOut_m = 0.5;
+  const auto held = [](const Segment2d& edge) {
+    return IsAlongAnAxis(edge) && std::max(edge.a.y(), edge.b.y()) < 6.25;
+  };
+  Ring stepped = {{0, 0}, {8, 0}, {8, 6 + kOut_m}, {6, 6 + kOut_m}, {6.1, 6}, {0, 6}};
+  for (size_t i = 0; i < stepped.size(); ++i) {
+    std::rotate(stepped.begin(), stepped.begin() + 1, stepped.end());
+    // The wall at 8 goes too far, and is held by less than all of its edge here.
+    const Ring whole = WithoutSteps(
+        stepped,
+        [&](const Segment2d& edge) { return held(edge) || (edge.a.x() == 8 && edge.b.x() == 8); },
+        kReach_m, 0.6);
+    ASSERT_THAT(whole, SizeIs(4));
+    EXPECT_DOUBLE_EQ(SignedArea(whole), 48);
+  }
+}
+
+TEST(WithoutSteps, TakesOffABalcony) {
+  const auto held = [](const Segment2d& edge) {
+    return IsAlongAnAxis(edge) && std::abs(edge.a.y() - edge.b.y()) < 0.01 && edge.a.y() < 6.5;
+  };
+  const auto walls = [&](const Segment2d& edge) {
+    return held(edge) || (edge.a.x() == edge.b.x() && (edge.a.x() == 0 || edge.a.x() == 8));
+  };
+  const Ring with_balcony = {{0, 0}, {8, 0}, {8, 6}, {5, 6}, {5, 7}, {3, 7}, {3, 6}, {0, 6}};
+  const Ring whole = WithoutSteps(with_balcony, walls, kReach_m, 1.2);
+  EXPECT_THAT(whole, SizeIs(4));
+  EXPECT_DOUBLE_EQ(SignedArea(whole), 48);
+  // One that is deeper, or longer, is something else.
+  EXPECT_THAT(WithoutSteps(with_balcony, walls, kReach_m, 0.9), SizeIs(8));
+  EXPECT_THAT(WithoutSteps(with_balcony, walls, 1.9, 1.2), SizeIs(8));
+}
+
+TEST(WithoutSteps, LeavesWhatWallsHold) {
+  const Ring stepped = {{0, 0}, {8, 0}, {8, 6}, {5, 6}, {5, 7}, {3, 7}, {3, 6}, {0, 6}};
+  const auto everything = [](const Segment2d&) { return true; };
+  const auto nothing = [](const Segment2d&) { return false; };
+  EXPECT_THAT(WithoutSteps(stepped, everything, kReach_m, 1.2), SizeIs(8));
+  EXPECT_THAT(WithoutSteps(stepped, nothing, kReach_m, 1.2), SizeIs(8));
+  // One wall alone says nothing about what goes on around the house.
+  const auto one = [](const Segment2d& edge) { return edge.a.y() == 0 && edge.b.y() == 0; };
+  EXPECT_THAT(WithoutSteps(stepped, one, kReach_m, 1.2), SizeIs(8));
+}
+
 }  // namespace
 }  // namespace stucco
