@@ -16,8 +16,10 @@
 namespace stucco {
 namespace {
 
-int Export(const Program& program, const ExportRequest& request) {
+int Export(const Program& program, ExportRequest request) {
   const CommonOptions& common = program.common;
+  request.threads = common.threads;
+  request.memory_limit_gb = common.memory_limit_gb;
   const ExportReport report = ExportSurvey(common.survey, request, program.table);
   const std::string folder = report.pictures_folder.string();
   if (common.json) {

@@ -51,6 +51,7 @@ void PrintReport(const RetextureReport& report, const CommonOptions& common) {
                        {"folder", report.folder.string()},
                        {"photos", epoch.photos.size()},
                        {"placed", placed},
+                       {"moved", report.moved ? Json(report.moved->string()) : Json()},
                        {"facets", facets}};
     PrintJson(json);
     return;
@@ -80,7 +81,14 @@ int RetextureAndPrint(const Program& program, RetextureRequest request, const Pl
 int RunAndRetexture(const Program& program, RunOptions options, const std::string& epoch) {
   const RetextureRequest request = SameAgain(program.common.survey, epoch);
   const Platform platform = CatchInterrupts();
-  if (const int failed = RunBefore(program, std::move(options), platform)) return failed;
+  std::error_code error;
+  const bool can_paint = std::filesystem::is_directory(request.photos, error);
+  // The epoch's photos are enough: without the survey's its textures are taken as they are.
+  if (can_paint && HasPhotos(program.common.survey, program.table)) {
+    if (const int failed = RunBefore(program, std::move(options), platform)) return failed;
+  } else if (can_paint && !program.common.quiet) {
+    std::cerr << "warning: the survey's photos are gone: its textures are taken as they are\n";
+  }
   return RetextureAndPrint(program, request, platform);
 }
 

@@ -29,7 +29,8 @@ std::vector<std::string> EpochsOf(const fs::path& survey) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(survey / kEpochsFolder, error)) {
     if (!fs::exists(entry.path() / fs::path(kTexturesFile).filename(), error)) continue;
-    names.push_back(entry.path().filename().string());
+    const std::string name = entry.path().filename().string();
+    if (!IsMovedAside(name)) names.push_back(name);
   }
   std::ranges::sort(names);
   return names;
@@ -62,6 +63,12 @@ std::optional<ModelLook> Others(const ModelLook& own, ModelLook epoch) {
 }
 
 }  // namespace
+
+bool IsMovedAside(const std::string& name) {
+  const size_t hyphen = name.find_last_not_of("0123456789");
+  return hyphen != std::string::npos && hyphen + 1 < name.size() && name[hyphen] == '-' &&
+         name.substr(0, hyphen).ends_with(kOldSuffix);
+}
 
 SurveyLooks ReadLooks(const fs::path& survey) {
   SurveyLooks all;

@@ -25,6 +25,9 @@ struct SurveyLooks {
   std::vector<std::string> outdated;  // epochs left out, as their pictures are of an earlier model
 };
 
+// Whether a name is of a folder that was moved aside for another: no epoch is called like that.
+bool IsMovedAside(const std::string& name);
+
 // All looks of a textured survey. Pictures that an epoch kept are its first look's, whose bytes
 // they have; all others lie on the same grids. Throws Error (kBadInput).
 SurveyLooks ReadLooks(const std::filesystem::path& survey);

@@ -23,5 +23,7 @@ inline constexpr char kReportFile[] = "report/report.html";
 inline constexpr char kEpochsFolder[] = "epochs";
 inline constexpr char kEpochFile[] = "retexture.json";  // of each of its folders
 inline constexpr char kWorkFolder[] = ".stucco";
+// And a hyphen and a number: of an output that was not the program's own and was moved aside.
+inline constexpr char kOldSuffix[] = ".old";
 
 }  // namespace stucco

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "survey/error.h"
+#include "survey/facet_picture.h"
 #include "survey/files.h"
 #include "survey/image.h"
 #include "survey/survey_folder.h"
@@ -30,6 +31,11 @@ namespace fs = std::filesystem;
 
 // Bytes per texel that comparing and joining two pictures needs, files included.
 constexpr uint64_t kBytesPerTexel = 48;
+constexpr uint64_t kBytesPerReadTexel = 13;  // of a picture and its labels, while they are read
+
+uint64_t NumTexels(const TexturedFacet& facet) {
+  return static_cast<uint64_t>(facet.width_px) * static_cast<uint64_t>(facet.height_px);
+}
 
 // All that repainting works with.
 struct Work {
@@ -44,6 +50,7 @@ struct Work {
   std::vector<FacetLook> looks = {};                // likewise
   PhotosLight light = {};                           // of the new photos, against each other
   Eigen::Vector3d level = Eigen::Vector3d::Ones();  // of all new photos, against the old pictures
+  std::vector<uint64_t> texels = {};                // of the larger picture, by facet of `old`
 
   fs::path OldFolder() const { return (context.survey / kTexturesFile).parent_path(); }
 };
@@ -57,6 +64,12 @@ std::vector<const Facet*> FacetsOf(const TextureSet& textures, const Proxy& prox
     if (facet == by_id.end()) {
       throw Error(ErrorKind::kBadInput,
                   fmt::format("{}: facet {} is not in {}", kTexturesFile, textured.id, kFacetsFile),
+                  "make the survey's textures again first: stucco texture SURVEY");
+    }
+    if (!textured.image.empty() && !FitsFacet(textured, *facet->second)) {
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("{}: the picture of {} was painted on another model than that of {}",
+                              kTexturesFile, textured.id, kFacetsFile),
                   "make the survey's textures again first: stucco texture SURVEY");
     }
     facets.push_back(facet->second);
@@ -108,25 +121,30 @@ FacetFiles PaintNew(const Work& work, size_t i) {
 }
 
 // Paints all from new photos and measures how much brighter they are than the old pictures.
-Eigen::Vector3d PaintAllNew(const Work& work) {
+void PaintAllNew(Work& work) {
   std::vector<uint64_t> bytes;
   for (size_t i = 0; i < work.facets.size(); ++i) {
+    work.texels.push_back(NumTexels(work.old.facets[i]));
     bytes.push_back(PaintingBytes(*work.facets[i], work.looks[i], work.scene, work.options));
+    if (!work.looks[i].candidates.empty()) bytes[i] += kBytesPerReadTexel * work.texels[i];
   }
   std::vector<std::optional<ColourRatio>> ratios(work.facets.size());
   work.context.progress->Begin("painting facets", work.facets.size());
   ForEachFacet(bytes, work.context, [&](size_t i) {
     work.context.ThrowIfCancelled();
-    const std::optional<FacetPicture> after = PictureOf(PaintNew(work, i));
-    const auto before = ReadPicture(work.old.facets[i], work.OldFolder());
-    if (before && after) ratios[i] = BrightnessRatio(*before, *after);
+    const FacetFiles files = PaintNew(work, i);
+    if (const std::optional<FacetPicture> after = PictureOf(files)) {
+      work.texels[i] = std::max(work.texels[i], NumTexels(files.facet));
+      const auto before = ReadPicture(work.old.facets[i], work.OldFolder());
+      if (before) ratios[i] = BrightnessRatio(*before, *after);
+    }
     work.context.progress->Advance();
   });
   std::vector<ColourRatio> measured;
   for (const std::optional<ColourRatio>& ratio : ratios) {
     if (ratio) measured.push_back(*ratio);
   }
-  return work.options.colour ? CommonGain(measured) : Eigen::Vector3d::Ones();
+  if (work.options.colour) work.level = CommonGain(measured);
 }
 
 // Copies the files of a picture that stays.
@@ -165,8 +183,7 @@ std::vector<EpochFacet> WritePictures(const Work& work, TextureSet& textures) {
   std::vector<uint64_t> bytes;
   for (size_t i = 0; i < work.facets.size(); ++i) {
     ids.push_back(work.facets[i]->id);
-    const TexturedFacet& old = work.old.facets[i];
-    bytes.push_back(kBytesPerTexel * old.width_px * old.height_px);
+    bytes.push_back(kBytesPerTexel * work.texels[i]);
   }
   const std::vector<std::string> names = FileNames(ids);
   EpochStyle style{work.request.epoch, work.request.replace, work.input.photos, {}, work.options};
@@ -230,7 +247,7 @@ std::vector<EpochFacet> RepaintSurvey(const TextureOptions& options, const Repai
   }
   PhotoCache even = EvenPhotos(input.photos, work.light, context);
   work.scene.cache = &even;
-  work.level = PaintAllNew(work);
+  PaintAllNew(work);
   TextureSet textures;
   std::vector<EpochFacet> found = WritePictures(work, textures);
   context.ThrowIfCancelled();

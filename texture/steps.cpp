@@ -25,22 +25,8 @@ namespace {
 
 // Widest rasters in which points of the cloud in front of facets are looked up.
 constexpr int kNearestWidth = 640;
-// Bytes per texel that putting a finished picture into the model needs: decoded and turned round.
-constexpr uint64_t kBytesPerEncodedTexel = 9;
-
 uint64_t BytesBesideCache(const StageContext& context) {
   return context.memory_limit_bytes / 2;
-}
-
-// As many pictures are read and encoded at once as fit.
-int EncodingThreads(const TextureSet& textures, int atlas_px, const StageContext& context) {
-  uint64_t largest = std::max<uint64_t>(1, kBytesPerEncodedTexel * atlas_px * atlas_px);
-  for (const TexturedFacet& facet : textures.facets) {
-    largest = std::max(largest, kBytesPerEncodedTexel * static_cast<uint64_t>(facet.width_px) *
-                                    static_cast<uint64_t>(facet.height_px));
-  }
-  const uint64_t fit = std::max<uint64_t>(1, BytesBesideCache(context) / largest);
-  return static_cast<int>(std::min<uint64_t>(fit, std::max(1, context.threads)));
 }
 
 // Facets that wait for a thread and for memory.
@@ -232,7 +218,8 @@ void WriteModels(const Proxy& proxy, const TextureOptions& options, const StageC
   const ModelLook look{kOwnLook, textures, context.out};
   const GlbOptions glb{.max_px = options.glb_max_px,
                        .jpeg_quality = options.glb_quality,
-                       .threads = EncodingThreads(textures, options.glb_atlas_px, context),
+                       .threads = EncodingThreads({&look, 1}, options.glb_atlas_px,
+                                                  BytesBesideCache(context), context.threads),
                        .most_texels = 1e6 * options.glb_megapixels,
                        .atlas_px = options.glb_atlas_px,
                        .relief = options.glb_relief};

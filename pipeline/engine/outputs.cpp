@@ -13,13 +13,12 @@
 #include "pipeline/engine/manifest.h"
 #include "pipeline/engine/work_folder.h"
 #include "survey/files.h"
+#include "survey/survey_folder.h"
 
 namespace stucco {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr char kOldSuffix[] = ".old";
 
 void Flush(const fs::path& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);

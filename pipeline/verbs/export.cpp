@@ -90,14 +90,23 @@ void ExportPoses(const fs::path& survey, const std::string& format, const fs::pa
   WriteGeoref(georef, out / "georef.json");
 }
 
-void ExportTiles(const fs::path& survey, const ExportRequest& request, int threads) {
+// As many as may be encoded at once: half of the memory is for what else is held.
+int ThreadsFor(std::span<const ModelLook> looks, int atlas_px, const ExportRequest& request,
+               const RunSettings& run) {
+  const double memory_gb =
+      request.memory_limit_gb > 0 ? request.memory_limit_gb : run.memory_limit_gb;
+  return EncodingThreads(looks, atlas_px, static_cast<uint64_t>(memory_gb * (1 << 30)) / 2,
+                         request.threads > 0 ? request.threads : ResolvedThreads(run));
+}
+
+void ExportTiles(const fs::path& survey, const ExportRequest& request, const RunSettings& run) {
   const Proxy proxy = ReadProxy(survey / kFacetsFile);
   const ModelLook look = ReadLook(survey, request.epoch);
   std::error_code error;
   const Georef georef =
       fs::exists(survey / kGeorefFile, error) ? ReadGeoref(survey / kGeorefFile) : Georef();
   Tiles3dOptions options;
-  options.threads = threads;
+  options.threads = ThreadsFor({&look, 1}, 0, request, run);
   WriteTiles3d(proxy, look, georef, request.out, options);
 }
 
@@ -115,13 +124,14 @@ ExportReport ExportGlb(const fs::path& survey, const ExportRequest& request,
   }
   const Settings settings = LoadSettings(survey, table, OptionsAsMade(survey, table, "texture"));
   const auto options = OptionsOf<TextureOptions>(settings, "texture");
-  const std::string glb = GlbOfLooks(ReadProxy(survey / kFacetsFile), looks.looks,
-                                     {.max_px = options.glb_max_px,
-                                      .jpeg_quality = options.glb_quality,
-                                      .threads = ResolvedThreads(settings.run),
-                                      .most_texels = 1e6 * options.glb_megapixels,
-                                      .atlas_px = options.glb_atlas_px,
-                                      .relief = options.glb_relief});
+  const std::string glb =
+      GlbOfLooks(ReadProxy(survey / kFacetsFile), looks.looks,
+                 {.max_px = options.glb_max_px,
+                  .jpeg_quality = options.glb_quality,
+                  .threads = ThreadsFor(looks.looks, options.glb_atlas_px, request, settings.run),
+                  .most_texels = 1e6 * options.glb_megapixels,
+                  .atlas_px = options.glb_atlas_px,
+                  .relief = options.glb_relief});
   if (!request.out.parent_path().empty()) fs::create_directories(request.out.parent_path(), error);
   WriteFileAtomically(request.out, glb);
   return report;
@@ -167,7 +177,7 @@ ExportReport ExportSurvey(const fs::path& survey, const ExportRequest& request,
     ExportPoses(survey, chosen.name, request.out, LoadSettings(survey, table, {}).photos);
   } else if (chosen.name == "3dtiles") {
     prepare(kTexturesFile);
-    ExportTiles(survey, request, ResolvedThreads(LoadSettings(survey, table, {}).run));
+    ExportTiles(survey, request, LoadSettings(survey, table, {}).run);
   } else if (chosen.name == "obj") {
     prepare("texture/model.obj");
     CopyObj(LookFolder(survey, request.epoch), request.out);

@@ -13,9 +13,11 @@ struct ExportRequest {
   std::string format;
   std::filesystem::path out;
   bool overwrite = false;
-  std::string crs = {};    // "EPSG:2056", for "cityjson" only; empty: the survey's own frame
-  std::string epoch = {};  // for textured models: as this one shows them, alone; empty: as the
-                           // survey does, where the format can with all epochs beside it
+  std::string crs = {};        // "EPSG:2056", for "cityjson" only; empty: the survey's own frame
+  std::string epoch = {};      // for textured models: as this one shows them, alone; empty: as the
+                               // survey does, where the format can with all epochs beside it
+  int threads = 0;             // 0: as survey.toml says
+  double memory_limit_gb = 0;  // likewise
 };
 
 struct ExportReport {

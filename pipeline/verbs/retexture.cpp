@@ -46,7 +46,8 @@ std::string EpochName(const RetextureRequest& request) {
   const bool given = !request.epoch.empty();
   std::string name = given ? request.epoch : RealPath(request.photos).filename().string();
   const bool plain = !name.empty() && name.size() <= kLongestName && name.front() != '.' &&
-                     name != kOwnLook && std::ranges::all_of(name, [](unsigned char c) {
+                     name != kOwnLook && !IsMovedAside(name) &&
+                     std::ranges::all_of(name, [](unsigned char c) {
                        return std::isalnum(c) || c == '-' || c == '_' || c == '.';
                      });
   if (plain) return name;
@@ -251,6 +252,11 @@ RetextureReport RetextureSurvey(const fs::path& survey, const RetextureRequest& 
   report.moved = scratch.Publish(platform);
   units.DeleteUntouched();
   return report;
+}
+
+bool HasPhotos(const fs::path& survey, const StageTable& table) {
+  std::error_code error;
+  return fs::is_directory(LoadSettings(survey, table, {}).photos, error);
 }
 
 RetextureRequest SameAgain(const fs::path& survey, const std::string& epoch) {

@@ -42,6 +42,9 @@ RetextureReport RetextureSurvey(const std::filesystem::path& survey,
                                 const RetextureRequest& request, const StageTable& table,
                                 Console& console, const Platform& platform);
 
+// Whether the folder of a survey's own photos is there. Throws Error (kBadInput).
+bool HasPhotos(const std::filesystem::path& survey, const StageTable& table);
+
 // Asks for an epoch that is there to be made again, from the same photos and by the same choice,
 // on the survey as it has become. Throws Error (kBadInput) where there is no such epoch.
 RetextureRequest SameAgain(const std::filesystem::path& survey, const std::string& epoch);

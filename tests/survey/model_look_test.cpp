@@ -85,6 +85,18 @@ TEST_F(LooksTest, EpochsOfOtherGridsOrFacetsAreOutdated) {
   EXPECT_THAT(all.outdated, ElementsAre("shifted", "unknown"));
 }
 
+TEST_F(LooksTest, WhatWasMovedAsideIsNoEpoch) {
+  Write(Epoch("spring"), {Wall("W0", "new"), Wall("W1", "")});
+  Write(Epoch("spring.old-1"), {Wall("W0", "older"), Wall("W1", "")});
+  const SurveyLooks all = ReadLooks(survey());
+  ASSERT_EQ(all.looks.size(), 2u);
+  EXPECT_EQ(all.looks[1].name, "spring");
+  EXPECT_TRUE(IsMovedAside("spring.old-12"));
+  for (const char* name : {"spring", "old-1", "spring.old-", "spring.old-b", "spring.old", "7"}) {
+    EXPECT_FALSE(IsMovedAside(name)) << name;
+  }
+}
+
 TEST_F(LooksTest, ASurveyWithoutEpochsHasItsOwn) {
   EXPECT_EQ(ReadLooks(survey()).looks.size(), 1u);
   EXPECT_EQ(ReadLook(survey(), "").name, kOwnLook);

@@ -51,6 +51,21 @@ TEST(MergePictures, GoesOverWithinAFewTexelsOfTheTakenSide) {
   EXPECT_EQ(merged.labels[5 * kWidth + 20], 2);
 }
 
+// A gable: outside of it there is no old picture to go over to.
+TEST(MergePictures, GoesOverToNothingAtTheRimOfTheFacet) {
+  const FacetPicture before = Plain(10, 1);
+  const FacetPicture after = Plain(210, 2);
+  std::vector<uint8_t> gable(kInside.size(), 0);
+  for (size_t i = 0; i < gable.size(); ++i) {
+    gable[i] = static_cast<int>(i % kWidth) <= 2 * static_cast<int>(i / kWidth) + 10;
+  }
+  const FacetPicture merged = MergePictures(before, after, gable, gable, 4);
+  for (size_t i = 0; i < gable.size(); ++i) {
+    if (gable[i] == 0) continue;
+    EXPECT_EQ(merged.picture.data[3 * i], 210) << i;
+  }
+}
+
 TEST(FillOutdated, TakesTextureFromWhatIsNew) {
   FacetPicture picture = Plain(200, 2);
   std::vector<uint8_t> hole(kInside.size(), 0), source = kInside;

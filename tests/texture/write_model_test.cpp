@@ -345,6 +345,42 @@ TEST_F(Model, TilesOfLooksAreVariants) {
   }
 }
 
+// Each of two epochs gave the facet its first picture, one of them with larger texels.
+TEST_F(Model, LooksOfOtherSizesHaveTheSameTiles) {
+  const std::filesystem::path coarse = folder_.path() / "coarse";
+  std::filesystem::create_directories(coarse / "textures");
+  Image grey{20, 15, 3, std::vector<uint8_t>(900, 90)};
+  WriteImage(grey, coarse / "textures/B0001_W01.png");
+  TextureSet none = textures_, larger = textures_;
+  none.facets[0].image.clear();
+  larger.facets[0].width_px = 20;
+  larger.facets[0].height_px = 15;
+  larger.facets[0].metres_per_texel *= 2;
+  const std::vector<ModelLook> looks = {{kOwnLook, none, folder_.path()},
+                                        {"coarse", larger, coarse},
+                                        {"fine", textures_, folder_.path()}};
+  WriteFile(folder_.path() / "model.glb", GlbOfLooks(proxy_, looks, {.max_px = 16}));
+  const json gltf = GlbJson();
+  ASSERT_EQ(gltf["meshes"][0]["primitives"].size(), 8u);
+  for (const json& tile : gltf["meshes"][0]["primitives"]) {
+    const json& mappings = tile["extensions"]["KHR_materials_variants"]["mappings"];
+    ASSERT_EQ(mappings.size(), 2u);
+    EXPECT_EQ(mappings[0]["variants"], json({1}));
+    EXPECT_EQ(mappings[1]["variants"], json({2}));
+  }
+}
+
+TEST(EncodingThreads, AsManyAsFitWithTheLargestPicture) {
+  ModelLook look;
+  look.textures.facets.resize(2);
+  look.textures.facets[1].width_px = look.textures.facets[1].height_px = 1000;
+  constexpr uint64_t kOne = 9'000'000;
+  EXPECT_EQ(EncodingThreads({&look, 1}, 0, 3 * kOne, 8), 3);
+  EXPECT_EQ(EncodingThreads({&look, 1}, 0, 100 * kOne, 8), 8);
+  EXPECT_EQ(EncodingThreads({&look, 1}, 0, 1, 8), 1);
+  EXPECT_EQ(EncodingThreads({&look, 1}, 2000, 8 * kOne, 8), 2);  // a sheet is larger
+}
+
 TEST_F(Model, LooksAreVariants) {
   const std::filesystem::path later = folder_.path() / "later";
   std::filesystem::create_directories(later / "textures");

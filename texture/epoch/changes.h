@@ -35,11 +35,11 @@ struct ChangedBox {
   int top = 0;
   int width = 0;
   int height = 0;
-  double share = 0;      // of the facet's area that changed in it
+  double share = 0;      // of the judged area that changed in it
   bool pattern = false;  // most of it is of another pattern, else of another colour
 };
 
-// What differs between two pictures of a facet, as shares of the facet's area.
+// What differs between two pictures of a facet, as shares of the area that is judged.
 struct FacetChanges {
   double compared = 0;            // painted from photos in both
   double repainted = 0;           // of another colour, with the same pattern or none
@@ -65,9 +65,9 @@ struct FacetChanges {
 // shifted when they are seen from elsewhere. Where the hue stays, the new pattern may be a shadow:
 // the sun has moved, so that edges of shadows come and go, above all on relief. This is told apart
 // and is no change. Single blocks do not count: windows mirror something else every day. `mask` is
-// not zero inside the facet, `comparable` where both pictures look at it from much the same
-// direction; elsewhere colours alone count, and only where more of them are others than relief can
-// hide and show. Requires pictures of one size.
+// not zero where pictures are judged, and shares are of its area, `comparable` where both pictures
+// look at it from much the same direction; elsewhere colours alone count, and only where more of
+// them are others than relief can hide and show. Requires pictures of one size.
 FacetChanges FindChanges(const FacetPicture& before, const FacetPicture& after,
                          std::span<const uint8_t> mask, std::span<const uint8_t> comparable);
 

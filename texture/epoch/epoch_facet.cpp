@@ -208,6 +208,12 @@ struct Compared {
   FacetChanges changes;  // of what both show
 };
 
+// Square metres of a mask.
+double AreaOf(std::span<const uint8_t> mask, const TexelGrid& grid) {
+  const auto outside = std::ranges::count(mask, uint8_t{0});
+  return static_cast<double>(mask.size() - static_cast<size_t>(outside)) * grid.texel * grid.texel;
+}
+
 // Fills in what is found, before anything is decided.
 Compared Compare(const EpochFacetInput& input, const FacetPicture& after, const Canvas& canvas,
                  const EpochStyle& style, EpochPicture& result) {
@@ -222,27 +228,29 @@ Compared Compare(const EpochFacetInput& input, const FacetPicture& after, const 
   evidence.gsd_after_m = found.gsd_after_m;
   if (!input.before) return compared;
   const std::vector<uint8_t> painted_before = PaintedTexels(*input.before);
-  changes = FindChanges(*input.before, after, AwayFromEdges(canvas, input.relief.get()),
-                        SeenAlike(input, after, canvas.grid, style));
-  found.compared = changes.compared;
-  found.repainted = changes.repainted;
-  found.other = changes.other;
-  found.shaded = changes.shaded;
-  const auto inside = static_cast<double>(mask.size() - std::ranges::count(mask, uint8_t{0}));
-  const double area_m2 = inside * canvas.grid.texel * canvas.grid.texel;
-  for (const ChangedBox& box : WorthShowing(changes.boxes, area_m2)) {
-    found.places.push_back(PlaceOf(box, canvas.grid, area_m2));
+  evidence.painted_before = ShareOf(painted_before, painted_before, mask);
+  evidence.both = ShareOf(painted_before, painted_after, mask);
+  // What lies at no edge of relief speaks for all that both show.
+  const std::vector<uint8_t> judged = AwayFromEdges(canvas, input.relief.get());
+  const double both_judged = ShareOf(painted_before, painted_after, judged);
+  const double of_facet = both_judged > 0 ? evidence.both / both_judged : 0;
+  changes = FindChanges(*input.before, after, judged, SeenAlike(input, after, canvas.grid, style));
+  evidence.compared = of_facet * changes.compared;
+  evidence.gsd_before_m = found.gsd_before_m;
+  found.both = evidence.both;
+  found.compared = evidence.compared;
+  found.repainted = of_facet * changes.repainted;
+  found.other = of_facet * changes.other;
+  found.shaded = of_facet * changes.shaded;
+  if (evidence.both > 0) {
+    evidence.changed_share = (found.repainted + found.other) / evidence.both;
+  }
+  const double judged_m2 = AreaOf(judged, canvas.grid);
+  for (const ChangedBox& box : WorthShowing(changes.boxes, judged_m2)) {
+    found.places.push_back(PlaceOf(box, canvas.grid, judged_m2));
     result.places.push_back(ShowPlace(box, *input.before, after));
   }
   found.shift_px = ShiftBetween(*input.before, after, style.options.align_limit_px);
-  evidence.painted_before = ShareOf(painted_before, painted_before, mask);
-  evidence.both = ShareOf(painted_before, painted_after, mask);
-  evidence.gsd_before_m = found.gsd_before_m;
-  found.both = evidence.both;
-  evidence.compared = changes.compared;
-  if (evidence.both > 0) {
-    evidence.changed_share = (changes.repainted + changes.other) / evidence.both;
-  }
   return compared;
 }
 

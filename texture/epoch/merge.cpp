@@ -20,13 +20,17 @@ constexpr int kFillSide = 512;
 constexpr uint32_t kFillSeed = 20260102;
 constexpr float kFeather_px = 8;  // as wide as the largest shift that alignment corrects
 
-// Distance in texels of each taken texel from the nearest one that is not.
-cv::Mat DistanceInside(std::span<const uint8_t> take, int width, int height) {
-  cv::Mat mask(height, width, CV_8U);
-  std::ranges::copy(take, mask.data);
+// Distance in texels of each taken texel from the nearest one of the facet that is not.
+cv::Mat DistanceInside(std::span<const uint8_t> take, std::span<const uint8_t> mask, int width,
+                       int height) {
+  cv::Mat not_old(height, width, CV_8U);
+  size_t old = 0;
+  for (size_t i = 0; i < take.size(); ++i) {
+    not_old.data[i] = take[i] != 0 || mask[i] == 0;
+    old += not_old.data[i] == 0;
+  }
   cv::Mat distance(height, width, CV_32F, cv::Scalar(kFeather_px));
-  if (std::ranges::all_of(take, [](uint8_t taken) { return taken != 0; })) return distance;
-  cv::distanceTransform(mask, distance, cv::DIST_L2, cv::DIST_MASK_3);
+  if (old > 0) cv::distanceTransform(not_old, distance, cv::DIST_L2, cv::DIST_MASK_3);
   return distance;
 }
 
@@ -48,7 +52,7 @@ FacetPicture MergePictures(const FacetPicture& before, const FacetPicture& after
                            size_t new_photos) {
   assert(before.labels.size() == take.size() && after.labels.size() == take.size());
   const int width = before.picture.width_px;
-  const cv::Mat distance = DistanceInside(take, width, before.picture.height_px);
+  const cv::Mat distance = DistanceInside(take, mask, width, before.picture.height_px);
   FacetPicture merged = before;
   std::vector<uint8_t> known(take.size());
   for (size_t i = 0; i < take.size(); ++i) {

@@ -64,6 +64,7 @@ std::shared_ptr<const Relief> ReadRelief(const std::filesystem::path& folder,
   }
   const std::filesystem::path picture = folder / kReliefFolder / (name + ".png");
   const std::string bytes = ReadFile(picture);
+  if (bytes.empty()) ThrowDamaged(picture, "is empty");
   const cv::Mat heights =
       cv::imdecode(std::vector<uint8_t>(bytes.begin(), bytes.end()), cv::IMREAD_UNCHANGED);
   if (heights.type() != CV_16U || heights.cols != relief->width || heights.rows != relief->height ||

@@ -61,15 +61,28 @@ void AddTiles(const PicturePart& part, const ImageSize& picture, int most_px,
   AddTiles(second, picture, most_px, tiles);
 }
 
-// Those of the first look first.
+// By facet, the largest of its pictures: two epochs may each have given it its first one.
+std::map<std::string, ImageSize> LargestSizes(std::span<const ModelLook> looks) {
+  std::map<std::string, ImageSize> sizes;
+  for (const ModelLook& look : looks) {
+    for (const TexturedFacet& facet : look.textures.facets) {
+      ImageSize& size = sizes[facet.id];
+      if (facet.width_px > size.width_px) size = {facet.width_px, facet.height_px};
+    }
+  }
+  return sizes;
+}
+
+// Those of the first look first; of one facet the same tiles in each.
 std::vector<LookPicture> PicturesOf(std::span<const ModelLook> looks, int most_px) {
+  const std::map<std::string, ImageSize> largest = LargestSizes(looks);
   std::vector<LookPicture> pictures;
   for (size_t look = 0; look < looks.size(); ++look) {
     for (const TexturedFacet& facet : looks[look].textures.facets) {
       if (facet.image.empty()) continue;
       const ImageSize size{facet.width_px, facet.height_px};
       std::vector<PicturePart> tiles;
-      AddTiles(kWholePicture, size, most_px, tiles);
+      AddTiles(kWholePicture, largest.at(facet.id), most_px, tiles);
       for (const PicturePart& part : tiles) {
         pictures.push_back({static_cast<int>(look), &facet, part, SizeOf(part, size)});
       }
@@ -197,6 +210,20 @@ GlbMesh MeshOf(const Facet& facet, const std::vector<const LookPicture*>& pictur
 }
 
 }  // namespace
+
+int EncodingThreads(std::span<const ModelLook> looks, int atlas_px, uint64_t bytes, int threads) {
+  constexpr uint64_t kBytesPerTexel = 9;  // decoded and turned round
+  const auto side = static_cast<uint64_t>(atlas_px);
+  uint64_t largest = std::max<uint64_t>(1, side * side);
+  for (const ModelLook& look : looks) {
+    for (const TexturedFacet& facet : look.textures.facets) {
+      largest = std::max(
+          largest, static_cast<uint64_t>(facet.width_px) * static_cast<uint64_t>(facet.height_px));
+    }
+  }
+  const uint64_t fit = std::max<uint64_t>(1, bytes / (kBytesPerTexel * largest));
+  return static_cast<int>(std::min<uint64_t>(fit, std::max(1, threads)));
+}
 
 std::string GlbOfLooks(const Proxy& proxy, std::span<const ModelLook> looks,
                        const GlbOptions& options) {

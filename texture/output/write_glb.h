@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -18,6 +19,10 @@ struct GlbOptions {
   int atlas_px = 0;            // side of the larger pictures that facets share; 0: each has its own
   bool relief = false;         // of the first look, as geometry
 };
+
+// How many threads may read and encode pictures of these looks, or sheets of that side, at once
+// within so many bytes; at least one, and no more than `threads`.
+int EncodingThreads(std::span<const ModelLook> looks, int atlas_px, uint64_t bytes, int threads);
 
 // The whole proxy as binary glTF, self-contained: one mesh per facet with the facet's id as its
 // name, of as many primitives as its picture has tiles, pictures inside as JPEG, all made smaller

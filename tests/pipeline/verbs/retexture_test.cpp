@@ -200,6 +200,23 @@ TEST_F(RetextureSample, NamesAndReplacesTheRepaintedFacadeAndNothingElse) {
   EXPECT_EQ(Contents(again.folder), blue_before);
   EXPECT_THROW(SameAgain(Survey(), "never-made"), Error);
 
+  // 7. Pictures of an earlier model, whose facets had the same ids, are not compared with.
+  EXPECT_EQ(Refusal("same", "blue.old-1").kind(), ErrorKind::kUsage);  // as what is moved aside
+  const fs::path moved = Photos("moved");
+  fs::copy(Survey(), moved, fs::copy_options::recursive);
+  Proxy model = proxy;
+  for (Building& building : model.buildings) {
+    for (Facet& facet : building.facets) {
+      for (Eigen::Vector3d& corner : facet.outer) corner += 0.5 * facet.normal;
+      facet.offset += 0.5;
+    }
+  }
+  WriteProxy(model, moved / kFacetsFile);
+  const Error outdated = RefusalOf(moved, "same", "outdated");
+  EXPECT_EQ(outdated.kind(), ErrorKind::kBadInput);
+  EXPECT_THAT(outdated.what(), HasSubstr("another model"));
+  EXPECT_FALSE(fs::exists(moved / "epochs/outdated"));
+
   EXPECT_EQ(Contents(Survey()), survey_before);
   EXPECT_EQ(Contents(Photos("same")), photos_before);
 }
