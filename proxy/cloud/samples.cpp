@@ -213,7 +213,8 @@ Samples ThinCloud(const PointStream& stream, std::span<const SurveyPhoto> photos
 
 Samples ThinInside(const Eigen::AlignedBox3d& box, const PointStream& stream,
                    std::span<const SurveyPhoto> photos, int max_points, double cell) {
-  double larger = 1.08;  // about 15 % fewer cells
+  constexpr double kMostLarger = 1.5;  // 2.25 times fewer cells: what is left is half of the limit
+  double larger = 1.08;                // about 15 % fewer cells
   Samples samples;
   PlaceOfPhoto places;
   for (const SurveyPhoto& photo : photos) {
@@ -225,7 +226,7 @@ Samples ThinInside(const Eigen::AlignedBox3d& box, const PointStream& stream,
   CellSums cells = SumCells(stream, places, box, samples.cell, most);
   while (cells.too_many) {
     samples.cell *= larger;
-    larger *= larger;  // each try reads all points
+    larger = std::min(larger * larger, kMostLarger);  // each try reads all points
     cells = SumCells(stream, places, box, samples.cell, most);
   }
   samples.dropped = cells.dropped;

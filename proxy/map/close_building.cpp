@@ -74,26 +74,26 @@ Standing AbsenceOf(const BuildingEvidence& evidence) {
   return ShowsGround(evidence) ? Standing::kGone : Standing::kUnseen;
 }
 
+// Leaves are no planes: of what lies above a footprint in a wood, little is on any.
+bool HasSmoothRoof(const RoofEvidence& roof) {
+  constexpr double kSmooth = 0.75;  // of what lies above it
+  size_t on_planes = 0;
+  for (const Plane& plane : roof.planes) on_planes += plane.points.size();
+  return static_cast<double>(on_planes) > kSmooth * static_cast<double>(roof.samples.size());
+}
+
 constexpr double kHeld = 0.4;  // of the walls of what stands, by length, that planes hold
 
-// Leaves are no planes. What stands open may still be a roof on posts or a ring of walls with a
-// yard.
+// What stands open may still be a roof on posts or a ring of walls with a yard.
 Standing StandingOf(const BuildingEvidence& evidence) {
   constexpr double kRoofed = 0.3;       // of the footprint
-  constexpr double kSmooth = 0.75;      // of what lies above it
   constexpr double kHeldAround = 0.75;  // of the walls, where the ground shows between them
   const double area = Area(evidence.fitted.building);
   const RoofEvidence& roof = evidence.roof;
   double roofed = 0;
-  size_t on_planes = 0;
-  for (const Plane& plane : roof.planes) {
-    roofed += plane.area;
-    on_planes += plane.points.size();
-  }
-  const bool smooth =
-      static_cast<double>(on_planes) > kSmooth * static_cast<double>(roof.samples.size());
+  for (const Plane& plane : roof.planes) roofed += plane.area;
   const bool walled = evidence.fitted.held > (ShowsGround(evidence) ? kHeldAround : kHeld);
-  if (walled || (smooth && roofed > kRoofed * area)) return Standing::kStands;
+  if (walled || (HasSmoothRoof(roof) && roofed > kRoofed * area)) return Standing::kStands;
   return AbsenceOf(evidence);
 }
 
@@ -331,6 +331,11 @@ ClosedBuilding BuildingCloser::Close(const MapBuilding& mapped, const FittedBuil
   const auto wanted_unseen = [&] {
     return closed.standing == Standing::kUnseen && mapped.to_capture;
   };
+  const auto as_mapped = [&] {
+    evidence.roof.planes.clear();
+    evidence.top.reset();
+  };
+  if (wanted_unseen() && !HasSmoothRoof(evidence.roof)) as_mapped();
   if (closed.standing == Standing::kStands || wanted_unseen()) make();
   const bool doubtful = closed.standing == Standing::kStands && !closed.facets.empty() &&
                         !ShowsWhatStands(closed.facets);
@@ -339,8 +344,7 @@ ClosedBuilding BuildingCloser::Close(const MapBuilding& mapped, const FittedBuil
   closed.facets.clear();
   closed.not_finer.clear();
   if (wanted_unseen()) {
-    evidence.roof.planes.clear();  // as the map has it
-    evidence.top.reset();
+    as_mapped();
     make();
   }
   return closed;

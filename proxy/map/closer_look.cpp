@@ -55,15 +55,37 @@ class Surroundings {
   std::vector<bool> wanted_;
 };
 
-// Buildings whose bounds nearly touch, as sets, each by its first building.
+constexpr double kApart_m = 1;
+
+// Whether two outlines come that near to each other. One inside of the other does not, but for the
+// house in the middle of a yard.
+bool NearlyTouch(const MapBuilding& a, const MapBuilding& b) {
+  const auto edges_of = [](const MapBuilding& building) {
+    std::vector<Segment2d> edges;
+    for (const Polygon& part : building.parts) {
+      for (const Ring& ring : part.rings) {
+        for (size_t i = 0; i < ring.size(); ++i) edges.push_back(EdgeOf(ring, i));
+      }
+    }
+    return edges;
+  };
+  const std::vector<Segment2d> of_b = edges_of(b);
+  return std::ranges::any_of(edges_of(a), [&](const Segment2d& edge) {
+    return std::ranges::any_of(of_b, [&](const Segment2d& other) {
+      return SquaredDistance(edge, other) < kApart_m * kApart_m;
+    });
+  });
+}
+
+// Buildings that nearly touch, as sets, each by its first building.
 std::map<size_t, std::vector<size_t>> Neighbours(std::span<const MapBuilding> buildings) {
-  constexpr double kApart_m = 1;
   std::vector<Eigen::AlignedBox2d> bounds;
   for (const MapBuilding& building : buildings) bounds.push_back(BoundsOf(building, kApart_m / 2));
   DisjointSets sets(buildings.size());
   for (size_t a = 0; a < bounds.size(); ++a) {
     for (size_t b = a + 1; b < bounds.size(); ++b) {
-      if (bounds[a].intersects(bounds[b])) sets.Join(a, b);
+      if (!bounds[a].intersects(bounds[b]) || sets.Find(a) == sets.Find(b)) continue;
+      if (NearlyTouch(buildings[a], buildings[b])) sets.Join(a, b);
     }
   }
   std::map<size_t, std::vector<size_t>> result;

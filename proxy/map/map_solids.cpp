@@ -21,6 +21,7 @@
 #include "proxy/map/judge_found.h"
 #include "proxy/map/off_the_map.h"
 #include "proxy/map/outline_fit.h"
+#include "proxy/map/stable_ids.h"
 #include "proxy/map/wings.h"
 #include "proxy/solids/party_walls.h"
 #include "survey/median.h"
@@ -350,9 +351,13 @@ void JoinWings(const UprightSurvey& survey, const Workshop& with, Houses& houses
   wings = std::move(apart);
 }
 
-// Buildings that no map names. What nobody saw of their walls is on no footprint of a map either.
-void AddOthers(const std::vector<ClosedBuilding>& others, MapModel& model,
-               ProxyFindings& findings) {
+// Buildings that no map names, in the order of a line over the ground plan, so that their ids hold
+// when more of the cloud is there. What nobody saw of their walls is on no footprint of a map
+// either.
+void AddOthers(std::vector<ClosedBuilding> others, MapModel& model, ProxyFindings& findings) {
+  std::ranges::stable_sort(others, {}, [](const ClosedBuilding& house) {
+    return kNumberedAlong.head<2>().dot(BoundsOf(house.fitted.building, 0).center());
+  });
   for (size_t o = 0; o < others.size(); ++o) {
     MapBuilding& outline = model.outlines.emplace_back(others[o].fitted.building);
     outline.id = fmt::format("C{:04}", o + 1);
@@ -428,7 +433,7 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
   }
   MapModel model{.buildings = BuildingsOf(houses), .outlines = std::move(houses.mapped)};
   const size_t mapped = model.outlines.size();
-  AddOthers(others, model, findings);
+  AddOthers(std::move(others), model, findings);
   for (size_t o = mapped; o < model.outlines.size(); ++o) {
     const MapBuilding& outline = model.outlines[o];
     findings.of_map.push_back({fmt::format("{}: stands on no footprint of the map, {:.0f} m2",
@@ -453,7 +458,7 @@ MapModel BuildWithoutMap(const PlanarScene& scene, const ProxyInput& input,
     return true;
   });
   MapModel model;
-  AddOthers(closed, model, findings);
+  AddOthers(std::move(closed), model, findings);
   return model;
 }
 

@@ -16,6 +16,8 @@ namespace {
 
 // Parts whose underside is this far above the building's foot stand on others.
 constexpr double kRaisedFoot_m = 1;
+// Of a building whose height neither the map nor the cloud knows.
+constexpr double kTwoStoreys_m = 6;
 
 // Whether next to nothing of a part lies above the building's others: counted on a grid.
 bool Hangs(const Polygon& part, const MapBuilding& building) {
@@ -35,8 +37,10 @@ bool Hangs(const Polygon& part, const MapBuilding& building) {
   return inside > 0 && above <= kMost * inside;
 }
 
-// Raised parts below which nothing stands become parts of the building.
+// Raised parts below which nothing stands become parts of the building: of storeys above each other
+// the lowest, whatever the map names first.
 void AddHangingParts(MapBuilding& building) {
+  std::ranges::stable_sort(building.raised, {}, &RaisedPart::underside_m);
   std::vector<RaisedPart> standing;
   for (RaisedPart& raised : building.raised) {
     if (Hangs(raised.outline, building)) {
@@ -99,7 +103,14 @@ OutlineMap OutlinesOf(const Plan& plan, const Georef& georef, const Eigen::Vecto
       building.parts.push_back(std::move(part));
     }
   }
-  for (MapBuilding& building : map.buildings) AddHangingParts(building);
+  for (MapBuilding& building : map.buildings) {
+    AddHangingParts(building);
+    // What the flight keeps clear of is no height to build by.
+    const double height = building.z_m.to_m - building.z_m.from_m;
+    if (!building.top_known && height > plan.safe_altitude_m - plan.d_min_m - kRaisedFoot_m) {
+      building.z_m.to_m = building.z_m.from_m + std::min(height, kTwoStoreys_m);
+    }
+  }
   return map;
 }
 

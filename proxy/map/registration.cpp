@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "proxy/map/facade_ids.h"
+#include "site/box_grid.h"
 #include "survey/median.h"
 
 namespace stucco {
@@ -213,11 +214,31 @@ CellTops TopsAround(const UprightSurvey& survey, const MapBuilding& building) {
   return tops;
 }
 
-bool IsInside(const Eigen::Vector2d& p, const std::vector<MapBuilding>& buildings) {
-  return std::ranges::any_of(buildings, [&](const MapBuilding& building) {
-    return BoundsOf(building, 0).contains(p) && DistanceTo(building, p) == 0;
-  });
-}
+// The floors of a map, to ask where one stands.
+class Floors {
+ public:
+  // `buildings` outlives it.
+  explicit Floors(const std::vector<MapBuilding>& buildings)
+      : buildings_(buildings), grid_(Bounds(buildings), kCell_m) {}
+
+  bool Hold(const Eigen::Vector2d& p) const {
+    return std::ranges::any_of(grid_.Touching({p, p}),
+                               [&](int b) { return DistanceTo(buildings_[b], p) == 0; });
+  }
+
+ private:
+  static constexpr double kCell_m = 30;  // about a building
+
+  static std::vector<Eigen::AlignedBox2d> Bounds(const std::vector<MapBuilding>& buildings) {
+    std::vector<Eigen::AlignedBox2d> bounds;
+    bounds.reserve(buildings.size());
+    for (const MapBuilding& building : buildings) bounds.push_back(BoundsOf(building, 0));
+    return bounds;
+  }
+
+  const std::vector<MapBuilding>& buildings_;
+  BoxGrid grid_;
+};
 
 // Of each building inside and beside, but not in a neighbour.
 struct RaisedShares {
@@ -230,6 +251,7 @@ RaisedShares CountRaised(const UprightSurvey& survey, const std::vector<MapBuild
   constexpr double kInside_m = 0.5;  // the wall's own points are neither
   constexpr double kNear_m = 1.5;    // eaves and hedges beside a wall say nothing
   RaisedShares shares;
+  const Floors floors(buildings);
   for (const MapBuilding& building : buildings) {
     const auto ground = GroundAround(survey, building);
     for (const auto& [cell, height] : TopsAround(survey, building)) {
@@ -237,7 +259,7 @@ RaisedShares CountRaised(const UprightSurvey& survey, const std::vector<MapBuild
       const double to_outline = ToOutline(building, middle);
       const bool within = DistanceTo(building, middle) == 0;
       if (within ? to_outline < kInside_m : to_outline < kNear_m || to_outline > kRing_m) continue;
-      if (!within && IsInside(middle, buildings)) continue;
+      if (!within && floors.Hold(middle)) continue;
       ++(within ? shares.all_inside : shares.all_outside);
       if (!ground) continue;
       RaisedCells& cells = within ? shares.inside : shares.outside;

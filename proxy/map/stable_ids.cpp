@@ -47,11 +47,10 @@ Eigen::Vector3d MiddleOf(const Facet& facet) {
 using Place = std::tuple<FacetClass, bool, std::string, double, double>;
 
 Place PlaceOf(const Facet& facet) {
-  // Of the two sides of a gable, or the four of a hip, no two come at once.
-  static const Eigen::Vector3d kAcross(0.94, 0.342, 0);
   const Eigen::Vector3d middle = MiddleOf(facet);
   const bool of_facade = facet.facet_class == FacetClass::kWall && !facet.planned_facades.empty();
-  const Eigen::Vector3d along = of_facade ? Eigen::Vector3d::UnitZ().cross(facet.normal) : kAcross;
+  const Eigen::Vector3d along =
+      of_facade ? Eigen::Vector3d::UnitZ().cross(facet.normal) : kNumberedAlong;
   return {facet.facet_class, !of_facade, of_facade ? facet.planned_facades.front() : "",
           along.dot(middle), middle.z()};
 }

@@ -2,9 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
+
 #include "survey/proxy.h"
 
 namespace stucco {
+
+// The way of the line by which things are numbered, 20 degrees north of east: of the two sides of a
+// gable, or the four of a hip, no two come at once.
+inline const Eigen::Vector3d kNumberedAlong(0.94, 0.342, 0);
 
 // Ids of a building of a survey that knows north that stay when it is made again, or with more
 // photos: by place, not by size. Walls are parts of the planned facade that they have most of, in

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "proxy/map/extrude_cells.h"
+#include "proxy/map/outlines.h"
 #include "tests/proxy/map_scene.h"
 #include "tests/proxy/scene.h"
 
@@ -54,6 +55,37 @@ TEST(HangingParts, BeginAtTheirUndersides) {
     return finding.text.find("from where it has their undersides") != std::string::npos;
   });
   EXPECT_TRUE(is_named);
+}
+
+// Two storeys over the passage; the map names the upper one first.
+TEST(HangingParts, BeginWithTheLowestStoreyWhateverTheMapNamesFirst) {
+  std::vector<test::MapEntry> map = GateMap();
+  map[2] = {.id = "B0001", .rings = {Rectangle(-2, -4, 2, 4)}, .top = 9, .foot = 6};
+  map.push_back({.id = "B0001", .rings = {Rectangle(-2, -4, 2, 4)}, .top = 6, .foot = 3});
+  const OutlineMap outlines =
+      OutlinesOf(test::PlanOf(map), test::MapGeoref(), Eigen::Vector3d::UnitZ());
+  ASSERT_EQ(outlines.buildings.size(), 1u);
+  ASSERT_EQ(outlines.buildings[0].hanging.size(), 1u);
+  EXPECT_NEAR(outlines.buildings[0].hanging[0].underside_m, 3, 1e-9);
+  ASSERT_EQ(outlines.buildings[0].raised.size(), 1u);
+  EXPECT_NEAR(outlines.buildings[0].raised[0].underside_m, 6, 1e-9);
+}
+
+// What nobody knows is as high as the flight stays clear of: 50 m are no height to build by.
+TEST(OutlinesOf, TakesUnknownHeightsForTwoStoreys) {
+  Plan plan = test::PlanOf({{.id = "B0001", .rings = {Rectangle(-12, -4, -2, 4)}, .top = 50},
+                            {.id = "B0002", .rings = {Rectangle(2, -4, 12, 4)}, .top = 12}});
+  plan.safe_altitude_m = 60;
+  plan.d_min_m = 10;
+  const auto top_of = [&](size_t building) {
+    return OutlinesOf(plan, test::MapGeoref(), Eigen::Vector3d::UnitZ())
+        .buildings[building]
+        .z_m.to_m;
+  };
+  EXPECT_EQ(top_of(0), 50);  // the map says so
+  for (PlannedFacade& facade : plan.facades) facade.top_known = false;
+  EXPECT_EQ(top_of(0), 6);
+  EXPECT_EQ(top_of(1), 12);  // a guess by storeys
 }
 
 // Three cells of 4 x 6 m beside each other, under a level roof of 4 m or a pitched one of 9 to 12

@@ -56,6 +56,15 @@ TEST(ThinCloud, StaysBelowTheLimitAndKeepsEveryPointsWeight) {
   for (const auto& p : samples.positions) EXPECT_NEAR(p.z(), 1, 1e-12);
 }
 
+// Of a hall or a row of houses that are too many to be seen as closely as wanted.
+TEST(ThinInside, IsAsFineAsTheLimitAllows) {
+  const PointCloud cloud = Grid(400, 0.05);
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(21, 21, 2));
+  const Samples samples = ThinInside(box, StreamOf(cloud), OnePhoto(), 3000, 0.01);
+  EXPECT_LE(samples.size(), 3000u);
+  EXPECT_GE(samples.size(), 1300u);
+}
+
 // Cells somewhat larger than points lie apart are hardly fewer than the points.
 TEST(ThinCloud, FindsTheCellsOfHardlyTooManyPointsAtOnce) {
   PointCloud cloud;

@@ -57,6 +57,20 @@ TEST(WithoutAMap, HousesThatTouchAreOneSolid) {
   EXPECT_NEAR(AreaOf(houses, FacetClass::kWall), (8 + 2 * 8) * 6 + (8 + 2 * 12) * 9 + 8 * 3, 12);
 }
 
+// The larger house is found first; it is not the first of the line that numbers them.
+TEST(WithoutAMap, HousesAreNumberedByPlace) {
+  const auto captured = test::Capture(
+      {FlatHouse(Rectangle(-14, -4, -6, 2), 6), FlatHouse(Rectangle(2, -6, 14, 6), 9)},
+      {test::GroundSquare(25)}, kDenseCapture);
+  const auto made = ModelOf(captured);
+  const Building* first = test::Find(made.proxy, "C0001");
+  const Building* second = test::Find(made.proxy, "C0002");
+  ASSERT_NE(first, nullptr);
+  ASSERT_NE(second, nullptr);
+  EXPECT_NEAR(AreaOf(*first, FacetClass::kRoof), 8 * 6, 3);
+  EXPECT_NEAR(AreaOf(*second, FacetClass::kRoof), 12 * 12, 4);
+}
+
 TEST(WithoutAMap, AYardStaysOpen) {
   test::House house = FlatHouse(Rectangle(-12, -12, 12, 12), 5);
   const test::House yard = FlatHouse(Court(-5, -5, 5, 5), 5);
