@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "proxy/map/facade_ids.h"
+#include "proxy/map/ground_slope.h"
 #include "site/box_grid.h"
 #include "survey/median.h"
 
@@ -26,7 +27,6 @@ constexpr double kTraceCell_m = 0.5;    // about a window's width: finer tells n
 constexpr size_t kEnoughTraces = 6000;  // to tell a turn by
 constexpr double kLeastHeight_m = 1;    // of what stands upright in a cell
 constexpr double kBesideCloud_m = 10;   // facades with no point this near were not flown
-constexpr double kRing_m = 4;           // around a building, where its ground is looked for
 
 // Samples of one cell of the ground plan that look the same way.
 struct Pile {
@@ -254,6 +254,7 @@ RaisedShares CountRaised(const UprightSurvey& survey, const std::vector<MapBuild
   const Floors floors(buildings);
   for (const MapBuilding& building : buildings) {
     const auto ground = GroundAround(survey, building);
+    const auto slope = SlopeAround(survey, building);
     for (const auto& [cell, height] : TopsAround(survey, building)) {
       const Eigen::Vector2d middle(cell.first + 0.5, cell.second + 0.5);
       const double to_outline = ToOutline(building, middle);
@@ -264,7 +265,8 @@ RaisedShares CountRaised(const UprightSurvey& survey, const std::vector<MapBuild
       if (!ground) continue;
       RaisedCells& cells = within ? shares.inside : shares.outside;
       ++cells.seen;
-      cells.raised += height > *ground + kRaised_m;
+      const bool on_slope = slope && slope->Shows({middle.x(), middle.y(), height});
+      cells.raised += height > *ground + kRaised_m && !on_slope;
     }
   }
   return shares;

@@ -28,6 +28,8 @@ struct MapRegistration {
 bool LooksLikeWall(const Eigen::Vector3d& normal);
 // What lies this far above the ground is part of a building, or of what grows or parks beside it.
 inline constexpr double kRaised_m = 2;
+// Its ground is looked for this far around a building.
+inline constexpr double kRing_m = 4;
 
 // The upright things of the cloud as short pieces of line seen from above, what they enclose on
 // their left: samples that look level, by cells of the ground plan in which they are at least a

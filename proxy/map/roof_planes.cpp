@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "proxy/cloud/grid_index.h"
 #include "proxy/cloud/normals.h"
+#include "proxy/map/ground_slope.h"
 #include "proxy/map/parapets.h"
 #include "proxy/planes/densest.h"
 #include "proxy/planes/find_planes.h"
@@ -23,15 +25,43 @@ constexpr double kRoofNormal = 0.26;   // 75 degrees of pitch: steeper is a wall
 constexpr double kGroundNormal = 0.9;  // cosine: 26 degrees
 constexpr double kOnWall_m = 0.4;      // what stands upright this near to the outline is its wall
 
+// What is no part of a building by its height: on a slope also what goes on as the ground does
+// around it, where most of the footprint does.
+class LowThings {
+ public:
+  LowThings(const UprightSurvey& survey, const FittedBuilding& building)
+      : below_(building.ground + kRaised_m) {
+    constexpr double kMostOfIt = 0.6;
+    const auto slope = SlopeAround(survey, building.building);
+    if (!slope) return;
+    size_t inside = 0, on_it = 0;
+    for (const int i : survey.bins.In(BoundsOf(building.building, 0))) {
+      const Eigen::Vector3d& p = survey.samples.positions[i];
+      if (DistanceTo(building.building, p.head<2>()) > 0) continue;
+      ++inside;
+      on_it += slope->Shows(p);
+    }
+    if (static_cast<double>(on_it) > kMostOfIt * static_cast<double>(inside)) slope_ = slope;
+  }
+
+  bool Has(const Eigen::Vector3d& p) const {
+    return p.z() < below_ || (slope_ && slope_->Shows(p));
+  }
+
+ private:
+  double below_;
+  std::optional<GroundSlope> slope_;
+};
+
 // By cells of half a metre: where there is anything, and where the ground shows.
-void MeasureCover(const Samples& upright, const std::vector<int>& inside, double ground,
+void MeasureCover(const Samples& upright, const std::vector<int>& inside, const LowThings& low,
                   RoofEvidence& evidence) {
   constexpr double kCell_m = 0.5;
   std::map<std::pair<int, int>, bool> bare;
   for (const int i : inside) {
     const Eigen::Vector3d& p = upright.positions[i];
     bare[{static_cast<int>(std::floor(p.x() / kCell_m)),
-          static_cast<int>(std::floor(p.y() / kCell_m))}] |= p.z() < ground + kRaised_m;
+          static_cast<int>(std::floor(p.y() / kCell_m))}] |= low.Has(p);
   }
   for (const auto& [cell, is_bare] : bare) {
     evidence.seen_m2 += kCell_m * kCell_m;
@@ -170,6 +200,7 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
                             const WallTops& walls, const ProxyOptions& options) {
   const Samples& upright = survey.samples;
   const Tolerances& tolerances = survey.tolerances;
+  const LowThings low(survey, building);
   RoofEvidence evidence;
   std::vector<int> inside, above, steps;  // `inside` of the rim
   for (const int i : survey.bins.In(BoundsOf(building.building, 0))) {
@@ -179,7 +210,7 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
     const bool on_rim = ToOutline(building.building, p.head<2>()) < kOnWall_m;
     if (upright_thing && on_rim) continue;
     if (!on_rim) inside.push_back(i);
-    if (p.z() < building.ground + kRaised_m) {
+    if (low.Has(p)) {
       if (upright.normals[i].z() > kGroundNormal) evidence.open.emplace_back(p.head<2>());
       continue;
     }
@@ -190,7 +221,7 @@ RoofEvidence FindRoofPlanes(const UprightSurvey& survey, const FittedBuilding& b
       above.push_back(i);
     }
   }
-  MeasureCover(upright, inside, building.ground, evidence);
+  MeasureCover(upright, inside, low, evidence);
   evidence.samples = SubsetOf(upright, above);
   std::vector<Plane> planes = Detect(evidence.samples, tolerances, options);
   DropRims(evidence.samples, building.building, 2 * tolerances.level_of_detail, planes);

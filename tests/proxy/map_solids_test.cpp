@@ -309,6 +309,32 @@ TEST(MapSolids, NamesWhatIsGoneAndWhatIsNew) {
   EXPECT_NEAR(VolumeOf(*found), 81 * 6, 15);
 }
 
+// The hill above the lowest ground around a footprint is as smooth as a roof, and no house.
+TEST(MapSolids, NamesWhatIsGoneOnASlope) {
+  constexpr double kSlope = 0.25;
+  const auto on_hill = [](test::House house) {
+    for (auto& polygon : house.polygons) {
+      for (auto& p : polygon.ring) p.z() = p.z() > 0 ? p.z() + 3 : kSlope * p.x();
+    }
+    return house;
+  };
+  const std::vector<Ring> standing = {Rectangle(-9, -20, 3, -12), Rectangle(-6, 10, 6, 20),
+                                      Rectangle(12, -16, 21, -6)};
+  std::vector<test::House> houses;
+  std::vector<MapEntry> map;
+  for (const Ring& ring : standing) {
+    houses.push_back(on_hill(FlatHouse(ring, 6)));
+    map.push_back({"B000" + std::to_string(map.size() + 1), {ring}, 9});
+  }
+  map.push_back({"B0004", {Rectangle(-8, -5, 8, 4)}, 9});
+  auto hill = test::GroundSquare(30);
+  for (auto& p : hill.ring) p.z() = kSlope * p.x();
+  const MadeModel made = MakeModel(test::Capture(houses, {hill}, kCapture), map);
+  for (const char* id : {"B0001", "B0002", "B0003"}) ClosedIn(made, id);
+  EXPECT_EQ(test::Find(made.proxy, "B0004"), nullptr);
+  EXPECT_TRUE(SaysOfMap(made.findings, "B0004: not built, or demolished", true));
+}
+
 TEST(MapSolids, ExtrudesWhatNobodySaw) {
   const StreetOfFive street = MakeStreet();
   auto map = street.map;
