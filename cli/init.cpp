@@ -16,11 +16,15 @@ namespace {
 
 int Init(const CommonOptions& common, const std::string& photos, const StageTable& table) {
   const PhotoFolder found = InitSurvey(common.survey, photos, table);
-  const std::string next = "stucco run " + ShellWord(common.survey);
+  constexpr size_t kFewest = 2;
+  const std::string next = found.photos < kFewest
+                               ? fmt::format("put photos into {}, then: stucco check {}",
+                                             ShellWord(photos), ShellWord(common.survey))
+                               : "stucco run " + ShellWord(common.survey);
   for (const PhotoProblem& problem : found.problems) {
     std::cerr << "warning: " << problem.why << "\n";
   }
-  if (found.photos < 2) {
+  if (found.photos < kFewest) {
     std::cerr << fmt::format("warning: {} has {} usable photos; a run needs at least two\n", photos,
                              found.photos);
   }

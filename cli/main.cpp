@@ -32,7 +32,7 @@ constexpr char kFooter[] =
     "  stucco status my-survey                     see what is done and what to do next\n"
     "\n"
     "stucco VERB --help explains a verb. Exit codes: 0 done, 1 a stage failed, 2 wrong usage,\n"
-    "3 bad input, 4 a quality gate was not met, 5 out of disk or memory, 130 interrupted.";
+    "3 bad input, 4 lint found faults, 5 out of disk or memory, 130 interrupted.";
 
 void AddVerbs(CLI::App& app, stucco::Program& program) {
   stucco::AddPlan(app, program);
@@ -95,7 +95,10 @@ int Main(const std::vector<std::string>& words) {
       std::cout << app.help();
       return stucco::ExitCode(stucco::ErrorKind::kUsage);
     }
-    throw stucco::Error(stucco::ErrorKind::kUsage, e.what(), stucco::SuggestUsage(app, words));
+    const std::string what = stucco::IsUnknownVerb(app, words.front())
+                                 ? fmt::format("there is no verb \"{}\"", words.front())
+                                 : e.what();
+    throw stucco::Error(stucco::ErrorKind::kUsage, what, stucco::SuggestUsage(app, words));
   }
   return program.action();
 }

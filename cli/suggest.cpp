@@ -60,6 +60,10 @@ std::string SuggestOptions(const CLI::App& verb, const std::vector<std::string>&
 
 }  // namespace
 
+bool IsUnknownVerb(const CLI::App& app, const std::string& word) {
+  return !word.empty() && word.front() != '-' && std::ranges::count(Verbs(app), word) == 0;
+}
+
 std::string SuggestUsage(const CLI::App& app, const std::vector<std::string>& words) {
   const std::vector<std::string> verbs = Verbs(app);
   const auto first = std::find_if(words.begin(), words.end(),

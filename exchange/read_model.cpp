@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 
 constexpr char kWhatIsRead[] =
     "name a COLMAP folder (cameras, images, points3D), a bundle.out, a BlocksExchange XML, an "
-    "OpenSfM reconstruction.json, a folder of RealityCapture XMP files, or a PLY cloud";
+    "OpenSfM reconstruction.json, a folder of RealityCapture XMP files, a PLY cloud, or a model of "
+    "buildings (CityJSON, OBJ, GLB, glTF)";
 
 constexpr char kUtf8Mark[] = "\xef\xbb\xbf";
 

@@ -226,8 +226,11 @@ class Runner {
     outcome.stage = stage.name;
     if (!selected) {
       if (assessment.state != StageState::kDone && selection_.IsBeforeFirst(stage.name)) {
-        console_.Warning(fmt::format("warning: {} is {} ({}) and is taken as it is", stage.name,
-                                     Name(assessment.state), JoinReasons(assessment.reasons)));
+        const bool is_there = fs::exists(survey_ / stage.name);
+        console_.Warning(
+            fmt::format("warning: {} is {} ({}) and is {}", stage.name, Name(assessment.state),
+                        JoinReasons(assessment.reasons),
+                        is_there ? "taken as it is" : "left out: a run without --from makes it"));
       }
     } else if (!blocker.empty()) {
       outcome.action = StageAction::kBlocked;

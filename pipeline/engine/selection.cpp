@@ -3,6 +3,7 @@
 #include "pipeline/engine/selection.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -10,6 +11,13 @@
 
 namespace stucco {
 namespace {
+
+std::vector<std::string> NamesOf(const StageTable& table) {
+  std::vector<std::string> names;
+  names.reserve(table.size());
+  for (const Stage& stage : table) names.push_back(stage.name);
+  return names;
+}
 
 bool IsIn(const std::vector<std::string>& stages, const std::string& stage) {
   return std::find(stages.begin(), stages.end(), stage) != stages.end();
@@ -41,7 +49,7 @@ Selection Select(const StageTable& table, const RunOptions& options) {
   if (&first > &last) {
     throw Error(ErrorKind::kUsage,
                 fmt::format("--from {} comes after --until {}", first.name, last.name),
-                fmt::format("the order of the stages is {} ... {}", last.name, first.name));
+                fmt::format("the order of the stages is {}", fmt::join(NamesOf(table), ", ")));
   }
   const std::vector<std::string> needed = WithNeeds(table, last.name);
   for (const Stage& stage : table) {

@@ -191,13 +191,15 @@ Settings LoadSettings(const fs::path& survey, const StageTable& table,
   Settings settings;
   SettingsReader reader(table, settings);
   reader.ReadFile(ParseFile(survey / kSettingsFile));
+  const bool file_is_right = reader.problems().empty();
   for (const std::string& text : overrides) {
     reader.Override(text);
   }
   if (!reader.problems().empty()) {
     throw Error(ErrorKind::kUsage, fmt::format("{}", fmt::join(reader.problems(), "\n")),
-                fmt::format("mend {}; stucco options lists what there is",
-                            (survey / kSettingsFile).string()));
+                file_is_right ? "correct the command; stucco options lists what there is"
+                              : fmt::format("mend {}; stucco options lists what there is",
+                                            (survey / kSettingsFile).string()));
   }
   settings.photos = fs::absolute(survey / reader.photos()).lexically_normal();
   return settings;

@@ -38,11 +38,13 @@ void RequireFolder(const fs::path& folder) {
   if (!fs::exists(folder, error)) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: the photo folder is not there", folder.string()),
-                "correct photos = ... in survey.toml, or connect the disk that holds it");
+                "check its path (photos in survey.toml, or --photos of init), or connect the disk "
+                "that holds it");
   }
   if (!fs::is_directory(folder, error)) {
-    throw Error(ErrorKind::kBadInput, fmt::format("{}: is a file, not a folder", folder.string()),
-                "name the folder that holds the photos in survey.toml");
+    throw Error(
+        ErrorKind::kBadInput, fmt::format("{}: is a file, not a folder", folder.string()),
+        "name the folder that holds the photos (photos in survey.toml, or --photos of init)");
   }
   fs::directory_iterator readable(folder, error);
   if (error) {

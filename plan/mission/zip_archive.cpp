@@ -23,8 +23,9 @@ struct Discard {
   void operator()(zip_file_t* file) const { zip_fclose(file); }
 };
 
-[[noreturn]] void Fail(const std::filesystem::path& path, const std::string& reason) {
-  throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", path.string(), reason));
+[[noreturn]] void Fail(const std::filesystem::path& path, const std::string& reason,
+                       const std::string& remedy = "") {
+  throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", path.string(), reason), remedy);
 }
 
 std::string Reason(int code) {
@@ -80,9 +81,17 @@ void WriteZip(const std::filesystem::path& path, const std::vector<ZipEntry>& en
 }
 
 std::vector<ZipEntry> ReadZip(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) Fail(path, "is not there", "check the path");
+  if (std::filesystem::is_directory(path, error)) {
+    Fail(path, "is a folder, not a file", "name the KMZ file itself");
+  }
   int code = 0;
   const std::unique_ptr<zip_t, Discard> archive(zip_open(path.c_str(), ZIP_RDONLY, &code));
-  if (!archive) Fail(path, "is no readable zip file: " + Reason(code));
+  if (!archive) {
+    Fail(path, "is no readable zip file: " + Reason(code),
+         "a KMZ is a zip file: export or copy it again");
+  }
   std::vector<ZipEntry> entries;
   zip_uint64_t budget = kLargest;
   const zip_int64_t count = zip_get_num_entries(archive.get(), 0);

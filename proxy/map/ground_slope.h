@@ -11,7 +11,8 @@
 
 namespace stucco {
 
-// The ground around a building as one plane: what rises above the lowest of it need not stand on it.
+// The ground around a building as one plane: what rises above the lowest of it need not stand on
+// it.
 struct GroundSlope {
   Eigen::Vector2d rise = Eigen::Vector2d::Zero();  // per metre
   double height = 0;                               // at the origin
