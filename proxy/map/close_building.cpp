@@ -335,7 +335,8 @@ ClosedBuilding BuildingCloser::Close(const MapBuilding& mapped, const FittedBuil
     evidence.roof.planes.clear();
     evidence.top.reset();
   };
-  if (wanted_unseen() && !HasSmoothRoof(evidence.roof)) as_mapped();
+  // Of a scan without walls, planes amid details are of a roof all the same.
+  if (wanted_unseen() && evidence.walls_seen && !HasSmoothRoof(evidence.roof)) as_mapped();
   if (closed.standing == Standing::kStands || wanted_unseen()) make();
   const bool doubtful = closed.standing == Standing::kStands && !closed.facets.empty() &&
                         !ShowsWhatStands(closed.facets);

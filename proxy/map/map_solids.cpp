@@ -18,6 +18,7 @@
 
 #include "proxy/map/close_building.h"
 #include "proxy/map/closer_look.h"
+#include "proxy/map/ground_around.h"
 #include "proxy/map/judge_found.h"
 #include "proxy/map/off_the_map.h"
 #include "proxy/map/outline_fit.h"

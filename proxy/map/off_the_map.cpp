@@ -13,6 +13,7 @@
 #include "proxy/facets/outline.h"
 #include "proxy/map/corners.h"
 #include "proxy/map/floors.h"
+#include "proxy/map/ground_around.h"
 #include "proxy/map/move_edges.h"
 #include "proxy/map/registration.h"
 

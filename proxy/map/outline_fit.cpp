@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "proxy/map/ground_around.h"
 #include "proxy/map/map_errors.h"
 #include "proxy/map/move_edges.h"
 #include "proxy/map/neighbours.h"

@@ -15,7 +15,7 @@
 #include <tuple>
 
 #include "proxy/map/facade_ids.h"
-#include "proxy/map/ground_slope.h"
+#include "proxy/map/ground_around.h"
 #include "site/box_grid.h"
 #include "survey/median.h"
 
@@ -322,26 +322,6 @@ MapRegistration RegisterMap(const UprightSurvey& survey, const OutlineMap& map) 
         100 * inside.Share(), 100 * outside.Share());
   }
   return found;
-}
-
-std::optional<double> GroundAround(const UprightSurvey& survey, const MapBuilding& building) {
-  const Samples& upright = survey.samples;
-  constexpr size_t kFewest = 20;
-  constexpr double kUpwards = 0.8;      // 37 degrees
-  constexpr double kLowest = 0.05;      // share; strays lie below all ground
-  constexpr double kThickness_m = 0.3;  // of ground with grass and noise
-  std::vector<double> heights;
-  for (const int i : survey.bins.In(BoundsOf(building, kRing_m))) {
-    const Eigen::Vector3d& p = upright.positions[i];
-    if (upright.normals[i].z() < kUpwards) continue;
-    const double distance = DistanceTo(building, p.head<2>());
-    if (distance > 0 && distance < kRing_m) heights.push_back(p.z());
-  }
-  if (heights.size() < kFewest) return std::nullopt;
-  std::sort(heights.begin(), heights.end());
-  const double low = heights[static_cast<size_t>(kLowest * static_cast<double>(heights.size()))];
-  std::erase_if(heights, [&](double z) { return std::abs(z - low) > kThickness_m; });
-  return Median(heights);
 }
 
 }  // namespace stucco

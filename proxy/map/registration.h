@@ -28,8 +28,6 @@ struct MapRegistration {
 bool LooksLikeWall(const Eigen::Vector3d& normal);
 // What lies this far above the ground is part of a building, or of what grows or parks beside it.
 inline constexpr double kRaised_m = 2;
-// Its ground is looked for this far around a building.
-inline constexpr double kRing_m = 4;
 
 // The upright things of the cloud as short pieces of line seen from above, what they enclose on
 // their left: samples that look level, by cells of the ground plan in which they are at least a
@@ -43,8 +41,5 @@ std::vector<Segment2d> WallTraces(const Samples& upright);
 // another, or when the footprints are not what is raised above the ground: a map of another town
 // finds some walls anywhere. A scan without photos and walls lies where it says: it is not moved.
 MapRegistration RegisterMap(const UprightSurvey& survey, const OutlineMap& map);
-
-// Height of the lowest ground next to a building; nothing where the cloud shows too little of it.
-std::optional<double> GroundAround(const UprightSurvey& survey, const MapBuilding& building);
 
 }  // namespace stucco

@@ -12,7 +12,7 @@
 
 #include "proxy/cloud/grid_index.h"
 #include "proxy/cloud/normals.h"
-#include "proxy/map/ground_slope.h"
+#include "proxy/map/ground_around.h"
 #include "proxy/map/parapets.h"
 #include "proxy/planes/densest.h"
 #include "proxy/planes/find_planes.h"

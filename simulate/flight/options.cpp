@@ -12,7 +12,8 @@ void Describe(OptionTable& table, FlightOptions& options) {
             "How far from the plan the drone really stands, in metres.");
   table.Add("gimbal_sigma_deg", options.gimbal_sigma_deg, 0.0, 20.0,
             "How far from the plan the camera really looks, in degrees.");
-  table.Add("rtk", options.rtk, "Positions are recorded by an RTK receiver: no bias, 1.1 cm, 2 cm in height.");
+  table.Add("rtk", options.rtk,
+            "Positions are recorded by an RTK receiver: no bias, 1.1 cm, 2 cm in height.");
   table.Add("gps_bias_m", options.gps_bias_m, 0.0, 50.0,
             "Length of the recorded positions' common shift, in metres.");
   table.Add("gps_sigma_m", options.gps_sigma_m, 0.0, 50.0,

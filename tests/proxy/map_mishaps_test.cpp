@@ -21,7 +21,7 @@ using test::VolumeOf;
 
 constexpr double kVolume_m3 = 12 * 9 * 6;
 
-const Ring& Outline() {
+const Ring& HouseOutline() {
   static const Ring ring = Rectangle(-6, -4.5, 6, 4.5);
   return ring;
 }
@@ -48,7 +48,7 @@ TEST(MapMishaps, CrownsOverAHouseAreNotItsRoof) {
   for (const double x : {-5.0, -2.0, 1.0, 4.0}) {
     for (const double y : {-3.0, 0.0, 3.0}) test::AddTree({x, y, 8.5}, 2.4, 2500, 3, captured);
   }
-  const MadeModel made = MakeModel(captured, {{"B0001", {Outline()}, 9}});
+  const MadeModel made = MakeModel(captured, {{"B0001", {HouseOutline()}, 9}});
   const Building& house = ClosedIn(made, "B0001");
   EXPECT_NEAR(VolumeOf(house), kVolume_m3, 30);
   ASSERT_EQ(OfClass(house, FacetClass::kRoof).size(), 1u);
@@ -56,7 +56,7 @@ TEST(MapMishaps, CrownsOverAHouseAreNotItsRoof) {
 }
 
 TEST(MapMishaps, AHouseSeenFromOneSideIsClosed) {
-  const MadeModel made = MakeModel(CaptureBox({}, true), {{"B0001", {Outline()}, 9}});
+  const MadeModel made = MakeModel(CaptureBox({}, true), {{"B0001", {HouseOutline()}, 9}});
   const Building& house = ClosedIn(made, "B0001");
   EXPECT_EQ(house.facets.size(), 6u);
   EXPECT_NEAR(VolumeOf(house), kVolume_m3, 50);
@@ -65,7 +65,7 @@ TEST(MapMishaps, AHouseSeenFromOneSideIsClosed) {
 }
 
 TEST(MapMishaps, AHouseWhoseGroundNobodySawEndsAtItsFoot) {
-  const MadeModel made = MakeModel(CaptureBox({"ground"}), {{"B0001", {Outline()}, 6}});
+  const MadeModel made = MakeModel(CaptureBox({"ground"}), {{"B0001", {HouseOutline()}, 6}});
   EXPECT_NEAR(VolumeOf(ClosedIn(made, "B0001")), kVolume_m3, 30);
 }
 

@@ -328,9 +328,8 @@ TEST_F(Model, LargePicturesAreCutIntoTiles) {
 }
 
 TEST_F(Model, TilesOfLooksAreVariants) {
-  const ModelLook now{"now", textures_, folder_.path()};
-  const ModelLook then{"then", textures_, folder_.path()};
-  const std::vector<ModelLook> looks = {now, then};
+  const std::vector<ModelLook> looks = {{"now", textures_, folder_.path()},
+                                        {"then", textures_, folder_.path()}};
   WriteFile(folder_.path() / "model.glb", GlbOfLooks(proxy_, looks, {.max_px = 16}));
   const json gltf = GlbJson();
   EXPECT_EQ(gltf["images"].size(), 16u);
@@ -349,8 +348,7 @@ TEST_F(Model, TilesOfLooksAreVariants) {
 TEST_F(Model, LooksOfOtherSizesHaveTheSameTiles) {
   const std::filesystem::path coarse = folder_.path() / "coarse";
   std::filesystem::create_directories(coarse / "textures");
-  Image grey{20, 15, 3, std::vector<uint8_t>(900, 90)};
-  WriteImage(grey, coarse / "textures/B0001_W01.png");
+  WriteImage(Image{20, 15, 3, std::vector<uint8_t>(900, 90)}, coarse / "textures/B0001_W01.png");
   TextureSet none = textures_, larger = textures_;
   none.facets[0].image.clear();
   larger.facets[0].width_px = 20;
@@ -368,17 +366,6 @@ TEST_F(Model, LooksOfOtherSizesHaveTheSameTiles) {
     EXPECT_EQ(mappings[0]["variants"], json({1}));
     EXPECT_EQ(mappings[1]["variants"], json({2}));
   }
-}
-
-TEST(EncodingThreads, AsManyAsFitWithTheLargestPicture) {
-  ModelLook look;
-  look.textures.facets.resize(2);
-  look.textures.facets[1].width_px = look.textures.facets[1].height_px = 1000;
-  constexpr uint64_t kOne = 9'000'000;
-  EXPECT_EQ(EncodingThreads({&look, 1}, 0, 3 * kOne, 8), 3);
-  EXPECT_EQ(EncodingThreads({&look, 1}, 0, 100 * kOne, 8), 8);
-  EXPECT_EQ(EncodingThreads({&look, 1}, 0, 1, 8), 1);
-  EXPECT_EQ(EncodingThreads({&look, 1}, 2000, 8 * kOne, 8), 2);  // a sheet is larger
 }
 
 TEST_F(Model, LooksAreVariants) {

@@ -11,6 +11,12 @@
 
 namespace stucco {
 
+// The ground of a building is looked for this far around it.
+inline constexpr double kRing_m = 4;
+
+// Height of the lowest ground next to a building; nothing where the cloud shows too little of it.
+std::optional<double> GroundAround(const UprightSurvey& survey, const MapBuilding& building);
+
 // The ground around a building as one plane: what rises above the lowest of it need not stand on
 // it.
 struct GroundSlope {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Stucco authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "proxy/map/ground_slope.h"
+#include "proxy/map/ground_around.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "proxy/map/registration.h"
+#include "survey/median.h"
 
 namespace stucco {
 namespace {
@@ -81,6 +81,26 @@ std::vector<Eigen::Vector3d> OnPlane(const std::vector<Eigen::Vector3d>& points,
 }
 
 }  // namespace
+
+std::optional<double> GroundAround(const UprightSurvey& survey, const MapBuilding& building) {
+  const Samples& upright = survey.samples;
+  constexpr size_t kFewest = 20;
+  constexpr double kUpwards = 0.8;      // 37 degrees
+  constexpr double kLowest = 0.05;      // share; strays lie below all ground
+  constexpr double kThickness_m = 0.3;  // of ground with grass and noise
+  std::vector<double> heights;
+  for (const int i : survey.bins.In(BoundsOf(building, kRing_m))) {
+    const Eigen::Vector3d& p = upright.positions[i];
+    if (upright.normals[i].z() < kUpwards) continue;
+    const double distance = DistanceTo(building, p.head<2>());
+    if (distance > 0 && distance < kRing_m) heights.push_back(p.z());
+  }
+  if (heights.size() < kFewest) return std::nullopt;
+  std::sort(heights.begin(), heights.end());
+  const double low = heights[static_cast<size_t>(kLowest * static_cast<double>(heights.size()))];
+  std::erase_if(heights, [&](double z) { return std::abs(z - low) > kThickness_m; });
+  return Median(heights);
+}
 
 std::optional<GroundSlope> SlopeAround(const UprightSurvey& survey, const MapBuilding& building) {
   std::vector<Eigen::Vector3d> lowest;
