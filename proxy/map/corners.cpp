@@ -88,7 +88,7 @@ Ring WithoutSteps(Ring ring, const IsHeld& is_held, double reach, double depth) 
         ring.insert(ring.erase(begin, end), instead->begin(), instead->end());
       }
     }
-    std::ranges::rotate(ring, ring.begin() + 1);
+    std::rotate(ring.begin(), ring.begin() + 1, ring.end());
   }
   return ring;
 }
