@@ -60,6 +60,21 @@ bool HardlyShowsRoof(const BuildingEvidence& evidence) {
   return seen < kLeast * Area(evidence.fitted.building);
 }
 
+// Height of the largest level piece of roof; nothing where there is none of a few square metres.
+std::optional<double> LevelPiece(const RoofEvidence& roof) {
+  constexpr double kLevel = 0.98;  // cosine of 11 degrees
+  constexpr double kLeast_m2 = 4;
+  for (const Plane& plane : roof.planes) {  // by falling area
+    if (plane.area < kLeast_m2) return std::nullopt;
+    if (plane.normal.z() < kLevel) continue;
+    std::vector<double> heights;
+    heights.reserve(plane.points.size());
+    for (const int i : plane.points) heights.push_back(roof.samples.positions[i].z());
+    return Median(std::move(heights));
+  }
+  return std::nullopt;
+}
+
 // Nobody sees the ground below a building; below trees one does, between the leaves.
 bool ShowsGround(const BuildingEvidence& evidence) {
   constexpr double kBare = 0.5;  // of what is seen of the footprint
@@ -311,8 +326,11 @@ ClosedBuilding BuildingCloser::Close(const MapBuilding& mapped, const FittedBuil
   evidence.roof = FindRoofPlanes(survey_, fitted, walls, options_);
   evidence.top = TopOf(evidence, walls);
   if (HardlyShowsRoof(evidence) && walls.Height()) {
-    evidence.roof.planes.clear();  // a level roof where the walls end
-    evidence.top = walls.Height();
+    // A level roof where the walls end, or as high as a piece of it lies above all that is seen of
+    // them.
+    const double piece = LevelPiece(evidence.roof).value_or(*walls.Height());
+    evidence.roof.planes.clear();
+    evidence.top = std::max(*walls.Height(), piece);
   }
   evidence.map_top = mapped.z_m.to_m + plan_to_survey_m;
   evidence.plan_to_survey_m = plan_to_survey_m;

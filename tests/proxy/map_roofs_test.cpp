@@ -74,5 +74,16 @@ TEST(MapRoofs, WhatIsAsDenseAsTheRoofIsAPlatform) {
   EXPECT_GE(OfClass(ClosedIn(made, "B0001"), FacetClass::kRoof).size(), 2u);
 }
 
+// Of a tower the uppermost walls were not seen, and of its roof a few square metres.
+TEST(MapRoofs, APieceOfRoofAboveTheWallsSaysHowHighATowerIs) {
+  test::House tower = FlatHouse(Rectangle(-7, -7, 7, 7), 12);
+  tower.polygons.back() = {"roof", {{-6, 1, 18}, {-3, 1, 18}, {-3, 5, 18}, {-6, 5, 18}}};
+  const auto captured = test::Capture({tower}, {test::GroundSquare(25)}, test::kDenseCapture);
+  const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-7, -7, 7, 7)}, 9}});
+  const Building& building = ClosedIn(made, "B0001");
+  EXPECT_EQ(building.facets.size(), 6u);
+  EXPECT_NEAR(TopOf(*OfClass(building, FacetClass::kRoof)[0]), 18, 0.1);
+}
+
 }  // namespace
 }  // namespace stucco
