@@ -57,8 +57,8 @@ class Surroundings {
 
 constexpr double kApart_m = 1;
 
-// Whether two outlines come that near to each other. One inside of the other does not, but for the
-// house in the middle of a yard.
+// Whether two outlines come that near to each other. A house in the middle of another's yard need
+// not.
 bool NearlyTouch(const MapBuilding& a, const MapBuilding& b) {
   const auto edges_of = [](const MapBuilding& building) {
     std::vector<Segment2d> edges;

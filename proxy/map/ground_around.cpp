@@ -18,17 +18,25 @@ constexpr size_t kFewestSectors = 5;
 constexpr double kOnPlane_m = 0.3;
 constexpr double kSteepest = 0.7;  // 35 degrees
 
-using Sectors = std::array<std::vector<Eigen::Vector3d>, kSectors>;
-
-Sectors LookAround(const UprightSurvey& survey, const MapBuilding& building) {
+// What looks up next to a building.
+std::vector<Eigen::Vector3d> RingAround(const UprightSurvey& survey, const MapBuilding& building) {
   constexpr double kUpwards = 0.8;  // 37 degrees
-  const Eigen::Vector2d middle = BoundsOf(building, 0).center();
-  Sectors sectors;
+  std::vector<Eigen::Vector3d> ring;
   for (const int i : survey.bins.In(BoundsOf(building, kRing_m))) {
     const Eigen::Vector3d& p = survey.samples.positions[i];
     if (survey.samples.normals[i].z() < kUpwards) continue;
     const double distance = DistanceTo(building, p.head<2>());
-    if (distance <= 0 || distance >= kRing_m) continue;
+    if (distance > 0 && distance < kRing_m) ring.push_back(p);
+  }
+  return ring;
+}
+
+using Sectors = std::array<std::vector<Eigen::Vector3d>, kSectors>;
+
+Sectors LookAround(const UprightSurvey& survey, const MapBuilding& building) {
+  const Eigen::Vector2d middle = BoundsOf(building, 0).center();
+  Sectors sectors;
+  for (const Eigen::Vector3d& p : RingAround(survey, building)) {
     const double turn = std::atan2(p.y() - middle.y(), p.x() - middle.x()) / std::numbers::pi;
     const auto sector = static_cast<size_t>((turn + 1) / 2 * kSectors);
     sectors[std::min(sector, kSectors - 1)].push_back(p);
@@ -83,18 +91,11 @@ std::vector<Eigen::Vector3d> OnPlane(const std::vector<Eigen::Vector3d>& points,
 }  // namespace
 
 std::optional<double> GroundAround(const UprightSurvey& survey, const MapBuilding& building) {
-  const Samples& upright = survey.samples;
   constexpr size_t kFewest = 20;
-  constexpr double kUpwards = 0.8;      // 37 degrees
   constexpr double kLowest = 0.05;      // share; strays lie below all ground
   constexpr double kThickness_m = 0.3;  // of ground with grass and noise
   std::vector<double> heights;
-  for (const int i : survey.bins.In(BoundsOf(building, kRing_m))) {
-    const Eigen::Vector3d& p = upright.positions[i];
-    if (upright.normals[i].z() < kUpwards) continue;
-    const double distance = DistanceTo(building, p.head<2>());
-    if (distance > 0 && distance < kRing_m) heights.push_back(p.z());
-  }
+  for (const Eigen::Vector3d& p : RingAround(survey, building)) heights.push_back(p.z());
   if (heights.size() < kFewest) return std::nullopt;
   std::sort(heights.begin(), heights.end());
   const double low = heights[static_cast<size_t>(kLowest * static_cast<double>(heights.size()))];
