@@ -392,20 +392,33 @@ bool TouchesInEdge(const Fan& fan, const std::vector<double>& heights) {
   return false;
 }
 
-// Place in the fan of the smallest cell whose next neighbour has another roof; -1: there is none,
-// parts of the footprint itself touch in a point.
-int SmallestToJoin(const Arrangement& arrangement, const Fan& fan, const std::vector<int>& labels) {
+// Place in the fan of the smallest cell that may take the label of the next one; -1: there is none.
+template <typename MayTake>
+int SmallestThat(const Arrangement& arrangement, const Fan& fan, const MayTake& may_take) {
   int smallest = -1;
+  double least = 0;
   for (size_t i = 0; i < fan.cells.size(); ++i) {
-    const int cell = fan.cells[i];
-    if (cell < 0 || labels[cell] < 0) continue;
-    const int next = fan.cells[(i + 1) % fan.cells.size()];
-    if (next < 0 || labels[next] < 0 || labels[next] == labels[cell]) continue;
-    const bool smaller = smallest < 0 || SignedArea(RingOf(arrangement, cell)) <
-                                             SignedArea(RingOf(arrangement, fan.cells[smallest]));
-    if (smaller) smallest = static_cast<int>(i);
+    const int cell = fan.cells[i], next = fan.cells[(i + 1) % fan.cells.size()];
+    if (cell < 0 || next < 0 || !may_take(cell, next)) continue;
+    const double area = SignedArea(RingOf(arrangement, cell));
+    if (smallest >= 0 && area >= least) continue;
+    smallest = static_cast<int>(i);
+    least = area;
   }
   return smallest;
+}
+
+// The same for cells with roofs and neighbours with others; else for open cells of the footprint.
+// -1: parts of the footprint itself touch in a point.
+int SmallestToJoin(const Arrangement& arrangement, const Fan& fan, const std::vector<bool>& inside,
+                   const std::vector<int>& labels) {
+  const int roofed = SmallestThat(arrangement, fan, [&](int cell, int next) {
+    return labels[cell] >= 0 && labels[next] >= 0 && labels[next] != labels[cell];
+  });
+  if (roofed >= 0) return roofed;
+  return SmallestThat(arrangement, fan, [&](int cell, int next) {
+    return labels[cell] < 0 && inside[cell] && labels[next] >= 0;
+  });
 }
 
 }  // namespace
@@ -418,7 +431,7 @@ std::vector<ExtrudedFace> ExtrudeCells(Arrangement arrangement, std::span<const 
 }
 
 void JoinAtCorners(const Arrangement& arrangement, std::span<const RoofPlane> roofs,
-                   std::vector<int>& labels) {
+                   const std::vector<bool>& inside, std::vector<int>& labels) {
   constexpr int kMostRounds = 20;
   const std::vector<Fan> fans = FansOf(arrangement);
   for (int round = 0; round < kMostRounds; ++round) {
@@ -431,7 +444,7 @@ void JoinAtCorners(const Arrangement& arrangement, std::span<const RoofPlane> ro
         heights.push_back(label < 0 ? -1e9 : roofs[label].At(arrangement.vertices[v]));
       }
       if (!TouchesInEdge(fan, heights)) continue;
-      const int smallest = SmallestToJoin(arrangement, fan, labels);
+      const int smallest = SmallestToJoin(arrangement, fan, inside, labels);
       if (smallest < 0) continue;
       labels[fan.cells[smallest]] =
           labels[fan.cells[(smallest + 1) % static_cast<int>(fan.cells.size())]];

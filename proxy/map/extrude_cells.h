@@ -50,8 +50,9 @@ std::vector<ExtrudedFace> ExtrudeCells(Arrangement arrangement, std::span<const 
                                        Storeys storeys);
 
 // Gives cells another neighbour's label until no two parts of the solid touch in an upright edge
-// only, as high and low cells do that alternate around a corner.
+// only, as high and low cells do that alternate around a corner. Where one roof lies on both sides
+// of a corner, the smallest open cell there `inside` the footprint is roofed over.
 void JoinAtCorners(const Arrangement& arrangement, std::span<const RoofPlane> roofs,
-                   std::vector<int>& labels);
+                   const std::vector<bool>& inside, std::vector<int>& labels);
 
 }  // namespace stucco

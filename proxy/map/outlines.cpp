@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "proxy/map/pinches.h"
 #include "site/site_of_plan.h"
 #include "survey/plan_frame.h"
 
@@ -105,6 +106,7 @@ OutlineMap OutlinesOf(const Plan& plan, const Georef& georef, const Eigen::Vecto
   }
   for (MapBuilding& building : map.buildings) {
     AddHangingParts(building);
+    OpenPinches(building.parts);
     // What the flight keeps clear of is no height to build by.
     const double height = building.z_m.to_m - building.z_m.from_m;
     if (!building.top_known && height > plan.safe_altitude_m - plan.d_min_m - kRaisedFoot_m) {

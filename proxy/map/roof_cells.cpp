@@ -238,7 +238,7 @@ void Label(const RoofTask& task, const CoverOfRoofs& cover, RoofCells& roof) {
   std::vector<bool> inside(roof.labels.size(), false);
   for (const int face : face_of_cell) inside[face] = true;
   DropShortWalls(roof.arrangement, roof.lines, roof.roofs, inside, roof.labels);
-  JoinAtCorners(roof.arrangement, roof.roofs, roof.labels);
+  JoinAtCorners(roof.arrangement, roof.roofs, inside, roof.labels);
 }
 
 }  // namespace
