@@ -6,22 +6,22 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <optional>
-#include <system_error>
 
 #include "survey/error.h"
 #include "survey/internal/bytes.h"
+#include "survey/internal/file_window.h"
 #include "survey/point_cloud.h"
 #include "survey/text.h"
 
 // PLY, "The Stanford Triangle Format" (Turk 1994).
 namespace stucco {
 namespace {
+
+using Source = internal::FileWindow;
 
 enum class Scalar { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
 
@@ -91,81 +91,6 @@ struct Header {
   throw Error(ErrorKind::kBadInput, fmt::format("{}: damaged PLY: {}", file, reason),
               "write the file again with the program it came from");
 }
-
-// A file read through a window that moves along it.
-class Source {
- public:
-  explicit Source(const std::filesystem::path& path) : stream_(path, std::ios::binary) {
-    std::error_code error;
-    unread_ = stream_ ? std::filesystem::file_size(path, error) : 0;
-    if (stream_ && !error) return;
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: cannot be read: {}", path.string(),
-                            error ? error.message() : std::generic_category().message(errno)),
-                "check the path of the file");
-  }
-
-  // What comes next: at least `wanted` bytes, unless the file ends before. Valid until the next
-  // call.
-  std::string_view Peek(size_t wanted) {
-    if (buffer_.size() - begin_ < wanted && unread_ > 0) Refill(wanted);
-    return std::string_view(buffer_).substr(begin_);
-  }
-  void Skip(size_t bytes) { begin_ += bytes; }
-  // Bytes to the end of the file.
-  uint64_t Left() const { return unread_ + (buffer_.size() - begin_); }
-
-  // The next line without its end; nothing at the end of the file.
-  std::optional<std::string> NextLine() {
-    if (Left() == 0) return std::nullopt;
-    std::string line;
-    for (bool ended = false; !ended && Left() > 0;) {
-      const std::string_view ahead = Peek(1);
-      const size_t end = ahead.find('\n');
-      ended = end != std::string_view::npos;
-      line += ahead.substr(0, end);
-      Skip(ended ? end + 1 : ahead.size());
-    }
-    if (line.ends_with('\r')) line.pop_back();
-    return line;
-  }
-
-  // The next text between blanks; empty at the end of the file.
-  std::string_view NextWord() {
-    constexpr size_t kLongestWord = 4096;
-    std::string_view ahead = Peek(kLongestWord);
-    size_t blanks = 0;
-    while (blanks < ahead.size() && IsBlank(ahead[blanks])) {
-      if (++blanks < ahead.size()) continue;
-      Skip(blanks);
-      ahead = Peek(kLongestWord);
-      blanks = 0;
-    }
-    Skip(blanks);
-    ahead = Peek(kLongestWord);
-    const std::string_view word = TakeWord(ahead);
-    Skip(word.size());
-    return word;
-  }
-
- private:
-  void Refill(size_t wanted) {
-    constexpr size_t kBlockBytes = size_t{1} << 20;
-    buffer_.erase(0, begin_);
-    begin_ = 0;
-    const size_t kept = buffer_.size();
-    buffer_.resize(kept + std::min<uint64_t>(std::max(wanted, kBlockBytes), unread_));
-    stream_.read(buffer_.data() + kept, static_cast<std::streamsize>(buffer_.size() - kept));
-    const auto count = static_cast<size_t>(stream_.gcount());
-    buffer_.resize(kept + count);
-    unread_ = stream_ ? unread_ - count : 0;  // the file has become shorter
-  }
-
-  std::ifstream stream_;
-  std::string buffer_;
-  size_t begin_ = 0;
-  uint64_t unread_ = 0;
-};
 
 Scalar ParseScalar(std::string_view word, const std::string& file) {
   const auto found = std::ranges::find(kScalarNames, word, &ScalarName::name);
@@ -410,30 +335,27 @@ VertexElement Understand(const Element& element, const std::string& file) {
   return vertices;
 }
 
-void VisitVertices(Body& body, const VertexElement& vertices, const std::string& file,
-                   const std::function<void(const CloudPoint&)>& visit) {
+void VisitVertex(Body& body, const VertexElement& vertices, uint64_t row, const std::string& file,
+                 const PointVisit& visit) {
   constexpr float kUnitTolerance = 1e-3F;
-  for (uint64_t row = 0; row < vertices.element.count; ++row) {
-    const Vertex vertex = ReadVertex(body, vertices.element, vertices.meanings, file);
-    CloudPoint point;
-    point.position = {vertex.numbers[0], vertex.numbers[1], vertex.numbers[2]};
-    if (!point.position.allFinite()) Fail(file, fmt::format("point {} is not finite", row));
-    if (vertices.layout.normals) {
-      point.normal = UnitNormal(vertex.numbers);
-      if (!(std::abs(point.normal.norm() - 1) <= kUnitTolerance)) {
-        Fail(file, fmt::format("the normal of point {} is not of unit length", row));
-      }
+  const Vertex vertex = ReadVertex(body, vertices.element, vertices.meanings, file);
+  CloudPoint point;
+  point.position = {vertex.numbers[0], vertex.numbers[1], vertex.numbers[2]};
+  if (!point.position.allFinite()) Fail(file, fmt::format("point {} is not finite", row));
+  if (vertices.layout.normals) {
+    point.normal = UnitNormal(vertex.numbers);
+    if (!(std::abs(point.normal.norm() - 1) <= kUnitTolerance)) {
+      Fail(file, fmt::format("the normal of point {} is not of unit length", row));
     }
-    if (vertices.layout.colors) point.color = vertex.color;
-    point.views = vertex.views;
-    visit(point);
   }
+  if (vertices.layout.colors) point.color = vertex.color;
+  point.views = vertex.views;
+  visit(point);
 }
 
-// Goes to the points of the file, calls `found` with their layout and `visit` with each.
-void ReadPoints(const std::filesystem::path& path,
-                const std::function<void(const PlyLayout&)>& found,
-                const std::function<void(const CloudPoint&)>& visit) {
+// Goes to the points of the file and calls `found` with what they have, before the first of them.
+template <typename Found>
+void FindPoints(const std::filesystem::path& path, const Found& found) {
   const std::string file = path.string();
   Source source(path);
   const Header header = ReadHeader(source, file);
@@ -445,8 +367,7 @@ void ReadPoints(const std::filesystem::path& path,
     }
     const VertexElement vertices = Understand(element, file);
     body.CheckHolds(element);
-    found(vertices.layout);
-    if (visit) VisitVertices(body, vertices, file, visit);
+    found(source, body, vertices);
     return;  // faces and the like come after and are not needed
   }
   Fail(file, "has no points");
@@ -456,32 +377,45 @@ void ReadPoints(const std::filesystem::path& path,
 
 PlyLayout ReadPlyLayout(const std::filesystem::path& path) {
   PlyLayout layout;
-  ReadPoints(
-      path, [&](const PlyLayout& found) { layout = found; }, nullptr);
+  FindPoints(path,
+             [&](Source&, Body&, const VertexElement& vertices) { layout = vertices.layout; });
   return layout;
 }
 
-void ForEachPoint(const std::filesystem::path& path,
-                  const std::function<void(const CloudPoint&)>& visit) {
-  ReadPoints(
-      path, [](const PlyLayout&) {}, visit);
+PlyPlace ForSomePoints(const std::filesystem::path& path, const PlyPlace& from, uint64_t count,
+                       const PointVisit& visit) {
+  PlyPlace to = from;
+  FindPoints(path, [&](Source& source, Body& body, const VertexElement& vertices) {
+    if (from.point > 0) source.GoTo(from.byte);
+    const uint64_t end = from.point + std::min(count, vertices.layout.points - from.point);
+    for (; to.point < end; ++to.point) {
+      VisitVertex(body, vertices, to.point, path.string(), visit);
+    }
+    to.byte = source.At();
+  });
+  return to;
+}
+
+void ForEachPoint(const std::filesystem::path& path, const PointVisit& visit) {
+  ForSomePoints(path, {}, std::numeric_limits<uint64_t>::max(), visit);
 }
 
 PointCloud ReadPly(const std::filesystem::path& path) {
   PointCloud cloud;
-  PlyLayout layout;
-  const auto prepare = [&](const PlyLayout& found) {
-    layout = found;
-    cloud.positions.reserve(found.points);
-    if (found.normals) cloud.normals.reserve(found.points);
-    if (found.colors) cloud.colors.reserve(found.points);
-    if (found.views) cloud.views.reserve(found.points);
-  };
-  ReadPoints(path, prepare, [&](const CloudPoint& point) {
-    cloud.positions.push_back(point.position);
-    if (layout.normals) cloud.normals.push_back(point.normal);
-    if (layout.colors) cloud.colors.push_back(point.color);
-    if (layout.views) cloud.views.emplace_back(point.views.begin(), point.views.end());
+  FindPoints(path, [&](Source&, Body& body, const VertexElement& vertices) {
+    const PlyLayout& layout = vertices.layout;
+    cloud.positions.reserve(layout.points);
+    if (layout.normals) cloud.normals.reserve(layout.points);
+    if (layout.colors) cloud.colors.reserve(layout.points);
+    if (layout.views) cloud.views.reserve(layout.points);
+    for (uint64_t row = 0; row < layout.points; ++row) {
+      VisitVertex(body, vertices, row, path.string(), [&](const CloudPoint& point) {
+        cloud.positions.push_back(point.position);
+        if (layout.normals) cloud.normals.push_back(point.normal);
+        if (layout.colors) cloud.colors.push_back(point.color);
+        if (layout.views) cloud.views.emplace_back(point.views.begin(), point.views.end());
+      });
+    }
   });
   return cloud;
 }

@@ -37,11 +37,23 @@ struct PlyLayout {
 // Reads the header alone, and checks that the file is long enough for what it promises.
 PlyLayout ReadPlyLayout(const std::filesystem::path& path);
 
+using PointVisit = std::function<void(const CloudPoint&)>;
+
 // Visits the points in the order of the file with about a megabyte of memory, whatever the file's
 // size. Takes and refuses the same files as ReadPly (point_cloud.h), but damage far into the file
 // is only found after the points before it were visited.
-void ForEachPoint(const std::filesystem::path& path,
-                  const std::function<void(const CloudPoint&)>& visit);
+void ForEachPoint(const std::filesystem::path& path, const PointVisit& visit);
+
+// Where a point of a file begins.
+struct PlyPlace {
+  uint64_t point = 0;  // how many come before it
+  uint64_t byte = 0;   // known where points were read up to it
+};
+
+// The same for up to `count` points from a place on: that of the first one, or one that another
+// such call returned. Returns the place behind them.
+PlyPlace ForSomePoints(const std::filesystem::path& path, const PlyPlace& from, uint64_t count,
+                       const PointVisit& visit);
 
 // Writes a cloud point by point, as WritePly does (point_cloud.h). The layout promises how many
 // points come and what they have; no point may have more than `most_views` views.

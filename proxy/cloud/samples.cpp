@@ -189,20 +189,28 @@ CellSums SumCells(const PointStream& stream, const PlaceOfPhoto& places,
 }  // namespace
 
 PointStream StreamOf(const PointCloud& cloud) {
-  return {cloud.size(), [&cloud](const std::function<void(const CloudPoint&)>& visit) {
-            CloudPoint point;
-            for (size_t i = 0; i < cloud.size(); ++i) {
-              point.position = cloud.positions[i];
-              if (!cloud.normals.empty()) point.normal = cloud.normals[i];
-              if (!cloud.views.empty()) point.views = cloud.views[i];
-              visit(point);
-            }
-          }};
+  const auto for_some = [&cloud](const PlyPlace& from, uint64_t count, const PointVisit& visit) {
+    CloudPoint point;
+    PlyPlace to = from;
+    for (; to.point < cloud.size() && to.point - from.point < count; ++to.point) {
+      point.position = cloud.positions[to.point];
+      if (!cloud.normals.empty()) point.normal = cloud.normals[to.point];
+      if (!cloud.views.empty()) point.views = cloud.views[to.point];
+      visit(point);
+    }
+    return to;
+  };
+  const auto for_each = [for_some, &cloud](const PointVisit& visit) {
+    for_some({}, cloud.size(), visit);
+  };
+  return {cloud.size(), for_each, for_some};
 }
 
 PointStream StreamOf(const std::filesystem::path& ply) {
-  return {ReadPlyLayout(ply).points,
-          [ply](const std::function<void(const CloudPoint&)>& visit) { ForEachPoint(ply, visit); }};
+  return {ReadPlyLayout(ply).points, [ply](const PointVisit& visit) { ForEachPoint(ply, visit); },
+          [ply](const PlyPlace& from, uint64_t count, const PointVisit& visit) {
+            return ForSomePoints(ply, from, count, visit);
+          }};
 }
 
 Samples ThinCloud(const PointStream& stream, std::span<const SurveyPhoto> photos, int max_points,

@@ -36,7 +36,9 @@ struct Samples {
 // A cloud to go through several times, in the same order, without holding it.
 struct PointStream {
   size_t count = 0;
-  std::function<void(const std::function<void(const CloudPoint&)>&)> for_each;
+  std::function<void(const PointVisit&)> for_each;
+  // As ForSomePoints (ply.h); empty: it is only read as a whole.
+  std::function<PlyPlace(const PlyPlace& from, uint64_t count, const PointVisit&)> for_some = {};
 };
 
 // The stream refers to the cloud.

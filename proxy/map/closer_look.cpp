@@ -2,9 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "proxy/map/closer_look.h"
 
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
+#include <CGAL/hilbert_sort.h>
+#include <CGAL/property_map.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <set>
 #include <utility>
 
 #include "proxy/cloud/grid_index.h"
@@ -77,21 +85,147 @@ bool NearlyTouch(const MapBuilding& a, const MapBuilding& b) {
   });
 }
 
-// Buildings that nearly touch, as sets, each by its first building.
-std::map<size_t, std::vector<size_t>> Neighbours(std::span<const MapBuilding> buildings) {
+// Which buildings nearly touch each.
+std::vector<std::vector<size_t>> TouchingEach(std::span<const MapBuilding> buildings) {
   std::vector<Eigen::AlignedBox2d> bounds;
+  bounds.reserve(buildings.size());
   for (const MapBuilding& building : buildings) bounds.push_back(BoundsOf(building, kApart_m / 2));
-  DisjointSets sets(buildings.size());
-  for (size_t a = 0; a < bounds.size(); ++a) {
-    for (size_t b = a + 1; b < bounds.size(); ++b) {
-      if (!bounds[a].intersects(bounds[b]) || sets.Find(a) == sets.Find(b)) continue;
-      if (NearlyTouch(buildings[a], buildings[b])) sets.Join(a, b);
+  std::vector<size_t> by_left(buildings.size());
+  std::iota(by_left.begin(), by_left.end(), size_t{0});
+  std::ranges::stable_sort(by_left, {}, [&](size_t b) { return bounds[b].min().x(); });
+  std::vector<std::vector<size_t>> touching(buildings.size());
+  for (size_t i = 0; i < by_left.size(); ++i) {
+    const size_t a = by_left[i];
+    for (size_t j = i + 1; j < by_left.size(); ++j) {
+      const size_t b = by_left[j];
+      if (bounds[b].min().x() > bounds[a].max().x()) break;
+      if (!bounds[a].intersects(bounds[b]) || !NearlyTouch(buildings[a], buildings[b])) continue;
+      touching[a].push_back(b);
+      touching[b].push_back(a);
     }
   }
-  std::map<size_t, std::vector<size_t>> result;
-  for (size_t b = 0; b < buildings.size(); ++b) result[sets.Find(b)].push_back(b);
-  return result;
+  return touching;
 }
+
+// Buildings that nearly touch, directly or through others.
+std::vector<std::vector<size_t>> RowsOf(const std::vector<std::vector<size_t>>& touching) {
+  DisjointSets sets(touching.size());
+  for (size_t a = 0; a < touching.size(); ++a) {
+    for (const size_t b : touching[a]) sets.Join(static_cast<int>(a), static_cast<int>(b));
+  }
+  std::map<int, std::vector<size_t>> members;
+  for (size_t b = 0; b < touching.size(); ++b) {
+    members[sets.Find(static_cast<int>(b))].push_back(b);
+  }
+  std::vector<std::vector<size_t>> rows;
+  for (auto& [first, row] : members) rows.push_back(std::move(row));
+  return rows;
+}
+
+using SortKernel = CGAL::Simple_cartesian<double>;
+
+// Numbers of places such that near ones follow each other.
+std::vector<size_t> AlongCurve(const std::vector<SortKernel::Point_2>& places) {
+  std::vector<size_t> order(places.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  const auto place_of = CGAL::make_property_map(places);
+  CGAL::hilbert_sort(order.begin(), order.end(),
+                     CGAL::Spatial_sort_traits_adapter_2<SortKernel, decltype(place_of)>(place_of),
+                     CGAL::Hilbert_sort_middle_policy());
+  return order;
+}
+
+// What comes together in sets.
+class SetMaker {
+ public:
+  SetMaker(const UprightSurvey& survey, std::span<const MapBuilding> buildings)
+      : survey_(survey),
+        buildings_(buildings),
+        touching_(TouchingEach(buildings)),
+        finer_(survey.samples.cell / FineCell(survey.tolerances)),
+        set_of_sample_(survey.samples.size(), kNone) {}
+
+  std::vector<SetOfBuildings> Make(double most) {
+    const auto rows = RowsOf(touching_);
+    for (const size_t r : AlongCurve(MiddlesOf(rows))) {
+      if (NewSamples(SamplesAround(rows[r])) <= most) {
+        Add(rows[r], most);
+        continue;
+      }
+      EndSet();
+      std::vector<std::vector<size_t>> single;
+      for (const size_t b : rows[r]) single.push_back({b});
+      constexpr double kOwn = 0.6;  // the others are for what stands beside them
+      for (const size_t i : AlongCurve(MiddlesOf(single))) Add(single[i], kOwn * most);
+      EndSet();
+    }
+    EndSet();
+    return std::move(sets_);
+  }
+
+ private:
+  static constexpr size_t kNone = std::numeric_limits<size_t>::max();
+
+  std::vector<SortKernel::Point_2> MiddlesOf(const std::vector<std::vector<size_t>>& rows) const {
+    std::vector<SortKernel::Point_2> middles;
+    for (const auto& row : rows) {
+      Eigen::AlignedBox2d box;
+      for (const size_t b : row) box.extend(BoundsOf(buildings_[b], 0));
+      middles.emplace_back(box.center().x(), box.center().y());
+    }
+    return middles;
+  }
+
+  // Each once.
+  std::vector<int> SamplesAround(const std::vector<size_t>& row) const {
+    std::vector<int> samples;
+    for (const size_t b : row) {
+      const std::vector<int> around = survey_.bins.In(BoundsOf(buildings_[b], kAround_m));
+      samples.insert(samples.end(), around.begin(), around.end());
+    }
+    std::ranges::sort(samples);
+    samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
+    return samples;
+  }
+
+  // As many as there will be in the set that is open, once they are thinned finely.
+  double NewSamples(const std::vector<int>& samples) const {
+    double fine = 0;  // they lie on surfaces, and there are no more than points
+    for (const int i : samples) {
+      if (set_of_sample_[i] == sets_.size()) continue;
+      fine += std::min(finer_ * finer_, static_cast<double>(survey_.samples.weights[i]));
+    }
+    return fine;
+  }
+
+  void Add(const std::vector<size_t>& row, double most) {
+    const std::vector<int> samples = SamplesAround(row);
+    if (expected_ + NewSamples(samples) > most) EndSet();
+    expected_ += NewSamples(samples);
+    for (const int i : samples) set_of_sample_[i] = sets_.size();
+    open_.insert(open_.end(), row.begin(), row.end());
+  }
+
+  void EndSet() {
+    if (open_.empty()) return;
+    std::ranges::sort(open_);
+    std::set<size_t> beside;
+    for (const size_t b : open_) beside.insert(touching_[b].begin(), touching_[b].end());
+    for (const size_t b : open_) beside.erase(b);
+    sets_.push_back(
+        {.members = std::exchange(open_, {}), .beside = {beside.begin(), beside.end()}});
+    expected_ = 0;
+  }
+
+  const UprightSurvey& survey_;
+  std::span<const MapBuilding> buildings_;
+  std::vector<std::vector<size_t>> touching_;
+  double finer_;  // than the survey's samples
+  std::vector<SetOfBuildings> sets_;
+  std::vector<size_t> open_;           // members of the set that comes next
+  double expected_ = 0;                // samples of it
+  std::vector<size_t> set_of_sample_;  // the last one that it was in
+};
 
 }  // namespace
 
@@ -100,29 +234,14 @@ bool NeedsCloserLook(const PlanarScene& scene) {
   return scene.samples.cell > kWorthIt * FineCell(scene.tolerances);
 }
 
-std::vector<std::vector<size_t>> SetsOfBuildings(const UprightSurvey& survey,
-                                                 std::span<const MapBuilding> buildings,
-                                                 int max_points) {
-  const double finer = survey.samples.cell / FineCell(survey.tolerances);
-  std::vector<std::vector<size_t>> result;
-  double expected = 0;  // samples of the last set
-  for (const auto& [first, members] : Neighbours(buildings)) {
-    double samples = 0;  // they lie on surfaces
-    for (const size_t b : members) {
-      const size_t coarse = survey.bins.In(BoundsOf(buildings[b], kAround_m)).size();
-      samples += static_cast<double>(coarse) * finer * finer;
-    }
-    if (result.empty() || expected + samples > max_points) {
-      result.emplace_back();
-      expected = 0;
-    }
-    expected += samples;
-    result.back().insert(result.back().end(), members.begin(), members.end());
-  }
-  return result;
+std::vector<SetOfBuildings> SetsOfBuildings(const UprightSurvey& survey,
+                                            std::span<const MapBuilding> buildings,
+                                            int max_points) {
+  return SetMaker(survey, buildings).Make(max_points);
 }
 
-UprightSurvey CloserLook(const PlanarScene& scene, const ProxyInput& input,
+UprightSurvey CloserLook(const PlanarScene& scene, const CloudBlocks& cloud,
+                         std::span<const SurveyPhoto> photos,
                          std::span<const MapBuilding> buildings, const ProxyOptions& options,
                          int threads) {
   const Surroundings surroundings(buildings);
@@ -137,14 +256,13 @@ UprightSurvey CloserLook(const PlanarScene& scene, const ProxyInput& input,
   }
   if (box.isEmpty()) return UprightSurveyOf(Samples{}, scene.tolerances, scene.up);
   box = {box.min().array() - kAround_m, box.max().array() + kAround_m};
-  const PointStream near{input.cloud.count,
-                         [&](const std::function<void(const CloudPoint&)>& visit) {
-                           input.cloud.for_each([&](const CloudPoint& point) {
+  const PointStream blocks = cloud.Near(box);
+  const PointStream near{blocks.count, [&](const PointVisit& visit) {
+                           blocks.for_each([&](const CloudPoint& point) {
                              if (wanted(point.position)) visit(point);
                            });
                          }};
-  Samples samples =
-      ThinInside(box, near, input.photos, options.max_points, FineCell(scene.tolerances));
+  Samples samples = ThinInside(box, near, photos, options.max_points, FineCell(scene.tolerances));
   constexpr size_t kFewest = 100;
   if (samples.size() < kFewest) {
     return UprightSurveyOf(std::move(samples), scene.tolerances, scene.up);

@@ -5,11 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "proxy/cloud/input.h"
+#include "proxy/cloud/blocks.h"
 #include "proxy/map/outlines.h"
 #include "proxy/map/upright_survey.h"
 #include "proxy/options/proxy_options.h"
 #include "proxy/scene/scene.h"
+#include "survey/survey_photo.h"
 
 namespace stucco {
 
@@ -17,16 +18,23 @@ namespace stucco {
 // many for all of the survey while the cloud has more.
 bool NeedsCloserLook(const PlanarScene& scene);
 
+// Some buildings of a survey, by number, to look at together.
+struct SetOfBuildings {
+  std::vector<size_t> members;
+  std::vector<size_t> beside = {};  // of other sets, which members stand wall to wall with
+};
+
 // Of a large survey some buildings at a time, so that what is seen of a building does not depend on
-// how many others there are: buildings, by number, of which the samples are about as dense as
+// how many others there are: buildings near each other, of which the samples are about as dense as
 // details ask for, and no more than `max_points`. Neighbours that stand next to each other are
-// looked at together. Every building is in one set.
-std::vector<std::vector<size_t>> SetsOfBuildings(const UprightSurvey& survey,
-                                                 std::span<const MapBuilding> buildings,
-                                                 int max_points);
+// members of one set, or beside it where a row of them is too long for one. Every building is a
+// member of one set.
+std::vector<SetOfBuildings> SetsOfBuildings(const UprightSurvey& survey,
+                                            std::span<const MapBuilding> buildings, int max_points);
 
 // The cloud thinned once more, on and around these buildings only.
-UprightSurvey CloserLook(const PlanarScene& scene, const ProxyInput& input,
+UprightSurvey CloserLook(const PlanarScene& scene, const CloudBlocks& cloud,
+                         std::span<const SurveyPhoto> photos,
                          std::span<const MapBuilding> buildings, const ProxyOptions& options,
                          int threads);
 

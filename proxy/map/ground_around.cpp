@@ -88,12 +88,13 @@ std::vector<Eigen::Vector3d> OnPlane(const std::vector<Eigen::Vector3d>& points,
   return on;
 }
 
+constexpr double kThickness_m = 0.3;  // of ground with grass and noise
+
 }  // namespace
 
 std::optional<double> GroundAround(const UprightSurvey& survey, const MapBuilding& building) {
   constexpr size_t kFewest = 20;
-  constexpr double kLowest = 0.05;      // share; strays lie below all ground
-  constexpr double kThickness_m = 0.3;  // of ground with grass and noise
+  constexpr double kLowest = 0.05;  // share; strays lie below all ground
   std::vector<double> heights;
   for (const Eigen::Vector3d& p : RingAround(survey, building)) heights.push_back(p.z());
   if (heights.size() < kFewest) return std::nullopt;
@@ -101,6 +102,21 @@ std::optional<double> GroundAround(const UprightSurvey& survey, const MapBuildin
   const double low = heights[static_cast<size_t>(kLowest * static_cast<double>(heights.size()))];
   std::erase_if(heights, [&](double z) { return std::abs(z - low) > kThickness_m; });
   return Median(heights);
+}
+
+bool LiesOnNeighbours(const UprightSurvey& survey, const MapBuilding& building, double height,
+                      std::span<const MapBuilding* const> neighbours) {
+  constexpr double kBeside_m = 1;  // maps lie that much beside what they show
+  constexpr double kMost = 0.8;
+  int all = 0, on = 0;
+  for (const Eigen::Vector3d& p : RingAround(survey, building)) {
+    if (std::abs(p.z() - height) > kThickness_m) continue;
+    ++all;
+    on += std::ranges::any_of(neighbours, [&](const MapBuilding* neighbour) {
+      return DistanceTo(*neighbour, p.head<2>()) < kBeside_m;
+    });
+  }
+  return on > kMost * all;
 }
 
 std::optional<GroundSlope> SlopeAround(const UprightSurvey& survey, const MapBuilding& building) {

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "proxy/map/outlines.h"
 #include "proxy/map/upright_survey.h"
@@ -16,6 +17,11 @@ inline constexpr double kRing_m = 4;
 
 // Height of the lowest ground next to a building; nothing where the cloud shows too little of it.
 std::optional<double> GroundAround(const UprightSurvey& survey, const MapBuilding& building);
+
+// Whether most of what the cloud shows at that height next to a building lies on its neighbours, or
+// within a metre of them: where these enclose it, the lowest that anybody sees are their roofs.
+bool LiesOnNeighbours(const UprightSurvey& survey, const MapBuilding& building, double height,
+                      std::span<const MapBuilding* const> neighbours);
 
 // The ground around a building as one plane: what rises above the lowest of it need not stand on
 // it.

@@ -86,19 +86,28 @@ struct Workshop {
   const ProxyInput& input;
   const ProxyOptions& options;
   int threads;
+  // To look at parts of the cloud; nothing where all samples are fine enough.
+  std::optional<CloudBlocks> blocks = std::nullopt;
 };
 
-// Some buildings, by number, and a survey that shows them as finely as their details ask for.
-using Look = std::function<void(const UprightSurvey& survey, const std::vector<size_t>& numbers)>;
+Workshop WorkshopOf(const PlanarScene& scene, const ProxyInput& input, const ProxyOptions& options,
+                    int threads) {
+  Workshop workshop{scene, input, options, threads};
+  if (NeedsCloserLook(scene)) workshop.blocks.emplace(input.cloud);
+  return workshop;
+}
+
+// Some buildings and a survey that shows them as finely as their details ask for.
+using Look = std::function<void(const UprightSurvey& survey, const SetOfBuildings& set)>;
 
 // All buildings at once; of a large survey the cloud is looked at once more for some of them at a
 // time.
 void LookAtAll(const UprightSurvey& survey, const std::vector<MapBuilding>& buildings,
                const Workshop& with, const Look& look) {
   if (buildings.empty()) return;
-  if (!NeedsCloserLook(with.scene)) {
-    std::vector<size_t> all(buildings.size());
-    std::iota(all.begin(), all.end(), size_t{0});
+  if (!with.blocks) {
+    SetOfBuildings all{.members = std::vector<size_t>(buildings.size())};
+    std::iota(all.members.begin(), all.members.end(), size_t{0});
     look(survey, all);
     return;
   }
@@ -108,8 +117,10 @@ void LookAtAll(const UprightSurvey& survey, const std::vector<MapBuilding>& buil
   const auto sets = SetsOfBuildings(survey, buildings, of_set.max_points);
   ParallelFor(sets.size(), std::min(with.threads, kAtOnce), [&](size_t s) {
     std::vector<MapBuilding> of_this;
-    for (const size_t b : sets[s]) of_this.push_back(buildings[b]);
-    look(CloserLook(with.scene, with.input, of_this, of_set, with.threads), sets[s]);
+    for (const size_t b : sets[s].members) of_this.push_back(buildings[b]);
+    for (const size_t b : sets[s].beside) of_this.push_back(buildings[b]);
+    look(CloserLook(with.scene, *with.blocks, with.input.photos, of_this, of_set, with.threads),
+         sets[s]);
   });
 }
 
@@ -117,17 +128,17 @@ void LookAtAll(const UprightSurvey& survey, const std::vector<MapBuilding>& buil
 std::vector<ClosedBuilding> CloseAll(const UprightSurvey& survey, const OutlineMap& map,
                                      double plan_to_survey_m, const Workshop& with) {
   std::vector<ClosedBuilding> closed(map.buildings.size());
-  LookAtAll(survey, map.buildings, with,
-            [&](const UprightSurvey& seen, const std::vector<size_t>& numbers) {
-              std::vector<MapBuilding> buildings;
-              buildings.reserve(numbers.size());
-              for (const size_t b : numbers) buildings.push_back(map.buildings[b]);
-              const auto fitted = FitOutlines(seen, buildings, map.facades, plan_to_survey_m);
-              const BuildingCloser closer(seen, with.scene.up, with.options);
-              ParallelFor(fitted.size(), with.threads, [&](size_t i) {
-                closed[numbers[i]] = closer.Close(buildings[i], fitted[i], plan_to_survey_m);
-              });
-            });
+  LookAtAll(survey, map.buildings, with, [&](const UprightSurvey& seen, const SetOfBuildings& set) {
+    std::vector<MapBuilding> buildings;
+    buildings.reserve(set.members.size() + set.beside.size());
+    for (const size_t b : set.members) buildings.push_back(map.buildings[b]);
+    for (const size_t b : set.beside) buildings.push_back(map.buildings[b]);
+    const auto fitted = FitOutlines(seen, buildings, map.facades, plan_to_survey_m);
+    const BuildingCloser closer(seen, with.scene.up, with.options);
+    ParallelFor(set.members.size(), with.threads, [&](size_t i) {
+      closed[set.members[i]] = closer.Close(buildings[i], fitted[i], plan_to_survey_m);
+    });
+  });
   return closed;
 }
 
@@ -137,14 +148,13 @@ std::vector<ClosedBuilding> CloseAsFitted(const UprightSurvey& survey,
                                           const std::vector<FittedBuilding>& fitted,
                                           double plan_to_survey_m, const Workshop& with) {
   std::vector<ClosedBuilding> closed(mapped.size());
-  LookAtAll(survey, mapped, with,
-            [&](const UprightSurvey& seen, const std::vector<size_t>& numbers) {
-              const BuildingCloser closer(seen, with.scene.up, with.options);
-              ParallelFor(numbers.size(), with.threads, [&](size_t i) {
-                const size_t b = numbers[i];
-                closed[b] = closer.Close(mapped[b], fitted[b], plan_to_survey_m);
-              });
-            });
+  LookAtAll(survey, mapped, with, [&](const UprightSurvey& seen, const SetOfBuildings& set) {
+    const BuildingCloser closer(seen, with.scene.up, with.options);
+    ParallelFor(set.members.size(), with.threads, [&](size_t i) {
+      const size_t b = set.members[i];
+      closed[b] = closer.Close(mapped[b], fitted[b], plan_to_survey_m);
+    });
+  });
   return closed;
 }
 
@@ -421,7 +431,7 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
   findings.notes.push_back(PlaceOf(place));
   NoteShift(place, findings);
   OutlineMap found = Moved(map, place.survey_from_map);
-  const Workshop with{scene, input, options, threads};
+  const Workshop with = WorkshopOf(scene, input, options, threads);
   Houses houses;
   houses.plan_to_survey_m = HeightShift(survey, found.buildings);
   houses.closed = CloseAll(survey, found, houses.plan_to_survey_m, with);
@@ -448,7 +458,7 @@ MapModel BuildWithoutMap(const PlanarScene& scene, const ProxyInput& input,
   assert(input.georef.metric);
   const UprightSurvey survey = UprightSurveyOf(scene);
   ProxyFindings of_a_map;  // what cannot be built like this is built of its planes: no finding
-  auto closed = CloseNew(survey, {}, {scene, input, options, threads}, of_a_map);
+  auto closed = CloseNew(survey, {}, WorkshopOf(scene, input, options, threads), of_a_map);
   const FoundHouses found(scene, survey);
   std::erase_if(closed, [&](const ClosedBuilding& house) {
     const std::string why_not = found.WhyNot(house);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -247,18 +248,26 @@ Touching TouchingOf(std::span<const MapBuilding> buildings, size_t b) {
   return touching;
 }
 
-// The facades of the plan that an edge (as the map has it) is a part of, by metres of it.
-std::vector<std::string> FacadesOn(const Segment2d& edge, const std::string& building,
-                                   std::span<const Facade> facades) {
+// The facades of the plan by the id of their building, in the plan's order.
+using FacadesOf = std::map<std::string, std::vector<const Facade*>, std::less<>>;
+
+FacadesOf ByBuilding(std::span<const Facade> facades) {
+  FacadesOf of_building;
+  for (const Facade& facade : facades) {
+    of_building[facade.id.substr(0, facade.id.rfind('/'))].push_back(&facade);
+  }
+  return of_building;
+}
+
+// The facades of its building that an edge (as the map has it) is a part of, by metres of it.
+std::vector<std::string> FacadesOn(const Segment2d& edge,
+                                   const std::vector<const Facade*>& facades) {
   constexpr double kOnLine_m = 0.15;  // straight walls of a map have corners up to 5 cm beside
   constexpr double kLeast_m = 0.05;
   std::vector<std::pair<double, const Facade*>> found;
-  for (const Facade& facade : facades) {
-    const bool own = facade.id.starts_with(building) && facade.id.size() > building.size() &&
-                     facade.id[building.size()] == '/';
-    if (!own) continue;
-    const double shared = SharedLength(edge, {facade.a, facade.b}, kOnLine_m, Heading::kAlike);
-    if (shared > kLeast_m) found.emplace_back(shared, &facade);
+  for (const Facade* facade : facades) {
+    const double shared = SharedLength(edge, {facade->a, facade->b}, kOnLine_m, Heading::kAlike);
+    if (shared > kLeast_m) found.emplace_back(shared, facade);
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -269,7 +278,7 @@ std::vector<std::string> FacadesOn(const Segment2d& edge, const std::string& bui
 }
 
 std::vector<FittedEdge> EdgesOf(const MapBuilding& mapped, const MapBuilding& fitted,
-                                const Fitting& fitting, std::span<const Facade> facades) {
+                                const Fitting& fitting, const std::vector<const Facade*>& facades) {
   std::vector<FittedEdge> edges;
   for (const RingPlace& place : fitting.rings) {
     const Ring& before = mapped.parts[place.part].rings[place.ring];
@@ -277,7 +286,7 @@ std::vector<FittedEdge> EdgesOf(const MapBuilding& mapped, const MapBuilding& fi
     for (size_t i = 0; i < after.size(); ++i) {
       const Run& run = place.runs[place.run_of_edge[i]];
       edges.push_back({.line = EdgeOf(after, i),
-                       .facades = FacadesOn(EdgeOf(before, i), mapped.id, facades),
+                       .facades = FacadesOn(EdgeOf(before, i), facades),
                        .party = run.party,
                        .fitted = run.held.has_value()});
     }
@@ -290,17 +299,70 @@ struct Fittings {
   std::vector<std::vector<size_t>> groups;  // of buildings that touch
 };
 
+// The buildings of which some of the ring around one may show the roofs.
+std::vector<const MapBuilding*> NeighboursOf(std::span<const MapBuilding> buildings, size_t b) {
+  const Eigen::AlignedBox2d box = BoundsOf(buildings[b], 2 * kRing_m);
+  std::vector<const MapBuilding*> neighbours;
+  for (size_t o = 0; o < buildings.size(); ++o) {
+    if (o != b && box.intersects(BoundsOf(buildings[o], 0))) neighbours.push_back(&buildings[o]);
+  }
+  return neighbours;
+}
+
+// What the ground of one building is above the plan's foot, by the nearest one of which it is
+// known; else what it is everywhere.
+double RiseNear(std::span<const MapBuilding> buildings,
+                const std::vector<std::optional<double>>& known, size_t b, double everywhere) {
+  constexpr double kNear_m = 30;
+  double rise = everywhere, nearest = kNear_m;
+  const Eigen::AlignedBox2d box = BoundsOf(buildings[b], 0);
+  for (size_t o = 0; o < buildings.size(); ++o) {
+    if (!known[o]) continue;
+    const double distance = box.exteriorDistance(BoundsOf(buildings[o], 0));
+    if (distance >= nearest) continue;
+    nearest = distance;
+    rise = *known[o] - buildings[o].z_m.from_m;
+  }
+  return rise;
+}
+
+// The ground of each building: that around it, where this is no neighbours' roof; else as much
+// above the plan's foot as the nearest building's.
+std::vector<double> GroundsOf(const UprightSurvey& survey, std::span<const MapBuilding> buildings,
+                              double plan_to_survey_m) {
+  std::vector<std::optional<double>> around, known;
+  for (size_t b = 0; b < buildings.size(); ++b) {
+    around.push_back(GroundAround(survey, buildings[b]));
+    known.push_back(around.back());
+    const auto neighbours = NeighboursOf(buildings, b);
+    const bool doubtful = around[b] && !neighbours.empty() &&
+                          LiesOnNeighbours(survey, buildings[b], *around[b], neighbours);
+    if (doubtful) known.back().reset();
+  }
+  std::vector<double> grounds;
+  for (size_t b = 0; b < buildings.size(); ++b) {
+    if (known[b]) {
+      grounds.push_back(*known[b]);
+      continue;
+    }
+    const double near = buildings[b].z_m.from_m + RiseNear(buildings, known, b, plan_to_survey_m);
+    const bool is_roof = !around[b] || *around[b] > near + kRaised_m;
+    grounds.push_back(is_roof ? near : *around[b]);
+  }
+  return grounds;
+}
+
 Fittings FittingsOf(const UprightSurvey& survey, std::span<const MapBuilding> buildings,
                     double plan_to_survey_m) {
   Fittings result;
+  const std::vector<double> grounds = GroundsOf(survey, buildings, plan_to_survey_m);
   DisjointSets sets(buildings.size());
   for (size_t b = 0; b < buildings.size(); ++b) {
     const Touching touching = TouchingOf(buildings, b);
     for (const int o : touching.neighbours) sets.Join(static_cast<int>(b), o);
     Fitting& fitting = result.of_buildings.emplace_back();
     fitting.near = survey.bins.In(BoundsOf(buildings[b], 2 * kMapReach_m));
-    fitting.ground =
-        GroundAround(survey, buildings[b]).value_or(buildings[b].z_m.from_m + plan_to_survey_m);
+    fitting.ground = grounds[b];
     for (size_t p = 0; p < buildings[b].parts.size(); ++p) {
       for (size_t r = 0; r < buildings[b].parts[p].rings.size(); ++r) {
         fitting.rings.push_back(RunsOf(buildings[b], p, r, touching.party[p][r]));
@@ -380,12 +442,14 @@ std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
     Move(held, errors, fittings, moved);
     prior = Learned(held, errors, std::move(prior));
   }
+  FacadesOf facades_of = ByBuilding(facades);
   std::vector<FittedBuilding> fitted(buildings.size());
   for (size_t b = 0; b < buildings.size(); ++b) {
     Fitting& fitting = fittings.of_buildings[b];
     FindWalls(survey, moved[b], expected, fitting);
     fitted[b].building = Fitted(moved[b], fitting, expected.distance);
-    fitted[b].edges = EdgesOf(buildings[b], fitted[b].building, fitting, facades);
+    fitted[b].edges =
+        EdgesOf(buildings[b], fitted[b].building, fitting, facades_of[buildings[b].id]);
     fitted[b].ground = fitting.ground;
     fitted[b].held = HeldShare(fitting);
   }

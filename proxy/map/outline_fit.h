@@ -20,7 +20,8 @@ namespace stucco {
 // together: windows stand behind their wall). Edges with too few points move as their building and
 // the map do, party walls with the building only, so that neighbours keep touching; then neighbours
 // meet (neighbours.h). An outline that would cross itself is only moved as a whole. `ground` is
-// that around the building, else the plan's with `plan_to_survey_m` added.
+// that around the building, else that of the nearest one, else the plan's with `plan_to_survey_m`
+// added.
 std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
                                         std::span<const MapBuilding> buildings,
                                         std::span<const Facade> facades, double plan_to_survey_m);

@@ -10,6 +10,7 @@
 #include "proxy/map/cell_labels.h"
 #include "proxy/map/eaves.h"
 #include "proxy/map/inner_walls.h"
+#include "proxy/map/islands.h"
 #include "proxy/map/roof_lines.h"
 #include "proxy/map/roof_patches.h"
 #include "survey/median.h"
@@ -237,6 +238,7 @@ void Label(const RoofTask& task, const CoverOfRoofs& cover, RoofCells& roof) {
   }
   std::vector<bool> inside(roof.labels.size(), false);
   for (const int face : face_of_cell) inside[face] = true;
+  DropIslands(roof.arrangement, cover, tolerances.fill_gap, inside, roof.labels);
   DropShortWalls(roof.arrangement, roof.lines, roof.roofs, inside, roof.labels);
   JoinAtCorners(roof.arrangement, roof.roofs, inside, roof.labels);
 }

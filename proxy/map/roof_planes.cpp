@@ -25,6 +25,22 @@ constexpr double kRoofNormal = 0.26;   // 75 degrees of pitch: steeper is a wall
 constexpr double kGroundNormal = 0.9;  // cosine: 26 degrees
 constexpr double kOnWall_m = 0.4;      // what stands upright this near to the outline is its wall
 
+// Whether other buildings stand around nearly all of it: what lies next to it are their roofs.
+bool IsEnclosed(const FittedBuilding& building) {
+  constexpr double kNearlyAll = 0.75;
+  constexpr double kAside_m = 0.1;
+  double all = 0, party = 0;
+  for (const FittedEdge& edge : building.edges) {
+    const double length = (edge.line.b - edge.line.a).norm();
+    const Eigen::Vector2d beside =
+        (edge.line.a + edge.line.b) / 2 + kAside_m * OutwardsOf(edge.line);
+    if (DistanceTo(building.building, beside) == 0) continue;  // between its own parts
+    all += length;
+    party += edge.party ? length : 0;
+  }
+  return party > kNearlyAll * all;
+}
+
 // What is no part of a building by its height: on a slope also what goes on as the ground does
 // around it, where most of the footprint does.
 class LowThings {
@@ -32,6 +48,7 @@ class LowThings {
   LowThings(const UprightSurvey& survey, const FittedBuilding& building)
       : below_(building.ground + kRaised_m) {
     constexpr double kMostOfIt = 0.6;
+    if (IsEnclosed(building)) return;
     const auto slope = SlopeAround(survey, building.building);
     if (!slope) return;
     size_t inside = 0, on_it = 0;

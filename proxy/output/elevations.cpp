@@ -24,7 +24,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr size_t kMostPoints = 5'000'000;
+constexpr size_t kMostShown = 5'000'000;
 constexpr double kPointsOfCell = 3;
 constexpr double kLeastCell_m = 0.03;
 constexpr int kAround = 5;      // a square of so many cells speaks for one without points
@@ -259,7 +259,7 @@ Scale ScaleOf(const Proxy& proxy, size_t points) {
       for (const Vector3d& p : facet.outer) box.extend(p);
     }
   }
-  const double many = static_cast<double>(std::clamp<size_t>(points, 1, kMostPoints));
+  const double many = static_cast<double>(std::clamp<size_t>(points, 1, kMostShown));
   Scale scale;
   scale.cell = std::sqrt(kPointsOfCell * area / many);
   if (proxy.metric) scale.cell = std::max(scale.cell, kLeastCell_m);
@@ -285,7 +285,7 @@ void WriteElevations(const PointStream& cloud, const Proxy& proxy,
     }
   }
   const double reach = kReachOverFull * scale.full;
-  ForEachPointNear(cloud, facets, reach, kMostPoints, [&](size_t i, const CloudPoint& point) {
+  ForEachPointNear(cloud, facets, reach, kMostShown, [&](size_t i, const CloudPoint& point) {
     of_building[at[i].first][at[i].second].Add(point, reach);
   });
   std::filesystem::create_directories(folder);

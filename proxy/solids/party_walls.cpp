@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "proxy/planes/plane.h"
+#include "site/box_grid.h"
 #include "survey/geometry2d.h"
 #include "survey/triangulate.h"
 
@@ -112,33 +113,83 @@ std::optional<Segment2d> CutBeside(const std::array<Eigen::Vector3d, 3>& triangl
   return Segment2d{ends[0], ends[1]};
 }
 
-// The ground as triangles, each with its bounds.
-struct GroundTriangle {
-  std::array<Eigen::Vector3d, 3> corners;
-  Eigen::AlignedBox3d box;
-};
+using FlatBoxes = std::vector<Eigen::AlignedBox2d>;
+using PlanFromWorld = Eigen::Matrix<double, 2, 3>;
 
-void AddTriangles(const Facet& facet, std::vector<GroundTriangle>& ground) {
-  const FacetTriangles split = TriangulateFacet(facet);
-  for (const auto& corners : split.triangles) {
-    GroundTriangle& triangle = ground.emplace_back();
-    for (size_t i = 0; i < 3; ++i) {
-      triangle.corners[i] = split.vertices[corners[i]];
-      triangle.box.extend(triangle.corners[i]);
+// Of a box seen from above.
+Eigen::AlignedBox2d Flattened(const Eigen::AlignedBox3d& box,
+                              const PlanFromWorld& plan_from_world) {
+  const Eigen::Vector2d middle = plan_from_world * box.center();
+  const Eigen::Vector2d half = plan_from_world.cwiseAbs() * box.sizes() / 2;
+  return {middle - half, middle + half};
+}
+
+// With about as many cells as boxes, whatever the unit of the frame.
+BoxGrid GridOf(const FlatBoxes& boxes) {
+  Eigen::AlignedBox2d bounds;
+  for (const Eigen::AlignedBox2d& box : boxes) bounds.extend(box);
+  const double size = bounds.isEmpty() ? 1 : bounds.sizes().maxCoeff();
+  constexpr double kLeast = 1e-9;
+  return {boxes, std::max(kLeast, size / std::sqrt(1 + static_cast<double>(boxes.size())))};
+}
+
+// The ground as triangles, each with its bounds.
+class GroundTriangles {
+ public:
+  struct Triangle {
+    std::array<Eigen::Vector3d, 3> corners;
+    Eigen::AlignedBox3d box;
+  };
+
+  GroundTriangles(const std::vector<Building>& buildings, const PlanFromWorld& plan_from_world)
+      : plan_from_world_(plan_from_world),
+        triangles_(AllOf(buildings)),
+        grid_(GridOf(FlatBoxesOf(triangles_, plan_from_world))) {}
+
+  template <typename Visit>
+  void ForEachIn(const Eigen::AlignedBox3d& box, const Visit& visit) const {
+    for (const int i : grid_.Touching(Flattened(box, plan_from_world_))) {
+      if (box.intersects(triangles_[i].box)) visit(triangles_[i].corners);
     }
   }
-}
 
-std::vector<GroundTriangle> GroundOf(const std::vector<Building>& buildings) {
-  std::vector<GroundTriangle> ground;
-  for (const Building& building : buildings) {
-    if (building.id != "G0") continue;
-    for (const Facet& facet : building.facets) AddTriangles(facet, ground);
+ private:
+  static std::vector<Triangle> AllOf(const std::vector<Building>& buildings) {
+    std::vector<Triangle> triangles;
+    for (const Building& building : buildings) {
+      if (building.id != "G0") continue;
+      for (const Facet& facet : building.facets) Add(facet, triangles);
+    }
+    return triangles;
   }
-  return ground;
-}
 
-void AddBuried(const std::vector<GroundTriangle>& ground, const Eigen::Vector3d& up, Facet& wall) {
+  static void Add(const Facet& facet, std::vector<Triangle>& triangles) {
+    const FacetTriangles split = TriangulateFacet(facet);
+    for (const auto& corners : split.triangles) {
+      Triangle& triangle = triangles.emplace_back();
+      for (size_t i = 0; i < 3; ++i) {
+        triangle.corners[i] = split.vertices[corners[i]];
+        triangle.box.extend(triangle.corners[i]);
+      }
+    }
+  }
+
+  static FlatBoxes FlatBoxesOf(const std::vector<Triangle>& triangles,
+                               const PlanFromWorld& plan_from_world) {
+    FlatBoxes boxes;
+    boxes.reserve(triangles.size());
+    for (const Triangle& triangle : triangles) {
+      boxes.push_back(Flattened(triangle.box, plan_from_world));
+    }
+    return boxes;
+  }
+
+  PlanFromWorld plan_from_world_;
+  std::vector<Triangle> triangles_;
+  BoxGrid grid_;
+};
+
+void AddBuried(const GroundTriangles& ground, const Eigen::Vector3d& up, Facet& wall) {
   constexpr double kBeside_m = 0.1;
   constexpr double kDeepest_m = 10;
   const Eigen::Vector3d u = up.cross(wall.normal).normalized();
@@ -151,10 +202,9 @@ void AddBuried(const std::vector<GroundTriangle>& ground, const Eigen::Vector3d&
   for (const auto& p : wall.outer) lowest = std::min(lowest, frame.ToPlane(p).y() - 1);
   const std::vector<Triangle> pieces = Flattened(wall, frame);
   double area = 0;
-  for (const GroundTriangle& triangle : ground) {
-    if (!reach.intersects(triangle.box)) continue;
-    const auto cut = CutBeside(triangle.corners, wall, kBeside_m, frame);
-    if (!cut) continue;
+  ground.ForEachIn(reach, [&](const std::array<Eigen::Vector3d, 3>& corners) {
+    const auto cut = CutBeside(corners, wall, kBeside_m, frame);
+    if (!cut) return;
     const double bottom = std::min({lowest, cut->a.y() - 1, cut->b.y() - 1});
     const Kernel::Point_2 a(cut->a.x(), cut->a.y()), below_a(a.x(), bottom);
     const Kernel::Point_2 b(cut->b.x(), cut->b.y()), below_b(b.x(), bottom);
@@ -162,7 +212,7 @@ void AddBuried(const std::vector<GroundTriangle>& ground, const Eigen::Vector3d&
       if (half.is_degenerate()) continue;
       for (const Triangle& piece : pieces) area += SharedArea(piece, half);
     }
-  }
+  });
   wall.party = std::min(1.0, wall.party + area / wall.area);
 }
 
@@ -182,7 +232,15 @@ void MeasureParty(const Eigen::Vector3d& up, std::vector<Building>& buildings) {
   std::vector<Eigen::AlignedBox3d> boxes;
   boxes.reserve(buildings.size());
   for (const Building& building : buildings) boxes.push_back(BoundsOf(building));
-  const std::vector<GroundTriangle> ground = GroundOf(buildings);
+  const PlanFromWorld plan_from_world =
+      Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ())
+          .toRotationMatrix()
+          .topRows<2>();
+  const GroundTriangles ground(buildings, plan_from_world);
+  FlatBoxes flat;
+  flat.reserve(boxes.size());
+  for (const Eigen::AlignedBox3d& box : boxes) flat.push_back(Flattened(box, plan_from_world));
+  const BoxGrid grid = GridOf(flat);
   for (size_t a = 0; a < buildings.size(); ++a) {
     Eigen::AlignedBox3d reach = boxes[a];
     reach.min().array() -= kGap_m;
@@ -190,7 +248,8 @@ void MeasureParty(const Eigen::Vector3d& up, std::vector<Building>& buildings) {
     for (Facet& facet : buildings[a].facets) {
       facet.party = IsFloor(facet, buildings[a], boxes[a], up) ? 1 : 0;
     }
-    for (size_t b = 0; b < buildings.size(); ++b) {
+    for (const int near : grid.Touching(Flattened(reach, plan_from_world))) {
+      const auto b = static_cast<size_t>(near);
       if (a == b || !reach.intersects(boxes[b])) continue;
       for (Facet& facet : buildings[a].facets) {
         const bool is_wall = facet.facet_class == FacetClass::kWall && facet.area > 0;

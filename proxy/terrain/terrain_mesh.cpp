@@ -12,6 +12,8 @@
 #include <cmath>
 #include <vector>
 
+#include "site/box_grid.h"
+
 namespace stucco {
 namespace {
 
@@ -38,14 +40,24 @@ double HeightOver(Face face, const Eigen::Vector3d& p) {
   return normal.dot(p - a) / normal.z();
 }
 
+std::vector<Eigen::AlignedBox2d> BoundsOfEach(std::span<const Polygon> polygons) {
+  std::vector<Eigen::AlignedBox2d> bounds;
+  bounds.reserve(polygons.size());
+  for (const Polygon& polygon : polygons) bounds.push_back(BoundsOf(polygon));
+  return bounds;
+}
+
 class TerrainMesher {
  public:
   TerrainMesher(const GroundHeights& ground, std::span<const Ring> outlines,
                 std::span<const Polygon> footprints, double tolerance)
-      : ground_(ground), outlines_(outlines), footprints_(footprints), tolerance_(tolerance) {
+      : ground_(ground),
+        outlines_(outlines),
+        footprints_(footprints),
+        tolerance_(tolerance),
+        boxes_(BoundsOfEach(footprints), kGridCell_m) {
     for (const Ring& ring : outlines) AddRing(ring);
     for (const Polygon& footprint : footprints) {
-      boxes_.push_back(stucco::BoundsOf(footprint));
       for (const Ring& ring : footprint.rings) AddRing(ring);
     }
     for (auto vertex : mesh_.finite_vertex_handles()) {
@@ -96,6 +108,8 @@ class TerrainMesher {
   }
 
  private:
+  static constexpr double kGridCell_m = 20;  // about as large as a house
+
   struct Candidate {
     const GroundCell* cell = nullptr;
     double off = 0;
@@ -150,8 +164,9 @@ class TerrainMesher {
   bool IsTerrain(Face face) const {
     const Eigen::Vector2d middle =
         (CornerOf(face, 0) + CornerOf(face, 1) + CornerOf(face, 2)).head<2>() / 3;
-    for (size_t f = 0; f < footprints_.size(); ++f) {
-      if (boxes_[f].contains(middle) && Contains(footprints_[f], middle)) return false;
+    const auto over = boxes_.Touching({middle, middle});
+    if (std::ranges::any_of(over, [&](int f) { return Contains(footprints_[f], middle); })) {
+      return false;
     }
     return std::ranges::any_of(outlines_, [&](const Ring& ring) { return Contains(ring, middle); });
   }
@@ -178,7 +193,7 @@ class TerrainMesher {
   std::span<const Ring> outlines_;
   std::span<const Polygon> footprints_;
   double tolerance_;
-  std::vector<Eigen::AlignedBox2d> boxes_;  // of the footprints
+  BoxGrid boxes_;  // of the footprints
   Triangulation mesh_;
   std::vector<const GroundCell*> cells_;  // that were seen
   int faces_ = 0;

@@ -69,5 +69,26 @@ TEST(MapMishaps, AHouseWhoseGroundNobodySawEndsAtItsFoot) {
   EXPECT_NEAR(VolumeOf(ClosedIn(made, "B0001")), kVolume_m3, 30);
 }
 
+// Of nine houses wall to wall nobody sees the ground beside the one in the middle, whose roof may
+// be as high as theirs.
+TEST(MapMishaps, AHouseThatOthersEncloseStandsOnTheirGround) {
+  for (const double top : {6.0, 9.0}) {
+    std::vector<test::House> houses;
+    std::vector<test::MapEntry> map;
+    for (int i = 0; i < 9; ++i) {
+      const double x = 9.0 * (i % 3) - 13.5, y = 9.0 * (i / 3) - 13.5;
+      const Ring ring = Rectangle(x, y, x + 9, y + 9);
+      const double height = i == 4 ? top : 6;
+      houses.push_back(test::FlatHouse(ring, height));
+      // The map has its heights above another zero than the survey.
+      map.push_back({"B000" + std::to_string(i + 1), {ring}, 100 + height, 100});
+    }
+    const auto captured = test::Capture(houses, {test::GroundSquare(30)}, test::kDenseCapture);
+    const MadeModel made = MakeModel(captured, map);
+    const Building& middle = ClosedIn(made, "B0005");
+    EXPECT_NEAR(VolumeOf(middle), 81 * top, 12);
+  }
+}
+
 }  // namespace
 }  // namespace stucco

@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <random>
 
+#include "proxy/cloud/blocks.h"
 #include "proxy/cloud/grid_index.h"
 #include "proxy/cloud/scale.h"
 
@@ -97,6 +100,38 @@ TEST(ThinCloud, GivesTheSameFromAFileAsFromMemory) {
     EXPECT_EQ(held.cameras, read.cameras);
     EXPECT_EQ(held.cell, read.cell);
   }
+  std::filesystem::remove(file);
+}
+
+// What lies in a small box is read without most of a cloud that was written place by place.
+TEST(CloudBlocks, ReadWhatIsNear) {
+  PointCloud cloud;
+  constexpr int kSide = 500;
+  for (int x = 0; x < kSide; ++x) {
+    for (int y = 0; y < kSide; ++y) cloud.positions.emplace_back(0.1 * x, 0.1 * y, 1);
+  }
+  cloud.views.resize(cloud.size());
+  for (uint32_t i = 0; i < cloud.size(); ++i) cloud.views[i].assign(i % 2, i);
+  const auto file = std::filesystem::path(::testing::TempDir()) / "stucco_cloud_blocks.ply";
+  WritePly(cloud, file);
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(30, 10, 0), Eigen::Vector3d(32, 12, 2));
+  for (const PointStream& stream : {StreamOf(cloud), StreamOf(file)}) {
+    const PointStream near = CloudBlocks(stream).Near(box);
+    std::vector<Eigen::Vector3d> inside;
+    size_t read = 0;
+    near.for_each([&](const CloudPoint& point) {
+      ++read;
+      if (box.contains(point.position)) inside.push_back(point.position);
+    });
+    EXPECT_EQ(read, near.count);
+    EXPECT_LT(read, cloud.size() / 3);
+    std::vector<Eigen::Vector3d> expected;
+    std::ranges::copy_if(cloud.positions, std::back_inserter(expected),
+                         [&](const Eigen::Vector3d& p) { return box.contains(p); });
+    EXPECT_EQ(inside, expected);
+  }
+  const PointStream whole{cloud.size(), StreamOf(cloud).for_each};
+  EXPECT_EQ(CloudBlocks(whole).Near(box).count, cloud.size());
   std::filesystem::remove(file);
 }
 

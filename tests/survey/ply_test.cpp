@@ -72,6 +72,35 @@ TEST(Ply, VisitsThePointsThatItWouldRead) {
   EXPECT_THROW(ForEachPoint(folder / "none.ply", [](const CloudPoint&) {}), Error);
 }
 
+TEST(Ply, GoesOnWhereItLeftOff) {
+  const TemporaryFolder folder;
+  const PointCloud cloud = MakeCloud();
+  WritePly(cloud, folder / "a.ply");
+  WriteFile(folder / "b.ply",
+            "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int corners\n"
+            "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+            "3 0 1 2\n1 2 3\n4 5 6\n7 8 9");
+  for (const char* name : {"a.ply", "b.ply"}) {
+    const PointCloud whole = ReadPly(folder / name);
+    std::vector<PlyPlace> places = {{}};
+    std::vector<Eigen::Vector3d> visited;
+    std::vector<uint32_t> views;
+    const auto visit = [&](const CloudPoint& point) {
+      visited.push_back(point.position);
+      views.insert(views.end(), point.views.begin(), point.views.end());
+    };
+    while (places.back().point < whole.size()) {
+      places.push_back(ForSomePoints(folder / name, places.back(), 2, visit));
+    }
+    EXPECT_EQ(visited, whole.positions) << name;
+    EXPECT_EQ(places.size(), 1 + (whole.size() + 1) / 2) << name;
+    visited.clear();
+    EXPECT_EQ(ForSomePoints(folder / name, places[1], 1, visit).point, 3u);
+    EXPECT_EQ(visited, std::vector<Eigen::Vector3d>{whole.positions[2]}) << name;
+    EXPECT_EQ(ForSomePoints(folder / name, places.back(), 9, visit).point, whole.size());
+  }
+}
+
 TEST(Ply, ReadsAcrossTheEdgesOfItsBuffer) {
   // Words and blanks of changing length, several megabytes of them.
   const TemporaryFolder folder;
