@@ -147,6 +147,32 @@ void FindWalls(const UprightSurvey& survey, const MapBuilding& building,
   }
 }
 
+// Where a neighbour stands against a part of a straight wall only, that part stays in line with
+// what is seen of the rest.
+void CarryOn(Fitting& fitting) {
+  constexpr double kInLine = 0.9994;  // cosine of two degrees
+  for (RingPlace& place : fitting.rings) {
+    const size_t count = place.runs.size();
+    const std::vector<Run> before = place.runs;
+    for (size_t r = 0; r < count; ++r) {
+      Run& run = place.runs[r];
+      if (!run.party) continue;
+      const Run* longest = nullptr;
+      for (const size_t beside : {(r + count - 1) % count, (r + 1) % count}) {
+        const Run& other = before[beside];
+        const bool goes_on =
+            !other.party && other.held && other.outwards.dot(run.outwards) > kInLine;
+        if (goes_on && (longest == nullptr || other.length > longest->length)) longest = &other;
+      }
+      if (longest == nullptr) continue;
+      run.middle = longest->middle;
+      run.outwards = longest->outwards;
+      run.held = longest->held;
+      run.own_turn = longest->own_turn;
+    }
+  }
+}
+
 double HeldShare(const Fitting& fitting) {
   double held = 0, free = 0;
   for (const RingPlace& place : fitting.rings) {
@@ -447,6 +473,7 @@ std::vector<FittedBuilding> FitOutlines(const UprightSurvey& survey,
   for (size_t b = 0; b < buildings.size(); ++b) {
     Fitting& fitting = fittings.of_buildings[b];
     FindWalls(survey, moved[b], expected, fitting);
+    CarryOn(fitting);
     fitted[b].building = Fitted(moved[b], fitting, expected.distance);
     fitted[b].edges =
         EdgesOf(buildings[b], fitted[b].building, fitting, facades_of[buildings[b].id]);
