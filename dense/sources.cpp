@@ -3,8 +3,10 @@
 #include "dense/sources.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace stucco {
 namespace {
@@ -24,6 +26,23 @@ struct Shared {
   size_t points = 0;
 };
 
+// A photo and where it was taken.
+struct Viewpoint {
+  const RegisteredImage& photo;
+  const Eigen::Vector3d& center;
+};
+
+// How well two photos show a point together, from 0 to 1.
+double PairWorth(const Reconstruction& r, const Viewpoint& a, const Viewpoint& b,
+                 const Eigen::Vector3d& point) {
+  const Eigen::Vector3d ray_a = point - a.center;
+  const Eigen::Vector3d ray_b = point - b.center;
+  const double angle = std::atan2(ray_a.cross(ray_b).norm(), ray_a.dot(ray_b)) * kDegrees;
+  const double size_a = r.cameras.at(a.photo.camera).FocalX() / ray_a.norm();
+  const double size_b = r.cameras.at(b.photo.camera).FocalX() / ray_b.norm();
+  return AngleWeight(angle) * std::min(size_a, size_b) / std::max(size_a, size_b);
+}
+
 std::map<PhotoId, std::map<PhotoId, Shared>> ScorePairs(const Reconstruction& r) {
   std::map<PhotoId, Eigen::Vector3d> centers;
   for (const auto& [id, photo] : r.photos) centers[id] = photo.cam_from_world.Center();
@@ -32,14 +51,9 @@ std::map<PhotoId, std::map<PhotoId, Shared>> ScorePairs(const Reconstruction& r)
     for (const TrackElement& a : point.track) {
       for (const TrackElement& b : point.track) {
         if (a.photo == b.photo) continue;
-        const Eigen::Vector3d ray_a = point.position - centers.at(a.photo);
-        const Eigen::Vector3d ray_b = point.position - centers.at(b.photo);
-        const double angle = std::atan2(ray_a.cross(ray_b).norm(), ray_a.dot(ray_b)) * kDegrees;
-        const double size_a = r.cameras.at(r.photos.at(a.photo).camera).FocalX() / ray_a.norm();
-        const double size_b = r.cameras.at(r.photos.at(b.photo).camera).FocalX() / ray_b.norm();
-        const double ratio = std::min(size_a, size_b) / std::max(size_a, size_b);
         Shared& shared = scores[a.photo][b.photo];
-        shared.score += AngleWeight(angle) * ratio;
+        shared.score += PairWorth(r, {r.photos.at(a.photo), centers.at(a.photo)},
+                                  {r.photos.at(b.photo), centers.at(b.photo)}, point.position);
         ++shared.points;
       }
     }
@@ -47,10 +61,114 @@ std::map<PhotoId, std::map<PhotoId, Shared>> ScorePairs(const Reconstruction& r)
   return scores;
 }
 
-void AddSeeds(const Reconstruction& r, const RegisteredImage& photo, int max_image_px,
+// Photos in order: each the one that adds most to those before it.
+class SourceOrder {
+ public:
+  SourceOrder(const Reconstruction& r, int max_image_px) : reconstruction_(r) {
+    for (const auto& [id, photo] : r.photos) {
+      views_[id] =
+          PinholeLevels(r.cameras.at(photo.camera), photo.cam_from_world, max_image_px, 1)[0];
+      centers_[id] = photo.cam_from_world.Center();
+    }
+  }
+
+  const PinholeCamera& ViewOf(PhotoId id) const { return views_.at(id); }
+
+  std::vector<PhotoId> Of(PhotoId id, const std::vector<PhotoId>& others, size_t most) const {
+    const std::vector<Part> parts = PartsOf(id);
+    std::vector<Worth> worths;
+    worths.reserve(others.size());
+    for (const PhotoId other : others) worths.push_back(WorthOf(id, other, parts));
+    Worth have{};
+    std::vector<bool> taken(others.size(), false);
+    std::vector<PhotoId> order;
+    while (order.size() < std::min(most, others.size())) {
+      size_t best = others.size();
+      double most_added = -1;
+      for (size_t i = 0; i < others.size(); ++i) {
+        if (taken[i]) continue;
+        double added = 0;
+        for (size_t c = 0; c < kCells; ++c) added += worths[i][c] / (1 + have[c]);
+        if (added <= most_added) continue;
+        most_added = added;
+        best = i;
+      }
+      taken[best] = true;
+      order.push_back(others[best]);
+      for (size_t c = 0; c < kCells; ++c) have[c] += worths[best][c];
+    }
+    return order;
+  }
+
+ private:
+  static constexpr size_t kColumns = 12, kRows = 9, kCells = kColumns * kRows;
+  using Worth = std::array<double, kCells>;  // of a source in each part of a photo, up to 1
+
+  // A sparse point in a photo.
+  struct Part {
+    size_t cell = 0;
+    double share = 0;  // of the cell's points
+    const TrackPoint* point = nullptr;
+  };
+
+  std::vector<Part> PartsOf(PhotoId id) const {
+    const RegisteredImage& photo = reconstruction_.photos.at(id);
+    const PinholeCamera& view = views_.at(id);
+    std::vector<Part> parts;
+    std::array<int, kCells> counts{};
+    for (const Observation& observation : photo.observations) {
+      if (!observation.point.IsValid()) continue;
+      const TrackPoint& point = reconstruction_.points.at(observation.point);
+      const auto at = PixelIn(view, photo.cam_from_world, point.position);
+      if (!at) continue;
+      const auto column = static_cast<size_t>(at->x() * kColumns / view.width);
+      const auto row = static_cast<size_t>(at->y() * kRows / view.height);
+      const size_t cell = std::min(row, kRows - 1) * kColumns + std::min(column, kColumns - 1);
+      parts.push_back({.cell = cell, .point = &point});
+      ++counts[cell];
+    }
+    for (Part& part : parts) part.share = 1.0 / counts[part.cell];
+    return parts;
+  }
+
+  // Of the whole picture, from the corner of the first pixel on; nothing outside of it.
+  static std::optional<Eigen::Vector2d> PixelIn(const PinholeCamera& view, const Pose& pose,
+                                                const Eigen::Vector3d& point) {
+    const Eigen::Vector3d p = pose * point;
+    if (p.z() <= 0) return std::nullopt;
+    const Eigen::Vector2d at(view.fx * p.x() / p.z() + view.cx + 0.5,
+                             view.fy * p.y() / p.z() + view.cy + 0.5);
+    const bool inside = at.x() >= 0 && at.y() >= 0 && at.x() < view.width && at.y() < view.height;
+    return inside ? std::optional(at) : std::nullopt;
+  }
+
+  Worth WorthOf(PhotoId id, PhotoId other, const std::vector<Part>& parts) const {
+    constexpr double kNotTracked = 0.5;  // something may stand between
+    const RegisteredImage& from = reconstruction_.photos.at(id);
+    const RegisteredImage& to = reconstruction_.photos.at(other);
+    Worth worth{};
+    for (const Part& part : parts) {
+      const bool tracked =
+          std::ranges::any_of(part.point->track, [&](const auto& a) { return a.photo == other; });
+      const double seen = tracked ? 1
+                          : PixelIn(views_.at(other), to.cam_from_world, part.point->position)
+                              ? kNotTracked
+                              : 0;
+      if (seen == 0) continue;
+      worth[part.cell] += part.share * seen *
+                          PairWorth(reconstruction_, {from, centers_.at(id)},
+                                    {to, centers_.at(other)}, part.point->position);
+    }
+    return worth;
+  }
+
+  const Reconstruction& reconstruction_;
+  std::map<PhotoId, PinholeCamera> views_;
+  std::map<PhotoId, Eigen::Vector3d> centers_;
+};
+
+void AddSeeds(const Reconstruction& r, const RegisteredImage& photo, const PinholeCamera& view,
               SourceChoice& choice) {
-  const PinholeCamera view =
-      PinholeLevels(r.cameras.at(photo.camera), photo.cam_from_world, max_image_px, 1)[0];
   std::vector<float> depths;
   for (const Observation& observation : photo.observations) {
     if (!observation.point.IsValid()) continue;
@@ -72,21 +190,22 @@ void AddSeeds(const Reconstruction& r, const RegisteredImage& photo, int max_ima
 
 std::map<PhotoId, SourceChoice> ChooseSources(const Reconstruction& reconstruction,
                                               const SourceLimits& limits) {
+  const SourceOrder order(reconstruction, limits.max_image_px);
   std::map<PhotoId, SourceChoice> choices;
   for (const auto& [id, others] : ScorePairs(reconstruction)) {
-    std::vector<std::pair<double, PhotoId>> order;
+    std::vector<PhotoId> usable;
     for (const auto& [other, shared] : others) {
-      if (shared.points >= kLeastShared && shared.score > 1)
-        order.emplace_back(-shared.score, other);
+      if (shared.points >= kLeastShared && shared.score > 1) usable.push_back(other);
     }
-    if (order.empty()) continue;
-    std::sort(order.begin(), order.end());
+    if (usable.empty()) continue;
     SourceChoice& choice = choices[id];
-    for (const auto& [score, other] : order) {
-      if (std::ssize(choice.sources) < limits.sources) choice.sources.push_back(other);
-      if (std::ssize(choice.neighbours) < limits.neighbours) choice.neighbours.push_back(other);
-    }
-    AddSeeds(reconstruction, reconstruction.photos.at(id), limits.max_image_px, choice);
+    const auto most = static_cast<size_t>(std::max(limits.sources, limits.neighbours));
+    choice.neighbours = order.Of(id, usable, most);
+    choice.sources = choice.neighbours;
+    choice.sources.resize(std::min(choice.sources.size(), static_cast<size_t>(limits.sources)));
+    choice.neighbours.resize(
+        std::min(choice.neighbours.size(), static_cast<size_t>(limits.neighbours)));
+    AddSeeds(reconstruction, reconstruction.photos.at(id), order.ViewOf(id), choice);
   }
   return choices;
 }
