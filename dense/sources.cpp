@@ -61,6 +61,43 @@ std::map<PhotoId, std::map<PhotoId, Shared>> ScorePairs(const Reconstruction& r)
   return scores;
 }
 
+// The parts of a picture: plain ones, with few points, count as much as others.
+constexpr int kColumns = 12, kRows = 9, kCells = kColumns * kRows;
+
+// A sparse point in a photo.
+struct SeenPoint {
+  const TrackPoint* point = nullptr;
+  DepthSeed seed;
+  int cell = 0;
+  double share = 0;  // of the cell's points
+};
+
+std::vector<SeenPoint> PointsIn(const Reconstruction& r, const RegisteredImage& photo,
+                                const PinholeCamera& view) {
+  std::vector<SeenPoint> seen;
+  std::array<int, kCells> counts{};
+  for (const Observation& observation : photo.observations) {
+    if (!observation.point.IsValid()) continue;
+    const TrackPoint& point = r.points.at(observation.point);
+    const Eigen::Vector3d p = photo.cam_from_world * point.position;
+    if (p.z() <= 0) continue;
+    const DepthSeed seed{.x = static_cast<float>(view.fx * p.x() / p.z() + view.cx),
+                         .y = static_cast<float>(view.fy * p.y() / p.z() + view.cy),
+                         .depth = static_cast<float>(p.z())};
+    const auto part_of = [](float at, int size, int parts) {
+      return std::clamp(
+          static_cast<int>((at + 0.5f) * static_cast<float>(parts) / static_cast<float>(size)), 0,
+          parts - 1);
+    };
+    const int cell =
+        part_of(seed.y, view.height, kRows) * kColumns + part_of(seed.x, view.width, kColumns);
+    seen.push_back({.point = &point, .seed = seed, .cell = cell});
+    ++counts[cell];
+  }
+  for (SeenPoint& one : seen) one.share = 1.0 / counts[one.cell];
+  return seen;
+}
+
 // Photos in order: each the one that adds most to those before it.
 class SourceOrder {
  public:
@@ -74,25 +111,17 @@ class SourceOrder {
 
   const PinholeCamera& ViewOf(PhotoId id) const { return views_.at(id); }
 
-  std::vector<PhotoId> Of(PhotoId id, const std::vector<PhotoId>& others, size_t most) const {
-    const std::vector<Part> parts = PartsOf(id);
+  // `seen` are the points in the photo.
+  std::vector<PhotoId> Of(PhotoId id, const std::vector<SeenPoint>& seen,
+                          const std::vector<PhotoId>& others, size_t most) const {
     std::vector<Worth> worths;
     worths.reserve(others.size());
-    for (const PhotoId other : others) worths.push_back(WorthOf(id, other, parts));
+    for (const PhotoId other : others) worths.push_back(WorthOf(id, other, seen));
     Worth have{};
     std::vector<bool> taken(others.size(), false);
     std::vector<PhotoId> order;
     while (order.size() < std::min(most, others.size())) {
-      size_t best = others.size();
-      double most_added = -1;
-      for (size_t i = 0; i < others.size(); ++i) {
-        if (taken[i]) continue;
-        double added = 0;
-        for (size_t c = 0; c < kCells; ++c) added += worths[i][c] / (1 + have[c]);
-        if (added <= most_added) continue;
-        most_added = added;
-        best = i;
-      }
+      const size_t best = BestOf(worths, taken, have);
       taken[best] = true;
       order.push_back(others[best]);
       for (size_t c = 0; c < kCells; ++c) have[c] += worths[best][c];
@@ -101,65 +130,44 @@ class SourceOrder {
   }
 
  private:
-  static constexpr size_t kColumns = 12, kRows = 9, kCells = kColumns * kRows;
   using Worth = std::array<double, kCells>;  // of a source in each part of a photo, up to 1
 
-  // A sparse point in a photo.
-  struct Part {
-    size_t cell = 0;
-    double share = 0;  // of the cell's points
-    const TrackPoint* point = nullptr;
-  };
-
-  std::vector<Part> PartsOf(PhotoId id) const {
-    const RegisteredImage& photo = reconstruction_.photos.at(id);
-    const PinholeCamera& view = views_.at(id);
-    std::vector<Part> parts;
-    std::array<int, kCells> counts{};
-    for (const Observation& observation : photo.observations) {
-      if (!observation.point.IsValid()) continue;
-      const TrackPoint& point = reconstruction_.points.at(observation.point);
-      const auto at = PixelIn(view, photo.cam_from_world, point.position);
-      if (!at) continue;
-      const auto column = static_cast<size_t>(at->x() * kColumns / view.width);
-      const auto row = static_cast<size_t>(at->y() * kRows / view.height);
-      const size_t cell = std::min(row, kRows - 1) * kColumns + std::min(column, kColumns - 1);
-      parts.push_back({.cell = cell, .point = &point});
-      ++counts[cell];
+  static size_t BestOf(const std::vector<Worth>& worths, const std::vector<bool>& taken,
+                       const Worth& have) {
+    size_t best = 0;
+    double most = -1;
+    for (size_t i = 0; i < worths.size(); ++i) {
+      if (taken[i]) continue;
+      double added = 0;
+      for (size_t c = 0; c < kCells; ++c) added += worths[i][c] / (1 + have[c]);
+      if (added <= most) continue;
+      most = added;
+      best = i;
     }
-    for (Part& part : parts) part.share = 1.0 / counts[part.cell];
-    return parts;
+    return best;
   }
 
-  // Of the whole picture, from the corner of the first pixel on; nothing outside of it.
-  static std::optional<Eigen::Vector2d> PixelIn(const PinholeCamera& view, const Pose& pose,
-                                                const Eigen::Vector3d& point) {
-    const Eigen::Vector3d p = pose * point;
-    if (p.z() <= 0) return std::nullopt;
-    const Eigen::Vector2d at(view.fx * p.x() / p.z() + view.cx + 0.5,
-                             view.fy * p.y() / p.z() + view.cy + 0.5);
-    const bool inside = at.x() >= 0 && at.y() >= 0 && at.x() < view.width && at.y() < view.height;
-    return inside ? std::optional(at) : std::nullopt;
-  }
-
-  Worth WorthOf(PhotoId id, PhotoId other, const std::vector<Part>& parts) const {
+  Worth WorthOf(PhotoId id, PhotoId other, const std::vector<SeenPoint>& seen) const {
     constexpr double kNotTracked = 0.5;  // something may stand between
     const RegisteredImage& from = reconstruction_.photos.at(id);
     const RegisteredImage& to = reconstruction_.photos.at(other);
     Worth worth{};
-    for (const Part& part : parts) {
+    for (const SeenPoint& one : seen) {
       const bool tracked =
-          std::ranges::any_of(part.point->track, [&](const auto& a) { return a.photo == other; });
-      const double seen = tracked ? 1
-                          : PixelIn(views_.at(other), to.cam_from_world, part.point->position)
-                              ? kNotTracked
-                              : 0;
-      if (seen == 0) continue;
-      worth[part.cell] += part.share * seen *
-                          PairWorth(reconstruction_, {from, centers_.at(id)},
-                                    {to, centers_.at(other)}, part.point->position);
+          std::ranges::any_of(one.point->track, [&](const auto& a) { return a.photo == other; });
+      if (!tracked && !Shows(views_.at(other), to.cam_from_world, one.point->position)) continue;
+      worth[one.cell] += one.share * (tracked ? 1 : kNotTracked) *
+                         PairWorth(reconstruction_, {from, centers_.at(id)},
+                                   {to, centers_.at(other)}, one.point->position);
     }
     return worth;
+  }
+
+  static bool Shows(const PinholeCamera& view, const Pose& pose, const Eigen::Vector3d& point) {
+    const Eigen::Vector3d p = pose * point;
+    if (p.z() <= 0) return false;
+    const double x = view.fx * p.x() / p.z() + view.cx, y = view.fy * p.y() / p.z() + view.cy;
+    return x >= -0.5 && y >= -0.5 && x < view.width - 0.5 && y < view.height - 0.5;
   }
 
   const Reconstruction& reconstruction_;
@@ -167,23 +175,23 @@ class SourceOrder {
   std::map<PhotoId, Eigen::Vector3d> centers_;
 };
 
-void AddSeeds(const Reconstruction& r, const RegisteredImage& photo, const PinholeCamera& view,
-              SourceChoice& choice) {
-  std::vector<float> depths;
-  for (const Observation& observation : photo.observations) {
-    if (!observation.point.IsValid()) continue;
-    const Eigen::Vector3d p = photo.cam_from_world * r.points.at(observation.point).position;
-    if (p.z() <= 0) continue;
-    const float depth = static_cast<float>(p.z());
-    depths.push_back(depth);
-    choice.seeds.push_back({static_cast<float>(view.fx * p.x() / p.z() + view.cx),
-                            static_cast<float>(view.fy * p.y() / p.z() + view.cy), depth});
-  }
-  if (depths.empty()) return;
-  std::sort(depths.begin(), depths.end());
-  choice.min_depth = static_cast<float>(depths[depths.size() / 100] / kDepthMargin);
+// The nearest and farthest depth but for a hundredth of the picture each.
+void AddBounds(std::vector<SeenPoint> seen, SourceChoice& choice) {
+  constexpr double kLeftOut = 0.01;
+  std::ranges::stable_sort(seen, {}, [](const SeenPoint& one) { return one.seed.depth; });
+  double all = 0;
+  for (const SeenPoint& one : seen) all += one.share;
+  const auto beyond = [&](auto begin, auto end) {
+    double share = 0;
+    return std::find_if(begin, end, [&](const SeenPoint& one) {
+      share += one.share;
+      return share > kLeftOut * all;
+    });
+  };
+  choice.min_depth =
+      static_cast<float>(beyond(seen.begin(), seen.end())->seed.depth / kDepthMargin);
   choice.max_depth =
-      static_cast<float>(depths[depths.size() - 1 - depths.size() / 100] * kDepthMargin);
+      static_cast<float>(beyond(seen.rbegin(), seen.rend())->seed.depth * kDepthMargin);
 }
 
 }  // namespace
@@ -198,14 +206,18 @@ std::map<PhotoId, SourceChoice> ChooseSources(const Reconstruction& reconstructi
       if (shared.points >= kLeastShared && shared.score > 1) usable.push_back(other);
     }
     if (usable.empty()) continue;
+    const auto seen = PointsIn(reconstruction, reconstruction.photos.at(id), order.ViewOf(id));
+    if (seen.empty()) continue;
     SourceChoice& choice = choices[id];
     const auto most = static_cast<size_t>(std::max(limits.sources, limits.neighbours));
-    choice.neighbours = order.Of(id, usable, most);
+    choice.neighbours = order.Of(id, seen, usable, most);
     choice.sources = choice.neighbours;
     choice.sources.resize(std::min(choice.sources.size(), static_cast<size_t>(limits.sources)));
     choice.neighbours.resize(
         std::min(choice.neighbours.size(), static_cast<size_t>(limits.neighbours)));
-    AddSeeds(reconstruction, reconstruction.photos.at(id), order.ViewOf(id), choice);
+    AddBounds(seen, choice);
+    choice.seeds.reserve(seen.size());
+    for (const SeenPoint& one : seen) choice.seeds.push_back(one.seed);
   }
   return choices;
 }

@@ -52,7 +52,7 @@ Stage CalibStage() {
 Stage DenseStage() {
   Stage stage;
   stage.name = "dense";
-  stage.version = 7;
+  stage.version = 8;
   stage.title = "the dense point cloud";
   stage.needs = {"ingest", "calib"};
   stage.inputs = {kCapturesFile, kSparseFolder};

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "tests/dense/made_views.h"
@@ -58,6 +59,53 @@ TEST(ChooseSources, PrefersTheSameScale) {
   const auto choices = ChooseSources(r, Limits(6, 200));
   ASSERT_GE(choices.at(PhotoId{1}).sources.size(), 1u);
   EXPECT_EQ(choices.at(PhotoId{1}).sources[0], PhotoId{3});
+}
+
+// Photos see the left half of a far wall, with many points. What is near has few of them, on the
+// right half of the picture, and only the last photo sees them with the first.
+Reconstruction WallAndSomethingNear(uint64_t near_points) {
+  Reconstruction r =
+      WallSeenFrom({{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0.8, 0.6, 0}}, 400);
+  const Camera& camera = r.cameras.begin()->second;
+  std::set<PointId> gone;
+  for (auto& [id, point] : r.points) {
+    // Of the wall only the left half is tracked; by the last photo hardly any of it.
+    std::erase_if(point.track, [&](const TrackElement& element) {
+      return element.photo == PhotoId{6} && id.value % 8 != 0;
+    });
+    if (point.position.x() > 0) gone.insert(id);
+  }
+  for (const PointId id : gone) r.points.erase(id);
+  for (uint64_t k = 0; k < near_points; ++k) {
+    TrackPoint point;
+    point.id = PointId{1000 + k};
+    point.position = {0.1 + 0.12 * static_cast<double>(k % 6),
+                      -0.3 + 0.45 * static_cast<double>(k / 6), 3};
+    point.track = {{PhotoId{1}, 0}, {PhotoId{6}, 0}};
+    r.points[point.id] = point;
+  }
+  for (auto& [id, photo] : r.photos) photo.observations.clear();
+  for (auto& [id, point] : r.points) {
+    for (TrackElement& element : point.track) {
+      RegisteredImage& photo = r.photos.at(element.photo);
+      element.observation = static_cast<uint32_t>(photo.observations.size());
+      photo.observations.push_back(
+          {*camera.Project(photo.cam_from_world * point.position), point.id});
+    }
+  }
+  EXPECT_FALSE(FindProblem(r));
+  return r;
+}
+
+TEST(ChooseSources, TakesWhatShowsAPartWithFewPoints) {
+  const SourceChoice choice =
+      ChooseSources(WallAndSomethingNear(24), Limits(2, 200)).at(PhotoId{1});
+  EXPECT_EQ(std::count(choice.sources.begin(), choice.sources.end(), PhotoId{6}), 1);
+}
+
+TEST(ChooseSources, BoundsHoldWhatIsNearWithFewPoints) {
+  const Reconstruction r = WallAndSomethingNear(1);
+  EXPECT_LT(ChooseSources(r, Limits(2, 200)).at(PhotoId{1}).min_depth, 3);
 }
 
 TEST(ChooseSources, TakesNoMoreThanAsked) {
