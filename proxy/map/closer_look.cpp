@@ -118,6 +118,7 @@ std::vector<std::vector<size_t>> RowsOf(const std::vector<std::vector<size_t>>& 
     members[sets.Find(static_cast<int>(b))].push_back(b);
   }
   std::vector<std::vector<size_t>> rows;
+  rows.reserve(members.size());
   for (auto& [first, row] : members) rows.push_back(std::move(row));
   return rows;
 }
@@ -240,8 +241,7 @@ std::vector<SetOfBuildings> SetsOfBuildings(const UprightSurvey& survey,
   return SetMaker(survey, buildings).Make(max_points);
 }
 
-UprightSurvey CloserLook(const PlanarScene& scene, const CloudBlocks& cloud,
-                         std::span<const SurveyPhoto> photos,
+UprightSurvey CloserLook(const PlanarScene& scene, const CloudOfPhotos& cloud,
                          std::span<const MapBuilding> buildings, const ProxyOptions& options,
                          int threads) {
   const Surroundings surroundings(buildings);
@@ -256,13 +256,14 @@ UprightSurvey CloserLook(const PlanarScene& scene, const CloudBlocks& cloud,
   }
   if (box.isEmpty()) return UprightSurveyOf(Samples{}, scene.tolerances, scene.up);
   box = {box.min().array() - kAround_m, box.max().array() + kAround_m};
-  const PointStream blocks = cloud.Near(box);
+  const PointStream blocks = cloud.blocks.Near(box);
   const PointStream near{blocks.count, [&](const PointVisit& visit) {
                            blocks.for_each([&](const CloudPoint& point) {
                              if (wanted(point.position)) visit(point);
                            });
                          }};
-  Samples samples = ThinInside(box, near, photos, options.max_points, FineCell(scene.tolerances));
+  Samples samples =
+      ThinInside(box, near, cloud.photos, options.max_points, FineCell(scene.tolerances));
   constexpr size_t kFewest = 100;
   if (samples.size() < kFewest) {
     return UprightSurveyOf(std::move(samples), scene.tolerances, scene.up);

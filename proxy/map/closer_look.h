@@ -32,9 +32,14 @@ struct SetOfBuildings {
 std::vector<SetOfBuildings> SetsOfBuildings(const UprightSurvey& survey,
                                             std::span<const MapBuilding> buildings, int max_points);
 
+// What a closer look is taken at.
+struct CloudOfPhotos {
+  CloudBlocks blocks;
+  std::span<const SurveyPhoto> photos;  // that see it
+};
+
 // The cloud thinned once more, on and around these buildings only.
-UprightSurvey CloserLook(const PlanarScene& scene, const CloudBlocks& cloud,
-                         std::span<const SurveyPhoto> photos,
+UprightSurvey CloserLook(const PlanarScene& scene, const CloudOfPhotos& cloud,
                          std::span<const MapBuilding> buildings, const ProxyOptions& options,
                          int threads);
 

@@ -20,6 +20,7 @@ std::vector<int> SetsOfFaces(const Arrangement& arrangement, const Joins& joins)
     }
   }
   std::vector<int> set_of_face;
+  set_of_face.reserve(arrangement.faces.size());
   for (int f = 0; f < static_cast<int>(arrangement.faces.size()); ++f) {
     set_of_face.push_back(joins(f) ? sets.Find(f) : -1);
   }

@@ -87,13 +87,14 @@ struct Workshop {
   const ProxyOptions& options;
   int threads;
   // To look at parts of the cloud; nothing where all samples are fine enough.
-  std::optional<CloudBlocks> blocks = std::nullopt;
+  std::optional<CloudOfPhotos> cloud = std::nullopt;
 };
 
 Workshop WorkshopOf(const PlanarScene& scene, const ProxyInput& input, const ProxyOptions& options,
                     int threads) {
   Workshop workshop{scene, input, options, threads};
-  if (NeedsCloserLook(scene)) workshop.blocks.emplace(input.cloud);
+  if (NeedsCloserLook(scene))
+    workshop.cloud = CloudOfPhotos{CloudBlocks(input.cloud), input.photos};
   return workshop;
 }
 
@@ -105,7 +106,7 @@ using Look = std::function<void(const UprightSurvey& survey, const SetOfBuilding
 void LookAtAll(const UprightSurvey& survey, const std::vector<MapBuilding>& buildings,
                const Workshop& with, const Look& look) {
   if (buildings.empty()) return;
-  if (!with.blocks) {
+  if (!with.cloud) {
     SetOfBuildings all{.members = std::vector<size_t>(buildings.size())};
     std::iota(all.members.begin(), all.members.end(), size_t{0});
     look(survey, all);
@@ -119,8 +120,7 @@ void LookAtAll(const UprightSurvey& survey, const std::vector<MapBuilding>& buil
     std::vector<MapBuilding> of_this;
     for (const size_t b : sets[s].members) of_this.push_back(buildings[b]);
     for (const size_t b : sets[s].beside) of_this.push_back(buildings[b]);
-    look(CloserLook(with.scene, *with.blocks, with.input.photos, of_this, of_set, with.threads),
-         sets[s]);
+    look(CloserLook(with.scene, *with.cloud, of_this, of_set, with.threads), sets[s]);
   });
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/proxy/map_scene.h"
 #include "tests/proxy/scene.h"
@@ -53,6 +54,28 @@ TEST(MapMishaps, CrownsOverAHouseAreNotItsRoof) {
   EXPECT_NEAR(VolumeOf(house), kVolume_m3, 30);
   ASSERT_EQ(OfClass(house, FacetClass::kRoof).size(), 1u);
   EXPECT_EQ(OfClass(house, FacetClass::kRoof)[0]->seen, 0);
+}
+
+// Of a house of which photos show nothing but the crowns above it nobody knows more than the map.
+TEST(MapMishaps, AHouseBelowCrownsIsAsThePlanHasIt) {
+  const Ring other = Rectangle(18, -5, 30, 5);
+  Captured captured = test::Capture({test::FlatHouse(other, 6)}, {test::GroundSquare(40)},
+                                    {.spacing = 0.2, .noise = 0.02});
+  const auto below = [](const Eigen::Vector3d& p) {
+    return std::abs(p.x()) < 6.5 && std::abs(p.y()) < 5;
+  };
+  test::EraseIf(below, captured);
+  for (const double x : {-4.0, 0.0, 4.0}) {
+    for (const double y : {-2.5, 2.5}) test::AddTree({x, y, 12}, 2.4, 2500, 3, captured);
+  }
+  const MadeModel made =
+      MakeModel(captured, {{"B0001", {HouseOutline()}, 7}, {"B0002", {other}, 6}});
+  const Building& house = ClosedIn(made, "B0001");
+  EXPECT_NEAR(VolumeOf(house), 12 * 9 * 7, 12 * 9 * 0.3);
+  EXPECT_EQ(house.facets.size(), 6u);
+  EXPECT_TRUE(std::ranges::any_of(made.findings.of_map, [](const ProxyFindings::OfMap& finding) {
+    return finding.text.starts_with("B0001: the cloud shows too little of it");
+  }));
 }
 
 TEST(MapMishaps, AHouseSeenFromOneSideIsClosed) {

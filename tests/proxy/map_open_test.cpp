@@ -50,20 +50,11 @@ TEST(MapOpenGround, ATreeInTheGardenIsNotBuilt) {
       test::Capture({test::LShapedHouse(14, 12, 7)}, {test::GroundSquare(25)}, kDenseCapture);
   constexpr double kRadius_m = 1.8;
   const Eigen::Vector2d tree(5.6, 4.6);
-  PointCloud& cloud = captured.cloud;
-  size_t kept = 0;
-  for (size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3d& p = cloud.positions[i];
-    if (p.z() < 0.5 && (p.head<2>() - tree).norm() < kRadius_m) continue;
-    cloud.positions[kept] = p;
-    cloud.normals[kept] = cloud.normals[i];
-    cloud.colors[kept] = cloud.colors[i];
-    cloud.views[kept++] = cloud.views[i];
-  }
-  cloud.positions.resize(kept);
-  cloud.normals.resize(kept);
-  cloud.colors.resize(kept);
-  cloud.views.resize(kept);
+  test::EraseIf(
+      [&](const Eigen::Vector3d& p) {
+        return p.z() < 0.5 && (p.head<2>() - tree).norm() < kRadius_m;
+      },
+      captured);
   test::AddTree({tree.x(), tree.y(), 5}, kRadius_m, 4000, 3, captured);
   const MadeModel made = MakeModel(captured, {{"B0001", {Rectangle(-7, -6, 7, 6)}, 7}});
   const Building& house = ClosedIn(made, "B0001");

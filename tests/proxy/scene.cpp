@@ -233,6 +233,22 @@ void AddTree(const Vector3d& center, double radius, int count, uint64_t seed, Ca
   }
 }
 
+void EraseIf(const std::function<bool(const Eigen::Vector3d&)>& gone, Captured& captured) {
+  PointCloud& cloud = captured.cloud;
+  size_t kept = 0;
+  for (size_t i = 0; i < cloud.size(); ++i) {
+    if (gone(cloud.positions[i])) continue;
+    cloud.positions[kept] = cloud.positions[i];
+    cloud.normals[kept] = cloud.normals[i];
+    cloud.colors[kept] = cloud.colors[i];
+    cloud.views[kept++] = cloud.views[i];
+  }
+  cloud.positions.resize(kept);
+  cloud.normals.resize(kept);
+  cloud.colors.resize(kept);
+  cloud.views.resize(kept);
+}
+
 void MoveTo(const Eigen::Matrix3d& rotation, double scale, const Vector3d& translation,
             Captured& captured) {
   const Eigen::Matrix3f rotation_f = rotation.cast<float>();

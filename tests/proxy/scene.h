@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,9 @@ Captured Capture(const std::vector<House>& houses, const std::vector<TruePolygon
 // A ball of leaves: points through its volume with random normals.
 void AddTree(const Eigen::Vector3d& center, double radius, int count, uint64_t seed,
              Captured& captured);
+
+// Takes points away.
+void EraseIf(const std::function<bool(const Eigen::Vector3d&)>& gone, Captured& captured);
 
 // Turns and scales everything: an arbitrary frame as calibration without GPS gives.
 void MoveTo(const Eigen::Matrix3d& rotation, double scale, const Eigen::Vector3d& translation,

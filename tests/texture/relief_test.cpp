@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "texture/grid/relief.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "survey/error.h"
@@ -80,8 +81,15 @@ TEST(ReliefFiles, AreRefusedWhenDamaged) {
   const fs::path description = folder.path() / kReliefFolder / "wall.json";
   fs::create_directories(picture.parent_path());
   WriteFile(description, files.json);
-  WriteFile(picture, files.png.substr(0, 20));
-  EXPECT_THROW(ReadRelief(folder.path(), "wall"), Error);
+  for (const size_t bytes : {size_t{0}, size_t{20}}) {
+    WriteFile(picture, files.png.substr(0, bytes));
+    try {
+      ReadRelief(folder.path(), "wall");
+      ADD_FAILURE() << "took " << bytes << " bytes for a picture";
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("wall.png"));
+    }
+  }
   WriteFile(picture, files.png);
   WriteFile(description, "{");
   EXPECT_THROW(ReadRelief(folder.path(), "wall"), Error);
