@@ -54,6 +54,17 @@ void AddHangingParts(MapBuilding& building) {
   building.raised = std::move(standing);
 }
 
+// Once all parts of a building are known.
+void MakeBuildable(const Plan& plan, MapBuilding& building) {
+  AddHangingParts(building);
+  OpenPinches(building.parts);
+  // What the flight keeps clear of is no height to build by.
+  const double height = building.z_m.to_m - building.z_m.from_m;
+  if (!building.top_known && height > plan.safe_altitude_m - plan.d_min_m - kRaisedFoot_m) {
+    building.z_m.to_m = building.z_m.from_m + std::min(height, kTwoStoreys_m);
+  }
+}
+
 }  // namespace
 
 Eigen::Matrix3d UprightFromWorld(const Eigen::Vector3d& up) {
@@ -104,15 +115,7 @@ OutlineMap OutlinesOf(const Plan& plan, const Georef& georef, const Eigen::Vecto
       building.parts.push_back(std::move(part));
     }
   }
-  for (MapBuilding& building : map.buildings) {
-    AddHangingParts(building);
-    OpenPinches(building.parts);
-    // What the flight keeps clear of is no height to build by.
-    const double height = building.z_m.to_m - building.z_m.from_m;
-    if (!building.top_known && height > plan.safe_altitude_m - plan.d_min_m - kRaisedFoot_m) {
-      building.z_m.to_m = building.z_m.from_m + std::min(height, kTwoStoreys_m);
-    }
-  }
+  for (MapBuilding& building : map.buildings) MakeBuildable(plan, building);
   return map;
 }
 
