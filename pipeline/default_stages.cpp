@@ -75,7 +75,7 @@ Stage ProxyStage() {
   Stage stage;
   stage.name = "proxy";
   stage.title = "the planar model";
-  stage.version = 33;
+  stage.version = 34;
   stage.needs = {"calib", "dense"};
   stage.inputs = {kCloudFile, kSparseFolder, kGeorefFile, kPlanFile};
   stage.cost = {.cpu_s_per_photo = 0.25, .disk_mb_per_photo = 0.02, .memory_mb = 700};

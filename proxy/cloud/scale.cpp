@@ -100,7 +100,9 @@ Tolerances DeriveTolerances(const CloudScale& scale, bool metric, const ProxyOpt
     t.level_of_detail = metric                       ? kDetail_m
                         : scale.viewing_distance > 0 ? kDetailPerDistance * scale.viewing_distance
                                                      : kDetailPerExtent * scale.extent;
-    t.level_of_detail = std::max(t.level_of_detail, 3 * scale.noise);
+    // Between samples farther apart than that what looks like noise is roofs beside the ground.
+    const bool shows_noise = scale.spacing < t.level_of_detail;
+    if (shows_noise) t.level_of_detail = std::max(t.level_of_detail, 3 * scale.noise);
   }
   const double wanted = t.level_of_detail;
   if (options.level_of_detail <= 0) {

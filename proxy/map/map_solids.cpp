@@ -18,35 +18,17 @@
 
 #include "proxy/map/close_building.h"
 #include "proxy/map/closer_look.h"
-#include "proxy/map/ground_around.h"
+#include "proxy/map/find_map.h"
 #include "proxy/map/judge_found.h"
 #include "proxy/map/off_the_map.h"
 #include "proxy/map/outline_fit.h"
 #include "proxy/map/stable_ids.h"
 #include "proxy/map/wings.h"
 #include "proxy/solids/party_walls.h"
-#include "survey/median.h"
 #include "survey/parallel.h"
 
 namespace stucco {
 namespace {
-
-// What the plan's heights are in the survey: by the ground around its buildings.
-double HeightShift(const UprightSurvey& survey, std::span<const MapBuilding> buildings) {
-  std::vector<double> shifts, feet, heights;
-  for (const MapBuilding& building : buildings) {
-    feet.push_back(building.z_m.from_m);
-    const auto ground = GroundAround(survey, building);
-    if (ground) shifts.push_back(*ground - building.z_m.from_m);
-  }
-  if (const auto shift = Median(shifts)) return *shift;
-  // Without any ground the lowest of what is seen is nearest to it.
-  constexpr double kLowest = 0.02;
-  for (const auto& p : survey.samples.positions) heights.push_back(p.z());
-  std::sort(heights.begin(), heights.end());
-  return heights[static_cast<size_t>(kLowest * static_cast<double>(heights.size()))] -
-         Median(feet).value_or(0);
-}
 
 std::string NoteOf(const std::string& id, const ClosedBuilding& closed) {
   size_t walls = 0, seen = 0, roofs = 0;
@@ -405,15 +387,6 @@ std::string PlaceOf(const MapRegistration& place) {
       100 * place.raised_inside, 100 * place.raised_outside);
 }
 
-OutlineMap Moved(OutlineMap map, const Eigen::Isometry2d& motion) {
-  for (MapBuilding& building : map.buildings) building = Moved(building, motion);
-  for (Facade& facade : map.facades) {
-    facade.a = motion * facade.a;
-    facade.b = motion * facade.b;
-  }
-  return map;
-}
-
 }  // namespace
 
 std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput& input,
@@ -423,7 +396,9 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
   const OutlineMap map = OutlinesOf(*input.plan, input.georef, scene.up);
   if (map.buildings.empty()) return std::nullopt;
   const UprightSurvey survey = UprightSurveyOf(scene);
-  const MapRegistration place = RegisterMap(survey, map);
+  const Workshop with = WorkshopOf(scene, input, options, threads);
+  const auto [place, plan_to_survey_m] =
+      FindMap(survey, map, {scene, with.cloud, options, threads});
   if (!place.refused.empty()) {
     findings.of_map.push_back({"the plan's map gives no shape, because " + place.refused, true});
     return std::nullopt;
@@ -431,9 +406,8 @@ std::optional<MapModel> BuildFromMap(const PlanarScene& scene, const ProxyInput&
   findings.notes.push_back(PlaceOf(place));
   NoteShift(place, findings);
   OutlineMap found = Moved(map, place.survey_from_map);
-  const Workshop with = WorkshopOf(scene, input, options, threads);
   Houses houses;
-  houses.plan_to_survey_m = HeightShift(survey, found.buildings);
+  houses.plan_to_survey_m = plan_to_survey_m;
   houses.closed = CloseAll(survey, found, houses.plan_to_survey_m, with);
   houses.mapped = std::move(found.buildings);
   auto others = CloseNew(survey, BuildingsOf(houses), with, findings);
