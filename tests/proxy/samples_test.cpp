@@ -228,5 +228,15 @@ TEST(GridIndex, FindsExactlyThePointsWithinTheRadius) {
   }
 }
 
+// Samples 1.5 m apart have roofs beside the ground among their neighbours: that is no noise.
+TEST(DeriveTolerances, TakesForNoiseOnlyWhatSamplesCanShow) {
+  const Tolerances noisy = DeriveTolerances({.spacing = 0.1, .noise = 0.2}, true, {});
+  EXPECT_NEAR(noisy.level_of_detail, 0.6, 1e-9);
+  EXPECT_NEAR(noisy.coarseness, 1, 1e-9);
+  const Tolerances sparse = DeriveTolerances({.spacing = 1.5, .noise = 1.5}, true, {});
+  EXPECT_NEAR(sparse.level_of_detail, 3, 1e-9);
+  EXPECT_NEAR(sparse.level_of_detail / sparse.coarseness, 0.3, 1e-9);
+}
+
 }  // namespace
 }  // namespace stucco
