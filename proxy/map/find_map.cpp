@@ -27,6 +27,7 @@ double HeightShift(const UprightSurvey& survey, std::span<const MapBuilding> bui
   // Without any ground the lowest of what is seen is nearest to it.
   constexpr double kLowest = 0.02;
   for (const auto& p : survey.samples.positions) heights.push_back(p.z());
+  if (heights.empty()) return 0;
   std::sort(heights.begin(), heights.end());
   return heights[static_cast<size_t>(kLowest * static_cast<double>(heights.size()))] -
          Median(feet).value_or(0);
@@ -55,9 +56,8 @@ OutlineMap SomeOf(const UprightSurvey& survey, const OutlineMap& map, int max_po
       ids.insert(map.buildings[b].id);
     }
   }
-  std::ranges::copy_if(map.facades, std::back_inserter(some.facades), [&](const Facade& facade) {
-    return ids.contains(facade.id.substr(0, facade.id.rfind('/')));
-  });
+  std::ranges::copy_if(map.facades, std::back_inserter(some.facades),
+                       [&](const Facade& facade) { return ids.contains(BuildingOf(facade)); });
   return some;
 }
 

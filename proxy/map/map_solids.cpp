@@ -75,8 +75,9 @@ struct Workshop {
 Workshop WorkshopOf(const PlanarScene& scene, const ProxyInput& input, const ProxyOptions& options,
                     int threads) {
   Workshop workshop{scene, input, options, threads};
-  if (NeedsCloserLook(scene))
+  if (NeedsCloserLook(scene)) {
     workshop.cloud = CloudOfPhotos{CloudBlocks(input.cloud), input.photos};
+  }
   return workshop;
 }
 

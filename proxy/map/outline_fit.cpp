@@ -280,7 +280,7 @@ using FacadesOf = std::map<std::string, std::vector<const Facade*>, std::less<>>
 FacadesOf ByBuilding(std::span<const Facade> facades) {
   FacadesOf of_building;
   for (const Facade& facade : facades) {
-    of_building[facade.id.substr(0, facade.id.rfind('/'))].push_back(&facade);
+    of_building[BuildingOf(facade)].push_back(&facade);
   }
   return of_building;
 }

@@ -44,6 +44,11 @@ struct OutlineMap {
   std::vector<Facade> facades;
 };
 
+// The id of the building that a facade is of: that of B0012/F03 is B0012.
+inline std::string BuildingOf(const Facade& facade) {
+  return facade.id.substr(0, facade.id.rfind('/'));
+}
+
 // The same building somewhere else.
 MapBuilding Moved(const MapBuilding& building, const Eigen::Isometry2d& motion);
 
